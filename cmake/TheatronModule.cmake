@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+# One folder, one library, its tests and fuzz targets found by file name.
+
+# theatron_module(NAME [WEB] [PURE] [DEPENDS module...] [LINK library...])
+#
+# Builds theatron_NAME from the .cpp files of the current folder. Files that end in _test.cpp become one
+# test program, each _fuzz.cpp a fuzz target of its own. DEPENDS names the other modules that this one
+# may include; tools/check_includes.py reads it too. WEB: also built with em++ (others are left out
+# there). PURE: no exceptions. LINK: outside libraries. A file that ends in _native.cpp is left out of
+# the web build, one that ends in _web.cpp of the native build.
+function(theatron_module name)
+  cmake_parse_arguments(M "WEB;PURE" "" "DEPENDS;LINK" ${ARGN})
+  if(EMSCRIPTEN AND NOT M_WEB)
+    return()
+  endif()
+
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
+  file(GLOB fuzzers CONFIGURE_DEPENDS *_fuzz.cpp)
+  file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
+  list(REMOVE_ITEM sources ${tests} ${fuzzers} ${benches} "")
+  if(EMSCRIPTEN)
+    list(FILTER sources EXCLUDE REGEX "_native\\.cpp$")
+  else()
+    list(FILTER sources EXCLUDE REGEX "_web\\.cpp$")
+  endif()
+
+  set(library theatron_${name})
+  set(kind PUBLIC)
+  if(sources)
+    add_library(${library} STATIC ${sources})
+    if(M_PURE)
+      target_compile_options(${library} PRIVATE -fno-exceptions)
+    endif()
+  else()
+    add_library(${library} INTERFACE)
+    set(kind INTERFACE)
+  endif()
+  target_include_directories(${library} ${kind} ${CMAKE_SOURCE_DIR}/src)
+  list(TRANSFORM M_DEPENDS PREPEND theatron_ OUTPUT_VARIABLE modules)
+  target_link_libraries(${library} ${kind} ${modules} ${M_LINK})
+
+  if(EMSCRIPTEN)
+    return()
+  endif()
+  if(tests)
+    add_executable(${name}_test ${tests})
+    target_link_libraries(${name}_test PRIVATE ${library} theatron_testing GTest::gmock GTest::gtest_main Threads::Threads)
+    add_test(NAME ${name} COMMAND ${name}_test WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  endif()
+  if(THEATRON_FUZZ)
+    foreach(fuzzer ${fuzzers})
+      get_filename_component(target ${fuzzer} NAME_WE)
+      add_executable(${target} ${fuzzer})
+      target_link_libraries(${target} PRIVATE ${library} -fsanitize=fuzzer)
+      set_property(GLOBAL APPEND PROPERTY THEATRON_FUZZERS ${target})
+    endforeach()
+  endif()
+endfunction()

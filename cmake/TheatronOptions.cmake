@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+# Language, warnings, sanitizers: what holds for every target.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+set(THEATRON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for example address,undefined")
+option(THEATRON_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+option(THEATRON_CUDA "Build the CUDA kernels (needs nvcc)" OFF)
+
+find_program(CCACHE ccache)
+if(CCACHE AND NOT EMSCRIPTEN)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports overlapping copies inside std::string where there are none (its bug 105651).
+  add_compile_options(-Wno-restrict)
+endif()
+if(THEATRON_SANITIZE)
+  add_compile_options(-fsanitize=${THEATRON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${THEATRON_SANITIZE})
+endif()
+if(THEATRON_FUZZ)
+  # Coverage everywhere, the fuzzer's main only in the fuzz targets.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+if(THEATRON_CUDA)
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(NOT CMAKE_CUDA_COMPILER)
+    message(FATAL_ERROR "THEATRON_CUDA is on, but no nvcc answers: install the CUDA toolkit or use the release preset.")
+  endif()
+  set(CMAKE_CUDA_FLAGS "${CMAKE_CUDA_FLAGS} -std=c++20")
+  enable_language(CUDA)
+endif()
+
+if(NOT EMSCRIPTEN)
+  find_package(Threads REQUIRED)
+  find_package(GTest REQUIRED)
+  find_package(PkgConfig REQUIRED)
+endif()

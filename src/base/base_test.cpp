@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "base/bytes.h"
+#include "base/error.h"
+#include "base/newest_slot.h"
+#include "base/options.h"
+#include "base/statistics.h"
+
+namespace theatron {
+namespace {
+
+TEST(Bytes, AreLittleEndian) {
+    Bytes bytes;
+    ByteWriter(bytes).put(std::uint32_t(0x01020304));
+    EXPECT_EQ(bytes, (Bytes{std::byte{4}, std::byte{3}, std::byte{2}, std::byte{1}}));
+    EXPECT_EQ(load_le<std::int16_t>(Bytes{std::byte{0xfe}, std::byte{0xff}}.data()), -2);
+}
+
+TEST(Bytes, ReaderFailsPastTheEndAndStaysFailed) {
+    Bytes bytes(3);
+    ByteReader in(bytes);
+    EXPECT_EQ(in.get<std::uint32_t>(), 0u);
+    EXPECT_FALSE(in.ok());
+    EXPECT_EQ(in.get<std::uint8_t>(), 0);
+    EXPECT_FALSE(in.ok());
+}
+
+TEST(Options, SplitsKindValueAndKeys) {
+    Options o = Options::parse("folder:a/b,c/d=e,fps=15,loop=1");
+    EXPECT_EQ(o.kind(), "folder");
+    EXPECT_EQ(o.value(), "a/b,c/d=e");
+    EXPECT_EQ(o.take_number("fps", 30, 1, 240), 15);
+    EXPECT_TRUE(o.take_flag("loop"));
+    EXPECT_EQ(o.problem(), "");
+}
+
+TEST(Options, KeysNeedNoValueBefore) {
+    Options o = Options::parse("zstd:delta=1");
+    EXPECT_EQ(o.value(), "");
+    EXPECT_EQ(o.take_int("delta", 0, 0, 1), 1);
+}
+
+TEST(Options, NamesWhatIsWrong) {
+    const auto problem_with = [](std::string_view text) {
+        Options o = Options::parse(text);
+        o.take_int("n", 1, 0, 9);
+        return o.problem();
+    };
+    EXPECT_EQ(problem_with("a:n=5"), "");
+    for (const char* text :
+         {":x", "a:b,n=1,n=2", "a:n=1,c", "a:n=banana", "a:n=10", "a:n=nan", "a:n=", "a:n=1.5"})
+        EXPECT_NE(problem_with(text), "") << text;
+    EXPECT_EQ(problem_with("a:n=1,bogus=1"), "In 'a:n=1,bogus=1', the key 'bogus' is unknown.");
+    EXPECT_THROW(Options::parse("a:x=1").require_no_problem(), Error);
+}
+
+TEST(NewestSlot, KeepsOnlyTheNewest) {
+    NewestSlot<int> slot;
+    EXPECT_FALSE(slot.put(1));
+    EXPECT_TRUE(slot.put(2));
+    EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), 2);
+    EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), std::nullopt);
+}
+
+TEST(Statistics, PercentilesOfAWindow) {
+    SampleWindow window(4);
+    for (const double v : {9.0, 1.0, 2.0, 3.0, 4.0})
+        window.add(v);
+    EXPECT_EQ(window.percentile(0), 1);
+    EXPECT_EQ(window.percentile(1), 4);
+    EXPECT_EQ(median({3, 1, 2}), 2);
+    EXPECT_EQ(median({}), 0);
+}
+
+}  // namespace
+}  // namespace theatron

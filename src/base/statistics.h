@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small figures for status lines and benchmarks: percentiles over a bounded
+// window. Not thread safe; each owner keeps its own.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace theatron {
+
+// The value below which the share `q` (0 to 1) of `values` lies; 0 when empty.
+inline double percentile(std::vector<double> values, double q) {
+    if (values.empty())
+        return 0;
+    const auto rank = std::size_t(q * double(values.size() - 1) + 0.5);
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
+    return values[rank];
+}
+
+inline double median(std::vector<double> values) {
+    return percentile(std::move(values), 0.5);
+}
+
+// Keeps the newest `capacity` samples.
+class SampleWindow {
+public:
+    explicit SampleWindow(std::size_t capacity) : capacity_(capacity) {}
+
+    void add(double value) {
+        if (values_.size() < capacity_)
+            values_.push_back(value);
+        else
+            values_[next_ % capacity_] = value;
+        ++next_;
+    }
+    void clear() {
+        values_.clear();
+        next_ = 0;
+    }
+    bool empty() const { return values_.empty(); }
+    double percentile(double q) const { return theatron::percentile(values_, q); }
+    double max() const {
+        return values_.empty() ? 0 : *std::max_element(values_.begin(), values_.end());
+    }
+
+private:
+    std::size_t capacity_;
+    std::size_t next_ = 0;
+    std::vector<double> values_;
+};
+
+}  // namespace theatron

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must be known of an RGB-D camera to turn its images into points, and the
+// bytes in which it travels and is recorded (docs/formats/calibration.md).
+#pragma once
+
+#include "base/bytes.h"
+#include "base/status.h"
+#include "geometry/camera_model.h"
+
+namespace theatron {
+
+struct Calibration {
+    CameraModel depth;
+    // Size 0 x 0 where the camera gives no colour.
+    CameraModel color;
+    Pose color_from_depth;
+    double depth_unit_mm = 1;  // millimetres per step of a depth pixel
+
+    // Where the depth camera is in the room. Meaningful only if `registered`.
+    Pose room_from_camera;
+    bool registered = false;
+
+    bool operator==(const Calibration&) const = default;
+};
+
+Bytes encode_calibration(const Calibration& calibration);
+
+// Safe for untrusted input. Refuses sizes out of range, focal lengths that are
+// not positive, and anything that is not finite.
+Result<Calibration> decode_calibration(ByteView bytes);
+
+}  // namespace theatron

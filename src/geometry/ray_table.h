@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lens correction without resampling: the direction that each depth pixel sees.
+#pragma once
+
+#include "geometry/camera_model.h"
+#include "image/image.h"
+
+namespace theatron {
+
+// A direction (x/z, y/z): the point of depth z lies at (x*z, y*z, z).
+struct Ray {
+    float x = 0, y = 0;
+    bool operator==(const Ray&) const = default;
+};
+
+// Marks pixels that see nothing, outside the lens' valid circle.
+inline constexpr float no_ray = 1e9f;
+
+// One ray per pixel of `camera`. Costs some tens of milliseconds: make it once.
+Image<Ray> make_ray_table(const CameraModel& camera);
+
+}  // namespace theatron

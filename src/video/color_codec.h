@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colour codecs: encode at the sender, submit and poll at the receiver.
+//
+// Decoding is asynchronous in shape because the browser's decoders are; the
+// native ones answer at the next poll().
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "base/status.h"
+#include "image/frame.h"
+
+namespace theatron::video {
+
+// Numbers of the codecs in the media header. Never reused, apart from depth's.
+enum class ColorCodecId : std::uint8_t {
+    raw = 65,
+    jpeg = 66,
+    h264 = 67,
+};
+
+// A codec as a receiver asks for it, checked and in its one spelling.
+struct ColorSetting {
+    ColorCodecId id = ColorCodecId::jpeg;
+    std::string text = "jpeg:quality=85";
+    bool operator==(const ColorSetting&) const = default;
+};
+
+// A specification understood, or one sentence for the user about what is wrong.
+struct ParsedColorSetting {
+    ColorSetting setting;
+    std::string problem;  // empty if `setting` holds
+};
+
+// Understands "raw", "jpeg", "jpeg:quality=85". The problem names the codecs
+// there are, or the parameter that is wrong. A camera's own JPEG pictures are
+// passed through untouched, at the camera's quality, unless `pass=0` is given.
+ParsedColorSetting parse_color_setting(std::string_view text);
+
+std::vector<std::string> color_codec_names();
+
+// One stream's encoder. Not thread safe.
+class ColorEncoder {
+public:
+    virtual ~ColorEncoder() = default;
+
+    // Encodes `color`, which is not empty, and returns the bytes, valid until
+    // the next call. Fails only if a camera's JPEG that must be recoded is damaged.
+    // `key`: the frame must be decodable by itself.
+    virtual Result<ByteView> encode(const ColorData& color, bool key) = 0;
+};
+
+// One stream's decoder. Not thread safe. Safe for untrusted input.
+class ColorDecoder {
+public:
+    struct Decoded {
+        FrameNumber frame = 0;
+        ColorImage image;
+    };
+
+    virtual ~ColorDecoder() = default;
+
+    // Takes one encoded frame. The status tells what is known at once.
+    virtual Status submit(ByteView encoded, FrameNumber frame) = 0;
+
+    // The next finished frame, in order of submission, or nothing yet.
+    virtual std::optional<Decoded> poll() = 0;
+
+    // Gives back an image's memory to be used again.
+    virtual void recycle(ColorImage image) = 0;
+};
+
+// Throw Error where this build has no such codec.
+std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting);
+std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id);
+
+}  // namespace theatron::video
