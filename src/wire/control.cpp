@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/control.h"
+
+#include <flatbuffers/flatbuffers.h>
+
+#include "control_generated.h"
+
+namespace theatron::wire {
+namespace {
+
+using Builder = flatbuffers::FlatBufferBuilder;
+using Body = flatbuffers::Offset<void>;
+
+// One overload per message: from struct to table.
+
+Body pack(Builder& b, const Join& m) {
+    return fbs::CreateJoin(b, m.protocol_min, m.protocol_max, b.CreateString(m.token),
+                           b.CreateString(m.name), b.CreateString(m.depth_codec),
+                           b.CreateString(m.color_codec))
+        .Union();
+}
+
+Body pack(Builder& b, const ChooseCodecs& m) {
+    return fbs::CreateChooseCodecs(b, b.CreateString(m.depth_codec), b.CreateString(m.color_codec))
+        .Union();
+}
+
+Body pack(Builder& b, const RequestKey& m) {
+    return fbs::CreateRequestKey(b, std::uint16_t(m.stream), std::uint16_t(m.setting)).Union();
+}
+
+Body pack(Builder& b, const Ping& m) {
+    return fbs::CreatePing(b, to_us(m.sent)).Union();
+}
+
+Body pack(Builder& b, const Report& m) {
+    std::vector<flatbuffers::Offset<fbs::StreamReport>> streams;
+    for (const StreamReport& s : m.streams)
+        streams.push_back(fbs::CreateStreamReport(b, std::uint16_t(s.stream), s.newest_frame,
+                                                  s.frames, s.bytes, s.age.count()));
+    return fbs::CreateReport(b, b.CreateVector(streams)).Union();
+}
+
+Body pack(Builder& b, const Welcome& m) {
+    std::vector<flatbuffers::Offset<fbs::Camera>> cameras;
+    for (const Camera& c : m.cameras) {
+        const auto calibration = b.CreateVector(
+            reinterpret_cast<const std::uint8_t*>(c.calibration.data()), c.calibration.size());
+        cameras.push_back(fbs::CreateCamera(
+            b, std::uint16_t(c.id), b.CreateString(c.name), std::uint16_t(c.depth_stream),
+            std::uint16_t(c.color_stream), c.has_color, c.frames_per_second, calibration));
+    }
+    return fbs::CreateWelcome(b, m.protocol, std::uint32_t(m.participant),
+                              b.CreateString(m.host_name), b.CreateVector(cameras))
+        .Union();
+}
+
+Body pack(Builder& b, const Refused& m) {
+    return fbs::CreateRefused(b, b.CreateString(m.reason)).Union();
+}
+
+Body pack(Builder& b, const Settings& m) {
+    std::vector<flatbuffers::Offset<fbs::Setting>> settings;
+    for (const StreamSetting& s : m.settings)
+        settings.push_back(fbs::CreateSetting(b, std::uint16_t(s.stream), std::uint16_t(s.setting),
+                                              b.CreateString(s.codec)));
+    return fbs::CreateSettings(b, b.CreateVector(settings), b.CreateString(m.note)).Union();
+}
+
+Body pack(Builder& b, const CameraState& m) {
+    return fbs::CreateCameraState(b, std::uint16_t(m.camera), std::uint8_t(m.condition),
+                                  b.CreateString(m.problem))
+        .Union();
+}
+
+Body pack(Builder& b, const Pong& m) {
+    return fbs::CreatePong(b, to_us(m.ping_sent), to_us(m.received), to_us(m.sent)).Union();
+}
+
+// The union's numbers follow the order of the variant's alternatives, from 1.
+static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::Pong) == 10);
+static_assert(std::variant_size_v<Control> == 10);
+
+// From table to struct. Strings and vectors may be absent.
+
+std::string text(const flatbuffers::String* s) {
+    return s ? s->str() : std::string();
+}
+
+Join unpack(const fbs::Join& m) {
+    return {m.protocol_min(), m.protocol_max(),      text(m.token()),
+            text(m.name()),   text(m.depth_codec()), text(m.color_codec())};
+}
+
+ChooseCodecs unpack(const fbs::ChooseCodecs& m) {
+    return {text(m.depth_codec()), text(m.color_codec())};
+}
+
+RequestKey unpack(const fbs::RequestKey& m) {
+    return {StreamId(m.stream()), SettingId(m.setting())};
+}
+
+Ping unpack(const fbs::Ping& m) {
+    return {from_us(m.sent_us())};
+}
+
+Report unpack(const fbs::Report& m) {
+    Report report;
+    if (m.streams())
+        for (const auto* s : *m.streams())
+            report.streams.push_back({StreamId(s->stream()), s->newest_frame(), s->frames(),
+                                      s->bytes(), Duration(s->age_us())});
+    return report;
+}
+
+Welcome unpack(const fbs::Welcome& m) {
+    Welcome welcome{m.protocol(), ParticipantId(m.participant()), text(m.host_name()), {}};
+    if (m.cameras())
+        for (const auto* c : *m.cameras()) {
+            Camera camera{CameraId(c->id()),
+                          text(c->name()),
+                          StreamId(c->depth_stream()),
+                          StreamId(c->color_stream()),
+                          c->has_color(),
+                          c->frames_per_second(),
+                          {}};
+            if (c->calibration()) {
+                const auto bytes =
+                    std::as_bytes(std::span(c->calibration()->data(), c->calibration()->size()));
+                camera.calibration.assign(bytes.begin(), bytes.end());
+            }
+            welcome.cameras.push_back(std::move(camera));
+        }
+    return welcome;
+}
+
+Refused unpack(const fbs::Refused& m) {
+    return {text(m.reason())};
+}
+
+Settings unpack(const fbs::Settings& m) {
+    Settings settings{{}, text(m.note())};
+    if (m.settings())
+        for (const auto* s : *m.settings())
+            settings.settings.push_back(
+                {StreamId(s->stream()), SettingId(s->setting()), text(s->codec())});
+    return settings;
+}
+
+CameraState unpack(const fbs::CameraState& m) {
+    return {CameraId(m.camera()), CameraCondition(m.state()), text(m.problem())};
+}
+
+Pong unpack(const fbs::Pong& m) {
+    return {from_us(m.ping_sent_us()), from_us(m.received_us()), from_us(m.sent_us())};
+}
+
+}  // namespace
+
+Bytes encode_control(const Control& message) {
+    Builder builder;
+    const auto type = fbs::Body(message.index() + 1);
+    const Body body = std::visit([&](const auto& m) { return pack(builder, m); }, message);
+    builder.Finish(fbs::CreateControl(builder, type, body));
+    const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
+    return {bytes.begin(), bytes.end()};
+}
+
+Result<Control> decode_control(ByteView bytes) {
+    // FlatBuffers wants aligned memory; a message is small, so it is copied.
+    std::vector<std::uint64_t> aligned((bytes.size() + 7) / 8);
+    if (!bytes.empty())
+        std::memcpy(aligned.data(), bytes.data(), bytes.size());
+    const auto* data = reinterpret_cast<const std::uint8_t*>(aligned.data());
+    flatbuffers::Verifier verifier(data, bytes.size(), 16, 4096);
+    if (!fbs::VerifyControlBuffer(verifier))
+        return Status::malformed;
+
+    const fbs::Control& control = *fbs::GetControl(data);
+    if (!control.body())
+        return control.body_type() == fbs::Body::NONE ? Status::malformed : Status::unsupported;
+    switch (control.body_type()) {
+        case fbs::Body::Join:
+            return Control(unpack(*control.body_as_Join()));
+        case fbs::Body::ChooseCodecs:
+            return Control(unpack(*control.body_as_ChooseCodecs()));
+        case fbs::Body::RequestKey:
+            return Control(unpack(*control.body_as_RequestKey()));
+        case fbs::Body::Ping:
+            return Control(unpack(*control.body_as_Ping()));
+        case fbs::Body::Report:
+            return Control(unpack(*control.body_as_Report()));
+        case fbs::Body::Welcome:
+            return Control(unpack(*control.body_as_Welcome()));
+        case fbs::Body::Refused:
+            return Control(unpack(*control.body_as_Refused()));
+        case fbs::Body::Settings:
+            return Control(unpack(*control.body_as_Settings()));
+        case fbs::Body::CameraState:
+            if (control.body_as_CameraState()->state() > std::uint8_t(CameraCondition::failed))
+                return Status::malformed;
+            return Control(unpack(*control.body_as_CameraState()));
+        case fbs::Body::Pong:
+            return Control(unpack(*control.body_as_Pong()));
+        case fbs::Body::NONE:
+            break;
+    }
+    return Status::unsupported;
+}
+
+}  // namespace theatron::wire

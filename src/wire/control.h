@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control messages as plain structs, and their bytes (FlatBuffers, control.fbs).
+//
+// Times in messages are session time unless a comment says otherwise.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "base/status.h"
+#include "base/time.h"
+
+namespace theatron::wire {
+
+// Versions of the protocol that this build speaks.
+inline constexpr std::uint16_t protocol_min = 1;
+inline constexpr std::uint16_t protocol_max = 1;
+
+// The first message of a participant.
+struct Join {
+    std::uint16_t protocol_min = wire::protocol_min;
+    std::uint16_t protocol_max = wire::protocol_max;
+    std::string token;
+    std::string name;
+    std::string depth_codec;  // as on the command line: "trvl"
+    std::string color_codec;
+};
+
+// The participant wants other codecs from now on. An empty text keeps its codec.
+struct ChooseCodecs {
+    std::string depth_codec;
+    std::string color_codec;
+};
+
+// The participant lost the reference frame of this stream.
+struct RequestKey {
+    StreamId stream{};
+    SettingId setting{};
+};
+
+struct Ping {
+    TimePoint sent;  // the participant's own steady clock
+};
+
+struct StreamReport {
+    StreamId stream{};
+    FrameNumber newest_frame = 0;
+    std::uint32_t frames = 0;
+    std::uint64_t bytes = 0;
+    Duration age{};  // of the newest frame when it was decoded
+};
+
+// Sent by participants a few times a second.
+struct Report {
+    std::vector<StreamReport> streams;
+};
+
+struct Camera {
+    CameraId id{};
+    std::string name;
+    StreamId depth_stream{};
+    StreamId color_stream{};
+    bool has_color = false;
+    double frames_per_second = 0;
+    Bytes calibration;  // geometry/calibration.h
+};
+
+// The host's answer to Join.
+struct Welcome {
+    std::uint16_t protocol = 0;
+    ParticipantId participant{};
+    std::string host_name;
+    std::vector<Camera> cameras;
+};
+
+// The host will close the connection; `reason` is one sentence for the user.
+struct Refused {
+    std::string reason;
+};
+
+struct StreamSetting {
+    StreamId stream{};
+    SettingId setting{};
+    std::string codec;
+};
+
+// What this participant now gets. `note` is empty or says why it is not what
+// was asked for.
+struct Settings {
+    std::vector<StreamSetting> settings;
+    std::string note;
+};
+
+enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, failed = 3 };
+
+struct CameraState {
+    CameraId camera{};
+    CameraCondition condition{};
+    std::string problem;
+};
+
+struct Pong {
+    TimePoint ping_sent;  // copied from the ping
+    TimePoint received;
+    TimePoint sent;
+};
+
+using Control = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Welcome, Refused,
+                             Settings, CameraState, Pong>;
+
+Bytes encode_control(const Control& message);
+
+// Safe for untrusted input. Status::unsupported for a message of a newer
+// protocol, which may be ignored.
+Result<Control> decode_control(ByteView bytes);
+
+}  // namespace theatron::wire

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "wire/control.h"
+#include "wire/envelope.h"
+#include "wire/media_header.h"
+
+namespace theatron::wire {
+namespace {
+
+MediaHeader sample_header(std::uint32_t payload_size) {
+    MediaHeader h;
+    h.codec = 3;
+    h.temporal_layer = 2;
+    h.stream = StreamId{5};
+    h.setting = SettingId{2};
+    h.frame = 0x01020304;
+    h.reference = 0x01020303;
+    h.slice = 1;
+    h.slices = 2;
+    h.payload_size = payload_size;
+    h.moment = from_us(33333);
+    h.captured = from_us(33000);
+    h.delivered = from_us(33100);
+    h.encoded = from_us(35000);
+    h.sent = from_us(35500);
+    return h;
+}
+
+Bytes message(const MediaHeader& header) {
+    Bytes bytes(media_header_size + header.payload_size);
+    write_media_header(header, bytes.data());
+    return bytes;
+}
+
+TEST(MediaHeader, RoundTrips) {
+    const auto parsed = parse_media_header(message(sample_header(3)));
+    ASSERT_TRUE(parsed);
+    EXPECT_EQ(*parsed, sample_header(3));
+}
+
+// The test vector of docs/formats/media_header.md.
+TEST(MediaHeader, BytesAreAsSpecified) {
+    const int expected[64] = {1,    3,    0, 2,                 // version, codec, flags, layer
+                              5,    0,    2, 0,                 // stream, setting
+                              4,    3,    2, 1, 3,    3, 2, 1,  // frame, reference
+                              1,    0,    2, 0, 0,    0, 0, 0,  // slice, slices, payload size
+                              0x35, 0x82, 0, 0, 0,    0, 0, 0,  // moment 33333
+                              0xe8, 0x80, 0, 0, 0,    0, 0, 0,  // captured 33000
+                              100,  0,    0, 0, 0,    0, 0, 0,  // delivered +100, filtered unknown
+                              0xd0, 7,    0, 0, 0xc4, 9, 0, 0,  // encoded +2000, sent +2500
+                              0,    0,    0, 0, 0,    0, 0, 0};
+    const Bytes bytes = message(sample_header(0));
+    for (std::size_t i = 0; i < 64; ++i)
+        EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << "byte " << i;
+}
+
+TEST(MediaHeader, RefusesEveryTruncation) {
+    const Bytes whole = message(sample_header(5));
+    for (std::size_t n = 0; n < whole.size(); ++n)
+        EXPECT_EQ(parse_media_header(ByteView(whole).first(n)).error(), Status::truncated) << n;
+}
+
+TEST(MediaHeader, RefusesWhatIsForbidden) {
+    const auto with = [](std::size_t at, int value) {
+        Bytes bytes = message(sample_header(1));
+        bytes[at] = std::byte(value);
+        return parse_media_header(bytes).error();
+    };
+    EXPECT_EQ(with(0, 2), Status::unsupported_version);
+    EXPECT_EQ(with(2, 2), Status::malformed);   // unknown flag
+    EXPECT_EQ(with(2, 1), Status::malformed);   // a key frame with a reference
+    EXPECT_EQ(with(3, 8), Status::malformed);   // layer
+    EXPECT_EQ(with(16, 2), Status::malformed);  // slice 2 of 2
+    EXPECT_EQ(with(23, 0x10), Status::too_large);
+    EXPECT_EQ(with(39, 0x7f), Status::malformed);  // a time beyond all sense
+    EXPECT_EQ(with(63, 1), Status::malformed);     // reserved
+    Bytes longer = message(sample_header(1));
+    longer.push_back({});
+    EXPECT_EQ(parse_media_header(longer).error(), Status::trailing_bytes);
+}
+
+TEST(MediaHeader, SentCanBeStampedLater) {
+    Bytes bytes = message(sample_header(0));
+    stamp_sent(bytes, from_us(40000));
+    EXPECT_EQ(parse_media_header(bytes)->sent, from_us(40000));
+}
+
+Bytes numbered(std::size_t size) {
+    Bytes bytes(size);
+    for (std::size_t i = 0; i < size; ++i)
+        bytes[i] = std::byte(i * 7);
+    return bytes;
+}
+
+TEST(Envelope, MediaOfAnySizeComesBackWhole) {
+    Unwrapper unwrapper;
+    for (const std::size_t size :
+         {std::size_t(1), max_chunk_size, max_chunk_size + 1, std::size_t(100'000)}) {
+        const Bytes media = numbered(size);
+        Bytes envelope;
+        for (std::size_t at = 0; at < size;) {
+            at = wrap_chunk(media, at, envelope);
+            EXPECT_LE(envelope.size(), max_chunk_size + chunk_header_size);
+            const auto got = unwrapper.take(envelope);
+            ASSERT_TRUE(got);
+            if (at < size) {
+                EXPECT_TRUE(got->media.empty());
+            } else {
+                EXPECT_TRUE(
+                    std::equal(media.begin(), media.end(), got->media.begin(), got->media.end()));
+            }
+        }
+    }
+}
+
+TEST(Envelope, ControlComesBetweenChunks) {
+    const Bytes media = numbered(max_chunk_size + 10);
+    Unwrapper unwrapper;
+    Bytes envelope;
+    const std::size_t next = wrap_chunk(media, 0, envelope);
+    ASSERT_TRUE(unwrapper.take(envelope));
+    const Bytes control = numbered(4);
+    const Bytes wrapped = wrap_control(control);
+    const auto got = unwrapper.take(wrapped);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(Bytes(got->control.begin(), got->control.end()), control);
+    wrap_chunk(media, next, envelope);
+    EXPECT_EQ(unwrapper.take(envelope)->media.size(), media.size());
+}
+
+TEST(Envelope, RefusesWhatDoesNotContinue) {
+    const Bytes media = numbered(3 * max_chunk_size);
+    Bytes first, second;
+    const std::size_t next = wrap_chunk(media, 0, first);
+    wrap_chunk(media, next, second);
+
+    Unwrapper skipped;
+    EXPECT_EQ(skipped.take(second).error(), Status::malformed);
+    Unwrapper repeated;
+    ASSERT_TRUE(repeated.take(first));
+    EXPECT_EQ(repeated.take(first).error(), Status::malformed);
+    Unwrapper other_total;
+    ASSERT_TRUE(other_total.take(first));
+    store_le(second.data() + 5, std::uint32_t(media.size() + 1));
+    EXPECT_EQ(other_total.take(second).error(), Status::malformed);
+    Unwrapper huge;
+    store_le(first.data() + 5, std::uint32_t(0xffffffff));
+    EXPECT_EQ(huge.take(first).error(), Status::too_large);
+    Unwrapper any;
+    EXPECT_EQ(any.take({}).error(), Status::truncated);
+    EXPECT_EQ(any.take(Bytes{std::byte{1}}).error(), Status::truncated);
+    EXPECT_EQ(any.take(Bytes(chunk_header_size, std::byte{2})).error(), Status::truncated);
+    EXPECT_EQ(any.take(Bytes{std::byte{9}}).error(), Status::malformed);
+}
+
+template <class T>
+T round_trip(const T& m) {
+    const auto decoded = decode_control(encode_control(m));
+    EXPECT_TRUE(decoded);
+    EXPECT_TRUE(std::holds_alternative<T>(*decoded));
+    return std::get<T>(*decoded);
+}
+
+TEST(Control, EveryMessageRoundTrips) {
+    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg"});
+    EXPECT_EQ(join.protocol_max, 2);
+    EXPECT_EQ(join.token, "secret");
+    EXPECT_EQ(join.name, "Dr. A");
+    EXPECT_EQ(join.depth_codec + join.color_codec, "trvljpeg");
+    EXPECT_EQ(round_trip(ChooseCodecs{"rvl", ""}).depth_codec, "rvl");
+    EXPECT_EQ(round_trip(RequestKey{StreamId{3}, SettingId{4}}).setting, SettingId{4});
+    EXPECT_EQ(round_trip(Ping{from_us(-5)}).sent, from_us(-5));
+    const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}});
+    ASSERT_EQ(report.streams.size(), 1u);
+    EXPECT_EQ(report.streams[0].bytes, 4u);
+    EXPECT_EQ(report.streams[0].age, Duration(5));
+    const Welcome welcome = round_trip(
+        Welcome{1,
+                ParticipantId{7},
+                "OR 3",
+                {{CameraId{0}, "left", StreamId{0}, StreamId{1}, true, 30, numbered(9)}}});
+    ASSERT_EQ(welcome.cameras.size(), 1u);
+    EXPECT_EQ(welcome.cameras[0].calibration, numbered(9));
+    EXPECT_EQ(welcome.cameras[0].color_stream, StreamId{1});
+    EXPECT_EQ(round_trip(Refused{"no"}).reason, "no");
+    const Settings settings = round_trip(Settings{{{StreamId{1}, SettingId{2}, "rvl"}}, "busy"});
+    ASSERT_EQ(settings.settings.size(), 1u);
+    EXPECT_EQ(settings.settings[0].codec, "rvl");
+    EXPECT_EQ(settings.note, "busy");
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, "gone"}).problem,
+              "gone");
+    EXPECT_EQ(round_trip(Pong{from_us(1), from_us(2), from_us(3)}).sent, from_us(3));
+}
+
+TEST(Control, RefusesDamage) {
+    const Bytes whole = encode_control(Join{1, 1, "t", "n", "trvl", "jpeg"});
+    for (std::size_t n = 0; n < whole.size() / 2; ++n)
+        EXPECT_FALSE(decode_control(ByteView(whole).first(n)));
+    EXPECT_FALSE(decode_control(numbered(100)));
+    EXPECT_FALSE(decode_control(encode_control(CameraState{CameraId{1}, CameraCondition(9), ""})));
+}
+
+}  // namespace
+}  // namespace theatron::wire
