@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
 #include <vector>
+
+#include "base/time.h"
 
 namespace theatron {
 
@@ -48,6 +51,34 @@ private:
     std::size_t capacity_;
     std::size_t next_ = 0;
     std::vector<double> values_;
+};
+
+// How much came in the last second.
+class RateWindow {
+public:
+    void add(TimePoint now, double amount = 1) {
+        forget(now);
+        events_.push_back({now, amount});
+        sum_ += amount;
+    }
+    double per_second(TimePoint now) {
+        forget(now);
+        return events_.empty() ? 0 : sum_;
+    }
+
+private:
+    struct Event {
+        TimePoint time;
+        double amount;
+    };
+    void forget(TimePoint now) {
+        while (!events_.empty() && events_.front().time <= now - Duration(1'000'000)) {
+            sum_ -= events_.front().amount;
+            events_.pop_front();
+        }
+    }
+    std::deque<Event> events_;
+    double sum_ = 0;
 };
 
 }  // namespace theatron

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/certificate.h"
+
+#include <openssl/bio.h>
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+#include <openssl/rand.h>
+#include <openssl/x509.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace theatron::net {
+namespace {
+
+template <auto free_function>
+struct Deleter {
+    template <class T>
+    void operator()(T* p) const {
+        free_function(p);
+    }
+};
+using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY_free>>;
+using X509Ptr = std::unique_ptr<X509, Deleter<X509_free>>;
+using Bio = std::unique_ptr<BIO, Deleter<BIO_free_all>>;
+
+std::string hex(const unsigned char* bytes, std::size_t count) {
+    static constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) {
+        text += digits[bytes[i] >> 4];
+        text += digits[bytes[i] & 15];
+    }
+    return text;
+}
+
+std::string content(BIO* bio) {
+    char* data = nullptr;
+    const long size = BIO_get_mem_data(bio, &data);
+    return std::string(data, std::size_t(size));
+}
+
+std::string read_file(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+void write_private(const std::filesystem::path& path, const std::string& text) {
+    const mode_t before = umask(0077);
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    out.close();
+    umask(before);
+    if (!out)
+        throw Error("Cannot write " + path.string() +
+                    "; make its folder writable or name another with --state.");
+}
+
+}  // namespace
+
+std::string certificate_fingerprint(X509* certificate) {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned size = 0;
+    if (!X509_digest(certificate, EVP_sha256(), digest, &size))
+        throw Error("The certificate's fingerprint cannot be computed.");
+    return hex(digest, size);
+}
+
+Certificate make_certificate() {
+    const Key key(EVP_EC_gen("P-256"));
+    const X509Ptr x509(X509_new());
+    unsigned char serial[8];
+    if (!key || !x509 || RAND_bytes(serial, sizeof(serial)) != 1)
+        throw Error("Cannot make a key for TLS.");
+    serial[0] &= 0x7f;
+    ASN1_INTEGER* number = X509_get_serialNumber(x509.get());
+    std::uint64_t value = 0;
+    for (const unsigned char byte : serial)
+        value = value << 8 | byte;
+    ASN1_INTEGER_set_uint64(number, value);
+    X509_set_version(x509.get(), 2);
+    X509_gmtime_adj(X509_getm_notBefore(x509.get()), -24 * 3600);
+    X509_gmtime_adj(X509_getm_notAfter(x509.get()), 10L * 365 * 24 * 3600);
+    X509_set_pubkey(x509.get(), key.get());
+    X509_NAME* name = X509_get_subject_name(x509.get());
+    X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC,
+                               reinterpret_cast<const unsigned char*>("theatron"), -1, -1, 0);
+    X509_set_issuer_name(x509.get(), name);
+    if (!X509_sign(x509.get(), key.get(), EVP_sha256()))
+        throw Error("Cannot sign the certificate for TLS.");
+
+    const Bio certificate_out(BIO_new(BIO_s_mem())), key_out(BIO_new(BIO_s_mem()));
+    PEM_write_bio_X509(certificate_out.get(), x509.get());
+    PEM_write_bio_PrivateKey(key_out.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr);
+    return {content(certificate_out.get()), content(key_out.get()),
+            certificate_fingerprint(x509.get())};
+}
+
+Certificate load_or_make_certificate(const std::filesystem::path& folder) {
+    const auto certificate_path = folder / "host.crt", key_path = folder / "host.key";
+    std::error_code ignored;
+    if (!std::filesystem::exists(certificate_path, ignored) &&
+        !std::filesystem::exists(key_path, ignored)) {
+        std::filesystem::create_directories(folder, ignored);
+        const Certificate made = make_certificate();
+        write_private(key_path, made.private_key_pem);
+        write_private(certificate_path, made.certificate_pem);
+        return made;
+    }
+
+    Certificate c{read_file(certificate_path), read_file(key_path), ""};
+    const Bio in(BIO_new_mem_buf(c.certificate_pem.data(), int(c.certificate_pem.size())));
+    const Bio key_in(BIO_new_mem_buf(c.private_key_pem.data(), int(c.private_key_pem.size())));
+    const X509Ptr x509(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
+    const Key key(PEM_read_bio_PrivateKey(key_in.get(), nullptr, nullptr, nullptr));
+    if (!x509 || !key || X509_check_private_key(x509.get(), key.get()) != 1)
+        throw Error("The host's identity in " + folder.string() +
+                    " is damaged (host.crt and host.key must belong together); delete both to make "
+                    "a new one, after which old links no longer work.");
+    c.fingerprint = certificate_fingerprint(x509.get());
+    return c;
+}
+
+std::string random_token() {
+    unsigned char bytes[16];
+    if (RAND_bytes(bytes, sizeof(bytes)) != 1)
+        throw Error("The system has no random numbers for a join token.");
+    return hex(bytes, sizeof(bytes));
+}
+
+bool equal_secrets(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+}  // namespace theatron::net

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's identity: a key and a self-signed certificate, made at first start
+// and kept. Participants pin its fingerprint, which is part of the link.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+struct x509_st;  // OpenSSL's X509
+
+namespace theatron::net {
+
+struct Certificate {
+    std::string certificate_pem;
+    std::string private_key_pem;
+    std::string fingerprint;  // SHA-256 of the certificate's DER form, 64 hex digits
+};
+
+// The fingerprint of a certificate, as in a link.
+std::string certificate_fingerprint(x509_st* certificate);
+
+// A new P-256 key with a certificate for ten years. Throws Error.
+Certificate make_certificate();
+
+// Reads host.crt and host.key from `folder`, or makes them (the key readable by
+// its owner alone). Throws Error naming the file that is damaged or not writable.
+Certificate load_or_make_certificate(const std::filesystem::path& folder);
+
+// 128 random bits as 32 hex digits.
+std::string random_token();
+
+// Compares without telling by its duration where the first difference is.
+bool equal_secrets(std::string_view a, std::string_view b);
+
+}  // namespace theatron::net

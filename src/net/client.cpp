@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/client.h"
+
+#include <openssl/x509.h>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "net/certificate.h"
+#include "net/connection.h"
+
+namespace theatron::net {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using asio::ip::tcp;
+
+std::string fingerprint_of_peer(SSL* ssl) {
+    X509* certificate = SSL_get1_peer_certificate(ssl);
+    if (!certificate)
+        return "";
+    std::string fingerprint = certificate_fingerprint(certificate);
+    X509_free(certificate);
+    return fingerprint;
+}
+
+}  // namespace
+
+struct Client::Impl {
+    Link link;
+    Handler handler;
+    asio::io_context io{1};
+    asio::ssl::context tls{asio::ssl::context::tls_client};
+    tcp::resolver resolver{io};
+    asio::steady_timer timer{io};
+    std::unique_ptr<WebSocket> socket;
+    std::shared_ptr<Connection> connection;
+    End end;
+
+    std::string where() const { return link.host + ":" + std::to_string(link.port); }
+
+    void finish(const std::string& why, bool final = false) {
+        end = {why, final};
+        io.stop();
+    }
+
+    void resolve() {
+        resolver.async_resolve(link.host, std::to_string(link.port),
+                               [this](beast::error_code error, tcp::resolver::results_type found) {
+                                   if (error)
+                                       return finish("The host " + link.host +
+                                                     " is not known: " + error.message() + ".");
+                                   connect(found);
+                               });
+    }
+
+    void connect(const tcp::resolver::results_type& found) {
+        socket = std::make_unique<WebSocket>(io, tls);
+        auto& tcp_stream = beast::get_lowest_layer(*socket);
+        tcp_stream.expires_after(std::chrono::seconds(10));
+        tcp_stream.async_connect(found, [this](beast::error_code error, const tcp::endpoint&) {
+            if (error)
+                return finish("No host answers at " + where() + ": " + error.message() + ".");
+            tune_socket(beast::get_lowest_layer(*socket).socket());
+            handshake();
+        });
+    }
+
+    void handshake() {
+        SSL_set_tlsext_host_name(socket->next_layer().native_handle(), link.host.c_str());
+        socket->next_layer().async_handshake(
+            asio::ssl::stream_base::client, [this](beast::error_code error) {
+                if (error)
+                    return finish("The host at " + where() +
+                                  " does not speak TLS 1.3: " + error.message() + ".");
+                // The pin takes the place of a certificate authority. Nothing has
+                // been sent yet.
+                const std::string shown = fingerprint_of_peer(socket->next_layer().native_handle());
+                if (!equal_secrets(shown, link.fingerprint))
+                    return finish("The host at " + where() +
+                                      " shows another certificate than the link names; ask for a "
+                                      "new link, and do not trust this host until you have it.",
+                                  true);
+                upgrade();
+            });
+    }
+
+    void upgrade() {
+        beast::get_lowest_layer(*socket).expires_never();
+        configure(*socket);
+        socket->async_handshake(where(), "/connection", [this](beast::error_code error) {
+            if (error)
+                return finish("The host at " + where() +
+                              " refuses a WebSocket: " + error.message() + ".");
+            Connection::Events events;
+            events.control = handler.control;
+            events.media = handler.media;
+            events.closed = [this](const std::string& why) {
+                finish("The connection ended: " + why + ".");
+            };
+            events.now = handler.now;
+            connection = std::make_shared<Connection>(std::move(*socket), std::move(events));
+            connection->start();
+            handler.connected();
+        });
+    }
+
+    void tick() {
+        timer.expires_after(std::chrono::milliseconds(100));
+        timer.async_wait([this](beast::error_code error) {
+            if (error)
+                return;
+            if (connection && handler.tick)
+                handler.tick();
+            tick();
+        });
+    }
+};
+
+Client::Client(Link link, Handler handler) : impl_(std::make_unique<Impl>()) {
+    impl_->link = std::move(link);
+    impl_->handler = std::move(handler);
+    // The pinned fingerprint is checked by hand after the handshake.
+    impl_->tls.set_verify_mode(asio::ssl::verify_none);
+    SSL_CTX_set_min_proto_version(impl_->tls.native_handle(), TLS1_3_VERSION);
+}
+
+Client::~Client() = default;
+
+Client::End Client::run() {
+    impl_->resolve();
+    impl_->tick();
+    impl_->io.run();
+    return impl_->end;
+}
+
+void Client::stop() {
+    impl_->io.stop();
+}
+
+void Client::post(std::function<void()> work) {
+    asio::post(impl_->io, std::move(work));
+}
+
+void Client::send_control(ByteView control) {
+    if (impl_->connection)
+        impl_->connection->send_control(control);
+}
+
+}  // namespace theatron::net

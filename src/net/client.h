@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A participant's side of the network: one connection to the host of a link,
+// whose certificate must be the one that the link names.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/bytes.h"
+#include "base/time.h"
+#include "net/link.h"
+
+namespace theatron::net {
+
+class Client {
+public:
+    // Called on the thread that runs the client.
+    struct Handler {
+        std::function<void()> connected;
+        std::function<void(ByteView)> control;
+        std::function<void(ByteView)> media;
+        std::function<TimePoint()> now;  // session time
+        std::function<void()> tick;      // ten times a second
+    };
+
+    Client(Link link, Handler handler);
+    ~Client();
+
+    // Why run() came back.
+    struct End {
+        std::string why;     // one sentence, empty after stop()
+        bool final = false;  // trying again cannot help: another certificate
+    };
+
+    // Connects and serves until the connection ends or stop() is called.
+    End run();
+
+    // From any thread.
+    void stop();
+    void post(std::function<void()> work);  // runs `work` on the client's thread
+
+    // On the client's thread only.
+    void send_control(ByteView control);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace theatron::net

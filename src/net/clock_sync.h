@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a participant knows the session clock: the four time points of an NTP
+// exchange (RFC 5905, section 8), keeping the exchanges with the shortest round trip.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "base/time.h"
+
+namespace theatron::net {
+
+// Pure: all times are given. Not thread safe.
+class ClockSync {
+public:
+    // One exchange: the participant's clock at sending and at arrival of the
+    // answer, the host's clock at arrival of the question and at sending.
+    void add(TimePoint local_sent, TimePoint host_received, TimePoint host_sent,
+             TimePoint local_received);
+
+    bool known() const { return count_ > 0; }
+
+    // What to add to the local clock to get session time. Zero if not known.
+    Duration offset() const;
+
+    // The session clock is within this of local + offset(), if both ways of the
+    // best exchange took between nothing and its whole round trip.
+    Duration error_bound() const;
+
+    Duration round_trip() const;  // of the best exchange kept
+
+private:
+    struct Exchange {
+        Duration offset{}, round_trip{};
+    };
+    const Exchange& best() const;
+
+    // Clocks drift by some 50 us a second: only the recent exchanges count.
+    std::array<Exchange, 16> exchanges_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace theatron::net

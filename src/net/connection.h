@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// One WebSocket over TLS, after its handshakes: what server and client share.
+//
+// Reads envelopes and takes them apart; writes what its outbox says is next,
+// one envelope at a time, so that the newest frame is chosen as late as
+// possible. Everything runs on the io_context's one thread.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "net/outbox.h"
+#include "wire/envelope.h"
+
+namespace theatron::net {
+
+using TcpStream = boost::beast::tcp_stream;
+using TlsStream = boost::beast::ssl_stream<TcpStream>;
+using WebSocket = boost::beast::websocket::stream<TlsStream>;
+
+// Keeps what the kernel holds back small, so that dropping happens in the
+// outbox and not after the fact. Call once the socket is open.
+void tune_socket(boost::asio::ip::tcp::socket& socket);
+
+// The same settings of a WebSocket for both ends.
+void configure(WebSocket& socket);
+
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    // Called on the io thread. After `closed` nothing is called any more.
+    struct Events {
+        std::function<void(ByteView)> control;
+        std::function<void(ByteView)> media;
+        std::function<void(const std::string& why)> closed;
+        std::function<TimePoint()> now;  // session time
+    };
+
+    // `socket` has finished its handshakes.
+    Connection(WebSocket socket, Events events);
+
+    void start();
+
+    void send_control(ByteView control);
+    Outbox::Pushed send_media(Media media);
+
+    // Sends what control is queued, then closes. `why` is what `closed` is told.
+    void close(const std::string& why);
+
+private:
+    void read();
+    void write();
+    void finish(const std::string& why);
+
+    WebSocket socket_;
+    Events events_;
+    boost::beast::flat_buffer incoming_;
+    wire::Unwrapper unwrapper_;
+    Outbox outbox_;
+    Bytes outgoing_;
+    bool writing_ = false;
+    bool finished_ = false;
+    std::string closing_;  // not empty: close after the control that is queued
+};
+
+}  // namespace theatron::net

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/link.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/error.h"
+
+namespace theatron::net {
+namespace {
+
+constexpr std::string_view scheme = "https://";
+
+// Splits "host:port" at the last colon and takes brackets off an IPv6 address.
+bool split_host_port(std::string_view text, std::string& host, std::uint16_t& port) {
+    const auto colon = text.rfind(':');
+    if (colon == std::string_view::npos)
+        return false;
+    const std::string_view digits = text.substr(colon + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    if (error != std::errc{} || end != digits.data() + digits.size())
+        return false;
+    std::string_view name = text.substr(0, colon);
+    if (name.starts_with('[') && name.ends_with(']'))
+        name = name.substr(1, name.size() - 2);
+    else if (name.find(':') != std::string_view::npos)
+        return false;
+    host = name;
+    return true;
+}
+
+bool is_hex_digest(std::string_view text) {
+    return text.size() == 64 && std::ranges::all_of(text, [](char c) {
+               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+           });
+}
+
+}  // namespace
+
+std::string format_link(const Link& link) {
+    const bool ipv6 = link.host.find(':') != std::string::npos;
+    return std::string(scheme) + (ipv6 ? "[" + link.host + "]" : link.host) + ":" +
+           std::to_string(link.port) + "/#join=" + link.token + "&cert=" + link.fingerprint;
+}
+
+Link parse_link(std::string_view text) {
+    const auto wrong = [&](const std::string& why) {
+        return Error("The link '" + std::string(text) + "' " + why +
+                     "; copy the whole link that the host printed.");
+    };
+    if (!text.starts_with(scheme))
+        throw wrong("does not begin with https://");
+    std::string_view rest = text.substr(scheme.size());
+    const auto slash = rest.find('/');
+    const auto hash = rest.find('#');
+    Link link;
+    if (!split_host_port(rest.substr(0, std::min(slash, hash)), link.host, link.port) ||
+        link.host.empty() || link.port == 0)
+        throw wrong("names no host and port");
+
+    std::string_view fragment = hash == std::string_view::npos ? "" : rest.substr(hash + 1);
+    while (!fragment.empty()) {
+        const auto end = fragment.find('&');
+        const std::string_view part = fragment.substr(0, end);
+        if (part.starts_with("join="))
+            link.token = part.substr(5);
+        else if (part.starts_with("cert="))
+            link.fingerprint = part.substr(5);
+        fragment = end == std::string_view::npos ? "" : fragment.substr(end + 1);
+    }
+    if (link.token.empty())
+        throw wrong("carries no join token");
+    if (!is_hex_digest(link.fingerprint))
+        throw wrong("carries no certificate fingerprint of 64 hex digits");
+    return link;
+}
+
+Endpoint parse_endpoint(std::string_view text) {
+    Endpoint endpoint;
+    std::string host;
+    if (!split_host_port(text, host, endpoint.port))
+        throw Error("'" + std::string(text) +
+                    "' is no address to listen on; write ADDRESS:PORT, for example 0.0.0.0:4400.");
+    if (!host.empty())
+        endpoint.address = host;
+    return endpoint;
+}
+
+}  // namespace theatron::net

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's side of the network: one TLS 1.3 port, one WebSocket per
+// participant. What the messages mean is its user's business.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "net/certificate.h"
+#include "net/link.h"
+#include "net/outbox.h"
+
+namespace theatron::net {
+
+// One accepted connection, numbered from 1.
+enum class PeerId : std::uint32_t {};
+
+class Server {
+public:
+    // All called on the thread that runs the server.
+    struct Handler {
+        std::function<void(PeerId, const std::string& address)> connected;
+        std::function<void(PeerId, ByteView)> control;
+        std::function<void(PeerId, ByteView)> media;
+        std::function<void(PeerId, const std::string& why)> closed;
+        std::function<TimePoint()> now;  // session time
+        std::function<void()> tick;      // ten times a second
+    };
+
+    // Begins to listen. Throws Error if the address or port cannot be had.
+    Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler);
+    ~Server();
+
+    std::uint16_t port() const;
+
+    // Serves until stop(). Calls everything in Handler.
+    void run();
+
+    // From any thread.
+    void stop();
+    void post(std::function<void()> work);  // runs `work` on the server's thread
+
+    // On the server's thread only. A peer that is gone is ignored.
+    void send_control(PeerId peer, ByteView control);
+    Outbox::Pushed send_media(PeerId peer, Media media);
+    void close(PeerId peer, const std::string& why);  // after the control that is queued
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace theatron::net

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/host_session.h"
+
+#include <algorithm>
+
+namespace theatron::session {
+namespace {
+
+constexpr std::size_t max_name_length = 100;
+
+// Names come from strangers and are shown to people: no control characters.
+std::string shown_name(const std::string& name) {
+    std::string shown;
+    for (const char c : name.substr(0, max_name_length))
+        shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    return shown.empty() ? "guest" : shown;
+}
+
+}  // namespace
+
+HostSession::HostSession(Config config) : config_(std::move(config)) {}
+
+void HostSession::on_connected(ParticipantId participant, TimePoint now) {
+    participants_[participant].connected = now;
+}
+
+void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
+    const auto found = participants_.find(id);
+    if (found == participants_.end() || found->second.closing)
+        return;
+    Participant& participant = found->second;
+
+    const auto message = wire::decode_control(bytes);
+    if (!message) {
+        // A newer participant may say things that this host need not understand.
+        if (message.error() != Status::unsupported)
+            refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
+        return;
+    }
+    if (const auto* hello = std::get_if<wire::Join>(&*message)) {
+        if (!participant.joined)
+            join(id, *hello);
+        return;
+    }
+    if (!participant.joined)
+        return refuse(id, "Join first.");
+
+    if (const auto* wish = std::get_if<wire::ChooseCodecs>(&*message)) {
+        choose(id, wish->depth_codec, wish->color_codec);
+    } else if (const auto* lost = std::get_if<wire::RequestKey>(&*message)) {
+        const bool own = lost->setting == participant.depth_setting ||
+                         lost->setting == participant.color_setting;
+        if (own && std::size_t(camera_of(lost->stream)) < config_.cameras.size())
+            key_requests_.request({lost->stream, lost->setting});
+    } else if (const auto* ping = std::get_if<wire::Ping>(&*message)) {
+        send(id, wire::Pong{ping->sent, now, now});
+    } else if (const auto* report = std::get_if<wire::Report>(&*message)) {
+        participant.report = report->streams;
+    }
+}
+
+void HostSession::join(ParticipantId id, const wire::Join& hello) {
+    if (hello.protocol_min > wire::protocol_max)
+        return refuse(id, "This host is older than your Theatron (protocol " +
+                              std::to_string(wire::protocol_max) + ", you need " +
+                              std::to_string(hello.protocol_min) + "); update the host.");
+    if (hello.protocol_max < wire::protocol_min)
+        return refuse(id, "Your Theatron is too old for this host (protocol " +
+                              std::to_string(hello.protocol_max) + ", it needs " +
+                              std::to_string(wire::protocol_min) + "); update it.");
+    if (!config_.equal_secrets(hello.token, config_.token))
+        return refuse(id, "The join token is wrong; ask for the host's current link.");
+
+    std::string depth, color;
+    for (const std::string& problem : {check(config_.check_depth, hello.depth_codec, depth),
+                                       check(config_.check_color, hello.color_codec, color)})
+        if (!problem.empty())
+            return refuse(id, problem);
+
+    Participant& participant = participants_[id];
+    participant.joined = true;
+    participant.name = shown_name(hello.name);
+    actions_.push_back({Action::Kind::joined, id, {}, participant.name, {}});
+    send(id, wire::Welcome{std::min(hello.protocol_max, wire::protocol_max), id, config_.name,
+                           config_.cameras});
+    for (const auto& [camera, state] : camera_states_)
+        send(id, state);
+    depth_.wish(id, depth);
+    color_.wish(id, color);
+    apply_settings();
+}
+
+void HostSession::choose(ParticipantId id, const std::string& depth, const std::string& color) {
+    std::string depth_codec, color_codec, note;
+    if (!depth.empty())
+        note = check(config_.check_depth, depth, depth_codec);
+    if (!color.empty() && note.empty())
+        note = check(config_.check_color, color, color_codec);
+    if (!note.empty()) {
+        // The old codecs stay.
+        wire::Settings unchanged;
+        unchanged.note = note;
+        return send(id, unchanged);
+    }
+    if (!depth_codec.empty())
+        depth_.wish(id, depth_codec);
+    if (!color_codec.empty())
+        color_.wish(id, color_codec);
+    apply_settings();
+}
+
+std::string HostSession::check(const CheckCodec& check, const std::string& text,
+                               std::string& codec) const {
+    CheckedCodec checked = check(text);
+    codec = std::move(checked.codec);
+    return std::move(checked.problem);
+}
+
+void HostSession::refuse(ParticipantId id, std::string reason) {
+    send(id, wire::Refused{reason});
+    participants_[id].closing = true;
+    actions_.push_back({Action::Kind::close, id, {}, std::move(reason), {}});
+}
+
+// Brings encoders and participants in line with the tables.
+void HostSession::apply_settings() {
+    const auto changed = [&](std::vector<ActiveSetting>& announced, const SettingTable& table) {
+        if (announced == table.active())
+            return false;
+        for (const ActiveSetting& old : announced)
+            if (std::find(table.active().begin(), table.active().end(), old) ==
+                table.active().end())
+                key_requests_.forget(old.id);
+        announced = table.active();
+        return true;
+    };
+    const bool depth_changed = changed(announced_depth_, depth_);
+    const bool color_changed = changed(announced_color_, color_);
+    if (depth_changed || color_changed)
+        actions_.push_back({Action::Kind::change_settings, {}, {}, {}, {}});
+
+    for (auto& [id, participant] : participants_) {
+        if (!participant.joined)
+            continue;
+        const ActiveSetting& depth = depth_.given(id);
+        const ActiveSetting& color = color_.given(id);
+        if (depth.id == participant.depth_setting && color.id == participant.color_setting)
+            continue;
+        wire::Settings settings;
+        for (const wire::Camera& camera : config_.cameras) {
+            settings.settings.push_back({camera.depth_stream, depth.id, depth.codec});
+            if (camera.has_color)
+                settings.settings.push_back({camera.color_stream, color.id, color.codec});
+            if (depth.id != participant.depth_setting)
+                key_requests_.request({camera.depth_stream, depth.id});
+            if (camera.has_color && color.id != participant.color_setting)
+                key_requests_.request({camera.color_stream, color.id});
+        }
+        const std::string& wished =
+            depth.codec != depth_.wished(id) ? depth_.wished(id) : color_.wished(id);
+        if (depth.codec != depth_.wished(id) || color.codec != color_.wished(id))
+            settings.note = "The host already encodes in " +
+                            std::to_string(SettingTable::max_active) + " ways; instead of " +
+                            wished + " you get the nearest of them.";
+        participant.depth_setting = depth.id;
+        participant.color_setting = color.id;
+        send(id, std::move(settings));
+    }
+}
+
+void HostSession::on_closed(ParticipantId participant) {
+    participants_.erase(participant);
+    depth_.leave(participant);
+    color_.leave(participant);
+    apply_settings();
+}
+
+void HostSession::on_camera(const wire::CameraState& state) {
+    camera_states_[state.camera] = state;
+    for (const auto& [id, participant] : participants_)
+        if (participant.joined)
+            send(id, state);
+}
+
+void HostSession::on_broken_stream(StreamId stream, SettingId setting) {
+    key_requests_.request({stream, setting});
+}
+
+void HostSession::on_tick(TimePoint now) {
+    for (auto& [id, participant] : participants_)
+        if (!participant.joined && !participant.closing &&
+            now - participant.connected > join_deadline)
+            refuse(id, "No join came in time.");
+    for (const KeyRequests::Key& key : key_requests_.take(now))
+        actions_.push_back({Action::Kind::request_key, {}, {}, {}, key});
+}
+
+std::vector<HostSession::Action> HostSession::take_actions() {
+    return std::exchange(actions_, {});
+}
+
+std::vector<ParticipantId> HostSession::receivers(StreamId stream, SettingId setting) const {
+    std::vector<ParticipantId> result;
+    for (const auto& [id, participant] : participants_)
+        if (participant.joined && !participant.closing &&
+            setting == (is_depth(stream) ? participant.depth_setting : participant.color_setting))
+            result.push_back(id);
+    return result;
+}
+
+void HostSession::send(ParticipantId id, wire::Control message) {
+    actions_.push_back({Action::Kind::send, id, std::move(message), {}, {}});
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's authority over a session: who is in, with what rights, and which
+// encodings each participant gets. A pure state machine: messages and times go
+// in, messages and wishes to the cameras come out.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/time.h"
+#include "session/key_requests.h"
+#include "session/setting_table.h"
+#include "wire/control.h"
+
+namespace theatron::session {
+
+// Depth and colour of a camera are two streams with fixed numbers.
+constexpr StreamId depth_stream(CameraId camera) {
+    return StreamId(2 * int(camera));
+}
+constexpr StreamId color_stream(CameraId camera) {
+    return StreamId(2 * int(camera) + 1);
+}
+constexpr bool is_depth(StreamId stream) {
+    return int(stream) % 2 == 0;
+}
+constexpr CameraId camera_of(StreamId stream) {
+    return CameraId(int(stream) / 2);
+}
+
+class HostSession {
+public:
+    // A codec text in its one spelling, or what is wrong with it.
+    struct CheckedCodec {
+        std::string codec;
+        std::string problem;
+    };
+    using CheckCodec = std::function<CheckedCodec(const std::string&)>;
+
+    struct Config {
+        std::string token;  // who shows it may join
+        std::string name;   // of the room, shown to participants
+        std::vector<wire::Camera> cameras;
+        CheckCodec check_depth, check_color;
+        // Compares secrets in constant time; given, because this module has no crypto.
+        std::function<bool(std::string_view, std::string_view)> equal_secrets;
+    };
+
+    // What the session wants done, in order.
+    struct Action {
+        enum class Kind {
+            send,             // `message` to `participant`
+            close,            // `participant`, after what was sent; `why` for the log
+            joined,           // `participant` is in; for the log
+            request_key,      // a key frame of `key`
+            change_settings,  // encode exactly depth_settings() and color_settings()
+        };
+        Kind kind{};
+        ParticipantId participant{};
+        wire::Control message;
+        std::string why;
+        KeyRequests::Key key;
+    };
+
+    explicit HostSession(Config config);
+
+    // Connections that have not joined by then are closed.
+    static constexpr Duration join_deadline = std::chrono::seconds(5);
+
+    void on_connected(ParticipantId participant, TimePoint now);
+    void on_control(ParticipantId participant, ByteView message, TimePoint now);
+    void on_closed(ParticipantId participant);
+    void on_camera(const wire::CameraState& state);
+    // A frame could not be sent: this participant's stream needs a key frame.
+    void on_broken_stream(StreamId stream, SettingId setting);
+    void on_tick(TimePoint now);
+
+    std::vector<Action> take_actions();
+
+    const std::vector<ActiveSetting>& depth_settings() const { return depth_.active(); }
+    const std::vector<ActiveSetting>& color_settings() const { return color_.active(); }
+
+    // Who gets frames of this stream in this setting.
+    std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
+
+    struct Participant {
+        bool joined = false;
+        bool closing = false;
+        TimePoint connected;
+        std::string name;
+        SettingId depth_setting{}, color_setting{};
+        std::vector<wire::StreamReport> report;  // the newest
+    };
+    const std::map<ParticipantId, Participant>& participants() const { return participants_; }
+
+private:
+    void join(ParticipantId id, const wire::Join& message);
+    void choose(ParticipantId id, const std::string& depth, const std::string& color);
+    void refuse(ParticipantId id, std::string reason);
+    void apply_settings();
+    void send(ParticipantId id, wire::Control message);
+    std::string check(const CheckCodec& check, const std::string& text, std::string& codec) const;
+
+    Config config_;
+    std::map<ParticipantId, Participant> participants_;
+    std::map<CameraId, wire::CameraState> camera_states_;
+    SettingTable depth_{SettingId{1}}, color_{SettingId{0x8001}};
+    std::vector<ActiveSetting> announced_depth_, announced_color_;
+    KeyRequests key_requests_;
+    std::vector<Action> actions_;
+};
+
+}  // namespace theatron::session

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "session/host_session.h"
+
+namespace theatron::session {
+namespace {
+
+constexpr ParticipantId alice{1}, bob{2}, carol{3}, dave{4};
+
+TEST(SettingTable, OneSettingPerDistinctWish) {
+    SettingTable table(SettingId{1});
+    table.wish(alice, "trvl");
+    table.wish(bob, "trvl");
+    EXPECT_EQ(table.active().size(), 1u);
+    EXPECT_EQ(table.given(alice), table.given(bob));
+    table.wish(bob, "rvl");
+    EXPECT_EQ(table.active().size(), 2u);
+    EXPECT_EQ(table.given(bob).codec, "rvl");
+}
+
+TEST(SettingTable, BeyondThreeTheNearestIsGivenUntilAPlaceIsFree) {
+    SettingTable table(SettingId{1});
+    table.wish(alice, "trvl");
+    table.wish(bob, "zstd");
+    table.wish(carol, "raw");
+    table.wish(dave, "zstd:delta=1");
+    EXPECT_EQ(table.active().size(), SettingTable::max_active);
+    EXPECT_EQ(table.given(dave).codec, "zstd");
+    table.wish(dave, "lz4");
+    EXPECT_EQ(table.given(dave).codec, "trvl");
+    table.leave(carol);
+    EXPECT_EQ(table.given(dave).codec, "lz4");
+}
+
+TEST(SettingTable, NumbersAreNotReused) {
+    SettingTable table(SettingId{1});
+    table.wish(alice, "trvl");
+    const SettingId first = table.given(alice).id;
+    table.wish(alice, "rvl");
+    table.wish(alice, "trvl");
+    EXPECT_NE(table.given(alice).id, first);
+}
+
+TEST(KeyRequests, AreCoalescedAndNeverLost) {
+    KeyRequests requests;
+    const KeyRequests::Key key{StreamId{2}, SettingId{1}};
+    requests.request(key);
+    requests.request(key);
+    EXPECT_EQ(requests.take(from_us(0)).size(), 1u);
+    requests.request(key);
+    EXPECT_TRUE(requests.take(from_us(499'999)).empty());
+    EXPECT_EQ(requests.take(from_us(500'000)).size(), 1u);
+    EXPECT_TRUE(requests.take(from_us(9'000'000)).empty());
+}
+
+class Host : public ::testing::Test {
+protected:
+    Host() : session(config()) {}
+
+    static HostSession::CheckedCodec check(const std::string& text) {
+        return text == "bad" ? HostSession::CheckedCodec{"", "There is no codec bad."}
+                             : HostSession::CheckedCodec{text, ""};
+    }
+    static HostSession::Config config() {
+        wire::Camera camera;
+        camera.depth_stream = depth_stream(CameraId{0});
+        camera.color_stream = color_stream(CameraId{0});
+        camera.has_color = true;
+        return {"secret", "OR",  {camera},
+                check,    check, [](std::string_view a, std::string_view b) { return a == b; }};
+    }
+
+    void join(ParticipantId id, const std::string& depth = "trvl",
+              const std::string& token = "secret") {
+        session.on_connected(id, now);
+        wire::Join hello;
+        hello.token = token;
+        hello.depth_codec = depth;
+        hello.color_codec = "jpeg";
+        say(id, hello);
+    }
+    void say(ParticipantId id, const wire::Control& message) {
+        session.on_control(id, wire::encode_control(message), now);
+    }
+    // Everything of one type that is sent to a participant.
+    template <class T>
+    std::vector<T> sent(ParticipantId id, const std::vector<HostSession::Action>& actions) {
+        std::vector<T> result;
+        for (const auto& a : actions)
+            if (a.kind == HostSession::Action::Kind::send && a.participant == id)
+                if (const auto* m = std::get_if<T>(&a.message))
+                    result.push_back(*m);
+        return result;
+    }
+    static int count(const std::vector<HostSession::Action>& actions,
+                     HostSession::Action::Kind kind) {
+        return int(std::count_if(actions.begin(), actions.end(),
+                                 [&](const auto& a) { return a.kind == kind; }));
+    }
+
+    TimePoint now = from_us(1'000'000);
+    HostSession session;
+};
+
+using Kind = HostSession::Action::Kind;
+
+TEST_F(Host, WelcomesAndStartsWithKeyFrames) {
+    join(alice);
+    const auto actions = session.take_actions();
+    EXPECT_EQ(sent<wire::Welcome>(alice, actions).size(), 1u);
+    const auto settings = sent<wire::Settings>(alice, actions);
+    ASSERT_EQ(settings.size(), 1u);
+    ASSERT_EQ(settings[0].settings.size(), 2u);
+    EXPECT_EQ(settings[0].settings[0].codec, "trvl");
+    EXPECT_EQ(count(actions, Kind::change_settings), 1);
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 2);
+    EXPECT_EQ(session.receivers(StreamId{0}, settings[0].settings[0].setting), std::vector{alice});
+}
+
+TEST_F(Host, RefusesAWrongTokenWithASentence) {
+    join(alice, "trvl", "guess");
+    const auto actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("token"), std::string::npos);
+    EXPECT_TRUE(sent<wire::Welcome>(alice, actions).empty());
+    EXPECT_EQ(count(actions, Kind::close), 1);
+    // Nothing that follows counts any more.
+    join(alice);
+    say(alice, wire::Ping{});
+    EXPECT_TRUE(sent<wire::Pong>(alice, session.take_actions()).empty());
+}
+
+TEST_F(Host, RefusesAnUnknownCodecAndANewerProtocol) {
+    join(alice, "bad");
+    EXPECT_EQ(sent<wire::Refused>(alice, session.take_actions())[0].reason,
+              "There is no codec bad.");
+    session.on_connected(bob, now);
+    wire::Join newer;
+    newer.protocol_min = newer.protocol_max = wire::protocol_max + 1;
+    newer.token = "secret";
+    say(bob, newer);
+    EXPECT_NE(sent<wire::Refused>(bob, session.take_actions())[0].reason.find("older"),
+              std::string::npos);
+}
+
+TEST_F(Host, NothingIsDoneForWhoHasNotJoined) {
+    session.on_connected(alice, now);
+    say(alice, wire::ChooseCodecs{"rvl", ""});
+    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+    session.on_connected(bob, now);
+    now += HostSession::join_deadline + 1s;
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+}
+
+TEST_F(Host, ParticipantsShareAnEncoderAndChangeItAlone) {
+    join(alice);
+    join(bob);
+    session.take_actions();
+    EXPECT_EQ(session.depth_settings().size(), 1u);
+    say(bob, wire::ChooseCodecs{"rvl", ""});
+    const auto actions = session.take_actions();
+    EXPECT_EQ(session.depth_settings().size(), 2u);
+    EXPECT_TRUE(sent<wire::Settings>(alice, actions).empty());
+    ASSERT_EQ(sent<wire::Settings>(bob, actions).size(), 1u);
+    EXPECT_EQ(session.receivers(StreamId{0}, session.depth_settings()[0].id), std::vector{alice});
+    EXPECT_EQ(session.receivers(StreamId{1}, session.color_settings()[0].id),
+              (std::vector{alice, bob}));
+    session.on_closed(alice);
+    EXPECT_EQ(session.depth_settings().size(), 1u);
+    EXPECT_EQ(session.depth_settings()[0].codec, "rvl");
+}
+
+TEST_F(Host, ABadWishKeepsTheOldCodecAndSaysSo) {
+    join(alice);
+    session.take_actions();
+    say(alice, wire::ChooseCodecs{"bad", ""});
+    const auto settings = sent<wire::Settings>(alice, session.take_actions());
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].note, "There is no codec bad.");
+    EXPECT_EQ(session.depth_settings()[0].codec, "trvl");
+}
+
+TEST_F(Host, AFourthCodecIsServedTheNearestWithANote) {
+    join(alice, "trvl");
+    join(bob, "rvl");
+    join(carol, "zstd");
+    session.take_actions();
+    join(dave, "zstd:level=3");
+    const auto settings = sent<wire::Settings>(dave, session.take_actions());
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].settings[0].codec, "zstd");
+    EXPECT_NE(settings[0].note.find("zstd:level=3"), std::string::npos);
+}
+
+TEST_F(Host, OnlyOwnStreamsMayBeAskedForKeyFrames) {
+    join(alice);
+    session.on_tick(now);
+    session.take_actions();
+    now += 1s;
+    say(alice, wire::RequestKey{StreamId{0}, SettingId{999}});
+    say(alice, wire::RequestKey{StreamId{50}, session.depth_settings()[0].id});
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 0);
+    say(alice, wire::RequestKey{StreamId{0}, session.depth_settings()[0].id});
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 1);
+}
+
+TEST_F(Host, TellsJoinersAboutCameras) {
+    session.on_camera({CameraId{0}, wire::CameraCondition::failed, "unplugged"});
+    join(alice);
+    const auto states = sent<wire::CameraState>(alice, session.take_actions());
+    ASSERT_EQ(states.size(), 1u);
+    EXPECT_EQ(states[0].problem, "unplugged");
+}
+
+TEST_F(Host, DamagedMessagesEndTheConnection) {
+    join(alice);
+    session.take_actions();
+    session.on_control(alice, Bytes(20, std::byte{0xff}), now);
+    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+}
+
+}  // namespace
+}  // namespace theatron::session

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which encodings are made, and who gets which: each participant has a wish,
+// each distinct wish is encoded once, and at most three are encoded at a time.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/ids.h"
+
+namespace theatron::session {
+
+struct ActiveSetting {
+    SettingId id{};
+    std::string codec;
+    bool operator==(const ActiveSetting&) const = default;
+};
+
+// One table for depth, one for colour. Pure and deterministic.
+class SettingTable {
+public:
+    static constexpr std::size_t max_active = 3;
+
+    // `first_id` is the number of the first setting; numbers are not reused.
+    explicit SettingTable(SettingId first_id) : next_id_(std::uint16_t(first_id)) {}
+
+    // `codec` must be in its one spelling, since equal texts share an encoder.
+    void wish(ParticipantId participant, std::string codec);
+    void leave(ParticipantId participant);
+
+    // In the order in which they became active.
+    const std::vector<ActiveSetting>& active() const { return active_; }
+
+    // What the participant gets: its wish, or where too many others are in use
+    // the nearest (the same codec with other parameters, else the oldest).
+    // The participant must have a wish.
+    const ActiveSetting& given(ParticipantId participant) const;
+    const std::string& wished(ParticipantId participant) const;
+
+private:
+    void update();
+
+    std::map<ParticipantId, std::string> wishes_;
+    std::vector<ActiveSetting> active_;
+    std::uint16_t next_id_;
+};
+
+}  // namespace theatron::session
