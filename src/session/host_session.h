@@ -17,20 +17,6 @@
 
 namespace theatron::session {
 
-// Depth and colour of a camera are two streams with fixed numbers.
-constexpr StreamId depth_stream(CameraId camera) {
-    return StreamId(2 * int(camera));
-}
-constexpr StreamId color_stream(CameraId camera) {
-    return StreamId(2 * int(camera) + 1);
-}
-constexpr bool is_depth(StreamId stream) {
-    return int(stream) % 2 == 0;
-}
-constexpr CameraId camera_of(StreamId stream) {
-    return CameraId(int(stream) / 2);
-}
-
 class HostSession {
 public:
     // A codec text in its one spelling, or what is wrong with it.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "session/host_session.h"
+#include "session/viewer_session.h"
 
 namespace theatron::session {
 namespace {
@@ -222,6 +223,46 @@ TEST_F(Host, DamagedMessagesEndTheConnection) {
     session.take_actions();
     session.on_control(alice, Bytes(20, std::byte{0xff}), now);
     EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+}
+
+// Host and viewer, each fed with what the other says.
+TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
+    ViewerSession viewer({"secret", "Dr. A", "trvl", "jpeg"});
+    session.on_connected(alice, now);
+    session.on_control(alice, viewer.begin(), now);
+    std::vector<ViewerSession::Change> changes;
+    const auto deliver = [&] {
+        changes.clear();
+        for (const auto& a : session.take_actions())
+            if (a.kind == Kind::send)
+                changes.push_back(viewer.on_control(wire::encode_control(a.message)));
+    };
+    deliver();
+    using Change = ViewerSession::Change;
+    EXPECT_EQ(changes, (std::vector{Change::welcomed, Change::settings}));
+    EXPECT_EQ(viewer.cameras().size(), 1u);
+    EXPECT_EQ(viewer.settings().size(), 2u);
+
+    session.on_control(alice, viewer.choose("rvl", ""), now);
+    deliver();
+    EXPECT_EQ(changes, std::vector{Change::settings});
+    EXPECT_EQ(viewer.settings()[0].codec, "rvl");
+    EXPECT_EQ(viewer.wishes().depth_codec, "rvl");
+
+    session.on_control(alice, viewer.choose("bad", ""), now);
+    deliver();
+    EXPECT_EQ(viewer.note(), "There is no codec bad.");
+    EXPECT_EQ(viewer.settings()[0].codec, "rvl");
+}
+
+TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(Bytes(7)), ViewerSession::Change::nothing);
+    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::Ping{})),
+              ViewerSession::Change::nothing);
+    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::Refused{""})),
+              ViewerSession::Change::refused);
+    EXPECT_FALSE(viewer.refusal().empty());
 }
 
 }  // namespace

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "receive/receiver.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace theatron::receive {
+namespace {
+
+// A request for a key frame is repeated after this time without one.
+constexpr Duration key_patience = std::chrono::milliseconds(700);
+
+// Frame numbers wrap; a difference of half the range or more means "older".
+std::int32_t frames_after(FrameNumber a, FrameNumber b) {
+    return std::int32_t(a - b);
+}
+
+}  // namespace
+
+void Receiver::set_cameras(const std::vector<wire::Camera>& cameras) {
+    streams_.clear();
+    cameras_.clear();
+    for (const wire::Camera& camera : cameras) {
+        cameras_[camera.id].has_color = camera.has_color;
+        Stream& depth = streams_[camera.depth_stream];
+        depth.camera = camera.id;
+        depth.is_depth = true;
+        if (camera.has_color)
+            streams_[camera.color_stream].camera = camera.id;
+    }
+}
+
+void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
+    for (const wire::StreamSetting& s : settings) {
+        const auto found = streams_.find(s.stream);
+        if (found == streams_.end() || found->second.setting == s.setting)
+            continue;
+        Stream& stream = found->second;
+        std::string problem;
+        if (stream.is_depth) {
+            const auto parsed = codec::parse_depth_setting(s.codec);
+            problem = parsed.problem;
+            if (problem.empty())
+                stream.depth = std::make_unique<codec::DepthStreamDecoder>(parsed.setting);
+        } else {
+            const auto parsed = video::parse_color_setting(s.codec);
+            problem = parsed.problem;
+            if (problem.empty()) {
+                stream.color = video::make_color_decoder(parsed.setting.id);
+                stream.color_codec = parsed.setting.id;
+            }
+        }
+        if (!problem.empty())
+            throw Error("The host sends in a way that this Theatron does not know: " + problem);
+        stream.setting = s.setting;
+        stream.codec = s.codec;
+        stream.asked_for_key = false;
+    }
+}
+
+Status Receiver::on_media(ByteView message, TimePoint now) {
+    const auto header = wire::parse_media_header(message);
+    if (!header) {
+        ++refused_;
+        return header.error();
+    }
+    const auto found = streams_.find(header->stream);
+    // Frames of the setting before the last change may still be on their way.
+    if (found == streams_.end() || found->second.setting != header->setting)
+        return Status::ok;
+
+    Stream& stream = found->second;
+    count(stream, *header, message.size(), now);
+    const ByteView payload = wire::media_payload(message);
+    const Status status = stream.is_depth ? decode_depth(stream, *header, payload, now)
+                                          : decode_color(stream, *header, payload, now);
+    if (status == Status::ok)
+        return status;
+    ++stream.dropped;
+    if (status != Status::missing_reference)
+        ++refused_;
+    // A frame of an upper layer is only skipped: the next of layer 0 does not need it.
+    if (header->temporal_layer == 0)
+        ask_for_key(header->stream, stream, now);
+    return status;
+}
+
+void Receiver::count(Stream& stream, const wire::MediaHeader& header, std::size_t size,
+                     TimePoint now) {
+    const std::int32_t step = frames_after(header.frame, stream.newest);
+    if (stream.counting && step > 1)
+        stream.dropped += std::uint64_t(step - 1);
+    if (!stream.counting || step > 0)
+        stream.newest = header.frame;
+    stream.counting = true;
+    stream.bytes += size;
+    stream.bit_rate.add(now, double(size) * 8e-6);
+}
+
+Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
+                              TimePoint now) {
+    const auto size = stream.depth->read_size(payload);
+    if (!size)
+        return size.error();
+    const std::shared_ptr<CameraFrame> frame = frames_.take();
+    frame->depth.resize(*size);
+    const codec::FrameLink link{header.frame, header.reference, header.temporal_layer, header.key};
+    if (const Status s = stream.depth->decode(link, payload, frame->depth.view()); s != Status::ok)
+        return s;
+
+    if (header.key)
+        stream.asked_for_key = false;
+    frame->camera = stream.camera;
+    frame->number = header.frame;
+    frame->moment = header.moment;
+    frame->times = {};
+    frame->times.captured = header.captured;
+    frame->times.delivered = header.delivered;
+    frame->times.filtered = header.filtered;
+    frame->times.encoded = header.encoded;
+    frame->times.sent = header.sent;
+    frame->times.received = now;
+    frame->times.decoded = now;
+    ++stream.frames;
+    stream.frame_rate.add(now);
+    stream.age_ms = to_ms(now - header.captured);
+    stream.ages.add(stream.age_ms);
+
+    CameraState& camera = cameras_[stream.camera];
+    // Its colour never came: better shown with an older one than not at all.
+    if (camera.depth)
+        hand_on(camera);
+    camera.depth = frame;
+    if (!camera.has_color ||
+        (camera.color && frames_after(camera.color_number, frame->number) >= 0))
+        hand_on(camera);
+    return Status::ok;
+}
+
+Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
+                              TimePoint now) {
+    if (header.codec != std::uint8_t(stream.color_codec))
+        return Status::malformed;
+    if (const Status s = stream.color->submit(payload, header.frame); s != Status::ok)
+        return s;
+    while (auto decoded = stream.color->poll()) {
+        ++stream.frames;
+        stream.frame_rate.add(now);
+        stream.age_ms = to_ms(now - header.captured);
+        stream.ages.add(stream.age_ms);
+
+        CameraState& camera = cameras_[stream.camera];
+        const std::shared_ptr<ColorImage> image = colors_.take();
+        std::swap(*image, decoded->image);
+        stream.color->recycle(std::move(decoded->image));
+        camera.color = image;
+        camera.color_number = decoded->frame;
+        if (camera.depth && frames_after(camera.color_number, camera.depth->number) >= 0)
+            hand_on(camera);
+    }
+    return Status::ok;
+}
+
+void Receiver::hand_on(CameraState& camera) {
+    camera.depth->color = camera.color;
+    events_.frame(std::exchange(camera.depth, nullptr));
+}
+
+void Receiver::ask_for_key(StreamId id, Stream& stream, TimePoint now) {
+    if (stream.asked_for_key && now - stream.asked_at < key_patience)
+        return;
+    stream.asked_for_key = true;
+    stream.asked_at = now;
+    events_.needs_key(id, stream.setting);
+}
+
+std::vector<StreamFigures> Receiver::figures(TimePoint now) {
+    std::vector<StreamFigures> result;
+    for (auto& [id, s] : streams_)
+        result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
+                          s.frames, s.bytes, s.dropped, s.newest, s.age_ms, s.ages.percentile(0.5),
+                          s.ages.percentile(0.99), s.ages.max()});
+    return result;
+}
+
+void Receiver::reset_figures() {
+    for (auto& [id, s] : streams_) {
+        s.frames = s.bytes = s.dropped = 0;
+        s.ages.clear();
+        s.counting = false;
+    }
+}
+
+}  // namespace theatron::receive

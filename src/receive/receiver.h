@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// From media messages to images: decodes what arrives, pairs depth and colour
+// of a camera, notices what is missing, and knows how old everything is.
+//
+// No threads and no clock of its own: the owner calls it from one thread with
+// the session time, and is given frames that any thread may keep.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/pool.h"
+#include "base/statistics.h"
+#include "codec/depth_stream.h"
+#include "image/frame.h"
+#include "video/color_codec.h"
+#include "wire/control.h"
+#include "wire/media_header.h"
+
+namespace theatron::receive {
+
+// The newest of one camera, decoded. Depth and colour are of the same moment
+// where both have come; colour is older where it is late, empty before the first.
+struct CameraFrame {
+    CameraId camera{};
+    FrameNumber number = 0;
+    TimePoint moment;
+    FrameTimes times;
+    DepthImage depth;
+    std::shared_ptr<const ColorImage> color;
+};
+using CameraFramePtr = std::shared_ptr<const CameraFrame>;
+
+// What of one stream came so far, for status lines and reports to the host.
+struct StreamFigures {
+    StreamId stream{};
+    std::string codec;  // what the host sends now
+    double frames_per_second = 0;
+    double mbit_per_second = 0;  // payload and media header
+    std::uint64_t frames = 0;    // decoded
+    std::uint64_t bytes = 0;
+    std::uint64_t dropped = 0;  // frames made by the host that were not decoded here
+    FrameNumber newest = 0;
+    double age_ms = 0;  // of the newest frame, when it was decoded
+    double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
+};
+
+class Receiver {
+public:
+    // Called from on_media().
+    struct Events {
+        std::function<void(CameraFramePtr)> frame;
+        std::function<void(StreamId, SettingId)> needs_key;
+    };
+
+    explicit Receiver(Events events) : events_(std::move(events)) {}
+
+    // What the host announced. Streams that are gone are forgotten.
+    void set_cameras(const std::vector<wire::Camera>& cameras);
+    // Throws Error if a codec is one that this build does not know.
+    void set_settings(const std::vector<wire::StreamSetting>& settings);
+
+    // Takes one whole media message. Damaged and unknown ones are counted.
+    // Safe for untrusted input.
+    Status on_media(ByteView message, TimePoint now);
+
+    std::vector<StreamFigures> figures(TimePoint now);
+    std::uint64_t refused() const { return refused_; }
+
+    // Begins counting anew: rates, ages and drops.
+    void reset_figures();
+
+private:
+    struct Stream {
+        CameraId camera{};
+        bool is_depth = false;
+        SettingId setting{};
+        std::string codec;
+        std::unique_ptr<codec::DepthStreamDecoder> depth;
+        std::unique_ptr<video::ColorDecoder> color;
+        video::ColorCodecId color_codec{};
+
+        bool counting = false;  // a frame has come since the figures were reset
+        FrameNumber newest = 0;
+        std::uint64_t frames = 0, bytes = 0, dropped = 0;
+        RateWindow frame_rate, bit_rate;
+        SampleWindow ages{20'000};
+        double age_ms = 0;
+        bool asked_for_key = false;
+        TimePoint asked_at;
+    };
+    // What waits for its other half.
+    struct CameraState {
+        std::shared_ptr<CameraFrame> depth;  // newest, not yet handed on
+        std::shared_ptr<const ColorImage> color;
+        FrameNumber color_number = 0;
+        bool has_color = false;
+    };
+
+    Status decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
+                        TimePoint now);
+    Status decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
+                        TimePoint now);
+    void count(Stream& stream, const wire::MediaHeader& header, std::size_t size, TimePoint now);
+    void ask_for_key(StreamId id, Stream& stream, TimePoint now);
+    void hand_on(CameraState& camera);
+
+    Events events_;
+    std::map<StreamId, Stream> streams_;
+    std::map<CameraId, CameraState> cameras_;
+    Pool<CameraFrame> frames_;
+    Pool<ColorImage> colors_;
+    std::uint64_t refused_ = 0;
+};
+
+}  // namespace theatron::receive

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/viewer_session.h"
+
+namespace theatron::session {
+
+Bytes ViewerSession::begin() {
+    joined_ = false;
+    refusal_.clear();
+    note_.clear();
+    settings_.clear();
+    camera_states_.clear();
+    wire::Join join;
+    join.token = wishes_.token;
+    join.name = wishes_.name;
+    join.depth_codec = wishes_.depth_codec;
+    join.color_codec = wishes_.color_codec;
+    return wire::encode_control(join);
+}
+
+ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
+    auto message = wire::decode_control(bytes);
+    if (!message)
+        return Change::nothing;
+    if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
+        welcome_ = std::move(*welcome);
+        joined_ = true;
+        return Change::welcomed;
+    }
+    if (auto* refused = std::get_if<wire::Refused>(&*message)) {
+        refusal_ = refused->reason.empty() ? "The host gave no reason." : refused->reason;
+        return Change::refused;
+    }
+    if (auto* settings = std::get_if<wire::Settings>(&*message)) {
+        if (!settings->settings.empty())
+            settings_ = std::move(settings->settings);
+        note_ = std::move(settings->note);
+        return Change::settings;
+    }
+    if (auto* state = std::get_if<wire::CameraState>(&*message)) {
+        camera_states_[state->camera] = std::move(*state);
+        return Change::camera;
+    }
+    if (auto* pong = std::get_if<wire::Pong>(&*message)) {
+        pong_ = *pong;
+        return Change::pong;
+    }
+    return Change::nothing;
+}
+
+Bytes ViewerSession::choose(const std::string& depth_codec, const std::string& color_codec) {
+    if (!depth_codec.empty())
+        wishes_.depth_codec = depth_codec;
+    if (!color_codec.empty())
+        wishes_.color_codec = color_codec;
+    return wire::encode_control(wire::ChooseCodecs{depth_codec, color_codec});
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A participant's side of a session: joins, and keeps what the host said.
+//
+// A pure state machine, the same in the native client and in the browser.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wire/control.h"
+
+namespace theatron::session {
+
+class ViewerSession {
+public:
+    struct Wishes {
+        std::string token;
+        std::string name;
+        std::string depth_codec = "trvl";
+        std::string color_codec = "jpeg:quality=85";
+    };
+
+    explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}
+
+    // A new connection is up. Returns the first message to send.
+    Bytes begin();
+
+    // What a message of the host changed.
+    enum class Change {
+        nothing,
+        welcomed,  // cameras() are known
+        refused,   // refusal() says why; the connection will end
+        settings,  // settings() hold what is new, note() what the host remarked
+        camera,    // camera_states()
+        pong,      // pong() answers a ping
+    };
+    // Safe for untrusted input: what is damaged or not understood is nothing.
+    Change on_control(ByteView message);
+
+    // Other codecs from now on; an empty text keeps the codec. Returns the
+    // message to send.
+    Bytes choose(const std::string& depth_codec, const std::string& color_codec);
+
+    bool joined() const { return joined_; }
+    const wire::Welcome& welcome() const { return welcome_; }
+    const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
+    const std::vector<wire::StreamSetting>& settings() const { return settings_; }
+    const std::string& note() const { return note_; }
+    const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
+    const std::string& refusal() const { return refusal_; }
+    const wire::Pong& pong() const { return pong_; }
+    const Wishes& wishes() const { return wishes_; }
+
+private:
+    Wishes wishes_;
+    bool joined_ = false;
+    wire::Welcome welcome_;
+    std::vector<wire::StreamSetting> settings_;
+    std::string note_;
+    std::map<CameraId, wire::CameraState> camera_states_;
+    std::string refusal_;
+    wire::Pong pong_;
+};
+
+}  // namespace theatron::session
