@@ -41,7 +41,8 @@ public:
     // used. `reference` is null for a key frame; its size equals depth.size.
     // `next` receives what a later frame needs to refer to this one: the depth
     // as the decoder will have it, and the codec's memory. It may be null where
-    // no frame will refer to this one, and may not be `reference`.
+    // no frame will refer to this one, and may not be `reference`. A codec that
+    // is not temporal leaves it alone.
     virtual std::size_t encode(DepthView depth, const Reference* reference,
                                std::span<std::byte> out, Reference* next) = 0;
 
@@ -54,6 +55,8 @@ public:
     virtual Status decode(ByteView encoded, const Reference* reference, MutableDepthView out,
                           Reference* next) = 0;
 };
+
+inline constexpr int max_layers = 3;
 
 // Numbers of the codecs in the media header. Never reused.
 enum class DepthCodecId : std::uint8_t {
@@ -71,6 +74,7 @@ enum class DepthCodecId : std::uint8_t {
 struct DepthSetting {
     DepthCodecId id = DepthCodecId::trvl;
     std::string text = "trvl";
+    int layers = 1;  // temporal layers, 1 to max_layers; see depth_stream.h
     bool operator==(const DepthSetting&) const = default;
 };
 

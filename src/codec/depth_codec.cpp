@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/depth_codec.h"
+
+#include <cassert>
+
+#include "base/options.h"
+#include "codec/simple_codecs.h"
+#include "codec/zstd_codec.h"
+
+namespace theatron::codec {
+namespace {
+
+// Everything a setting can say. Each codec reads its own part.
+struct Parameters {
+    bool delta = false;
+    int level = 1;
+    int layers = 1;
+};
+
+// One member of the family.
+struct Kind {
+    std::string_view name;
+    DepthCodecId id;
+    bool in_this_build;
+    // Takes the codec's own parameters; says whether it is temporal with them.
+    bool (*read)(Options& options, Parameters& parameters);
+    std::unique_ptr<DepthCodec> (*make)(const Parameters& parameters);
+};
+
+bool read_nothing(Options&, Parameters&) {
+    return false;
+}
+
+bool read_nothing_temporal(Options&, Parameters& parameters) {
+    parameters.delta = true;
+    return true;
+}
+
+bool read_zstd(Options& options, Parameters& parameters) {
+    parameters.level = options.take_int("level", 1, 1, 19);
+    return parameters.delta = options.take_flag("delta");
+}
+
+// In the order in which help texts and benchmarks show them.
+const std::vector<Kind>& kinds() {
+    using P = const Parameters&;
+    static const std::vector<Kind> all = {
+        {"raw", DepthCodecId::raw, true, read_nothing, [](P) { return make_raw(); }},
+        {"rvl", DepthCodecId::rvl, true, read_nothing, [](P) { return make_rvl(); }},
+        {"trvl", DepthCodecId::trvl, true, read_nothing_temporal, [](P) { return make_trvl(); }},
+        {"zstd", DepthCodecId::zstd, has_zstd(), read_zstd,
+         [](P p) { return make_zstd(p.level, p.delta); }},
+    };
+    return all;
+}
+
+const Kind* find_kind(std::string_view name) {
+    for (const Kind& kind : kinds()) {
+        if (kind.name == name)
+            return &kind;
+    }
+    return nullptr;
+}
+
+std::string names_in_this_build() {
+    std::string names;
+    for (const std::string& name : depth_codec_names())
+        names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+// The one spelling: parameters in a fixed order, and only those that matter.
+std::string spelling(const Kind& kind, const Parameters& p) {
+    std::string text(kind.name);
+    char separator = ':';
+    const auto add = [&](const char* key, int value, int standard) {
+        if (value == standard)
+            return;
+        text += separator + std::string(key) + "=" + std::to_string(value);
+        separator = ',';
+    };
+    add("delta", p.delta, kind.id == DepthCodecId::trvl);
+    add("layers", p.layers, 1);
+    add("level", p.level, 1);
+    return text;
+}
+
+struct Understood {
+    const Kind* kind = nullptr;
+    Parameters parameters;
+    std::string problem;
+};
+
+Understood understand(std::string_view text) {
+    Options options = Options::parse(text);
+    Understood result;
+    result.kind = find_kind(options.kind());
+    if (result.kind == nullptr || !result.kind->in_this_build) {
+        result.problem = "The depth codec '" + options.kind() +
+                         (result.kind ? "' is not in this build" : "' does not exist") +
+                         "; choose one of: " + names_in_this_build() + ".";
+        return result;
+    }
+    if (!options.value().empty()) {
+        result.problem =
+            "In '" + options.text() + "', '" + options.value() + "' is not a key=value pair.";
+        return result;
+    }
+    // RVL over the temporal delta has a name of its own.
+    if (result.kind->id == DepthCodecId::rvl && options.take_flag("delta"))
+        result.kind = find_kind("trvl");
+    const bool temporal = result.kind->read(options, result.parameters);
+    result.parameters.layers = options.take_int("layers", 1, 1, max_layers);
+    result.problem = options.problem();
+    if (result.problem.empty() && result.parameters.layers > 1 && !temporal)
+        result.problem = "In '" + options.text() +
+                         "', layers need a codec that refers to earlier frames, such as trvl.";
+    return result;
+}
+
+}  // namespace
+
+ParsedDepthSetting parse_depth_setting(std::string_view text) {
+    const Understood found = understand(text);
+    ParsedDepthSetting parsed;
+    parsed.problem = found.problem;
+    if (parsed.problem.empty())
+        parsed.setting = {found.kind->id, spelling(*found.kind, found.parameters),
+                          found.parameters.layers};
+    return parsed;
+}
+
+std::unique_ptr<DepthCodec> make_depth_codec(const DepthSetting& setting) {
+    const Understood found = understand(setting.text);
+    assert(found.problem.empty());
+    return found.kind->make(found.parameters);
+}
+
+std::vector<std::string> depth_codec_names() {
+    std::vector<std::string> names;
+    for (const Kind& kind : kinds()) {
+        if (kind.in_this_build)
+            names.emplace_back(kind.name);
+    }
+    return names;
+}
+
+}  // namespace theatron::codec

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A depth codec along a stream: which frame refers to which, and the references
+// themselves.
+//
+// With N temporal layers every group of 2^(N-1) frames is a small hierarchy:
+//
+//   layer 2      1     3           5     7
+//   layer 1         2                 6
+//   layer 0   0              4              8
+//
+// The first frame of a group refers to the first of the group before; any other
+// to the most recent frame of a lower layer. So a receiver may leave out the
+// highest layers for half or a quarter of the frames, or miss single frames of
+// them, and still decode the rest. Each side keeps one reference for each layer
+// that is referred to. Nothing is allocated after the first few frames.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "base/ids.h"
+#include "codec/depth_codec.h"
+
+namespace theatron::codec {
+
+// The layer of the frame at `position` since the last key frame.
+int temporal_layer(int layers, std::uint32_t position);
+
+// A frame's place in its stream. It travels beside the encoded bytes.
+struct FrameLink {
+    FrameNumber frame = 0;
+    FrameNumber reference_frame = 0;  // of a key frame: itself
+    int layer = 0;
+    bool key = false;
+};
+
+struct EncodedDepth : FrameLink {
+    std::size_t bytes = 0;
+};
+
+// The references of one side of a stream.
+class StreamReferences {
+public:
+    explicit StreamReferences(int layers) : layers_(layers) {}
+
+    int layers() const { return layers_; }
+    void clear();
+    // Null if the frame is not held.
+    const Reference* find(FrameNumber frame) const;
+    // The most recent frame of a layer below `layer`, or of layer 0 for layer 0.
+    const Reference* most_recent_below(int layer, FrameNumber& frame) const;
+    // Where to put a frame of this layer; null if nothing will refer to it.
+    Reference* space_for(int layer);
+    // The space now holds `frame` of `layer`, in place of the layer's last one.
+    void keep(int layer, FrameNumber frame);
+
+private:
+    struct Held {
+        bool valid = false;
+        FrameNumber frame = 0;
+        std::uint32_t age_rank = 0;  // larger is more recent
+        Reference reference;
+    };
+    bool is_referred_to(int layer) const { return layers_ == 1 || layer + 1 < layers_; }
+
+    int layers_;
+    std::uint32_t kept_ = 0;
+    std::array<Held, max_layers> held_;  // by layer
+    Reference space_;
+};
+
+// Encodes the frames of one camera with one setting. Use from one thread at a time.
+class DepthStreamEncoder {
+public:
+    explicit DepthStreamEncoder(const DepthSetting& setting);
+
+    std::size_t max_encoded_size(Size size) const { return codec_->max_encoded_size(size); }
+
+    // Encodes `depth` into `out` (max_encoded_size bytes). It becomes a key frame
+    // if `key` says so, if it is the first, if the image has changed its size, or
+    // if the codec is not temporal. A key frame starts a new group. Frame numbers
+    // may have gaps.
+    EncodedDepth encode(DepthView depth, FrameNumber frame, bool key, std::span<std::byte> out);
+
+private:
+    std::unique_ptr<DepthCodec> codec_;
+    StreamReferences references_;
+    std::uint32_t position_ = 0;  // since the last key frame
+    Size size_;
+};
+
+// Decodes the frames of one stream, in order, with gaps. Use from one thread at
+// a time.
+class DepthStreamDecoder {
+public:
+    explicit DepthStreamDecoder(const DepthSetting& setting);
+
+    // The size of an encoded image. Safe for untrusted input.
+    Result<Size> read_size(ByteView encoded) const { return codec_->read_size(encoded); }
+
+    // Decodes into `out`, whose size must match. Status::missing_reference if the
+    // frame referred to was skipped or lost; a later frame of a lower layer, or
+    // else a key frame, will decode again. Safe for untrusted input, `link`
+    // included. On failure `out` is unspecified and the references are as before.
+    Status decode(const FrameLink& link, ByteView encoded, MutableDepthView out);
+
+private:
+    std::unique_ptr<DepthCodec> codec_;
+    StreamReferences references_;
+};
+
+}  // namespace theatron::codec

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/rvl.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+
+#include "codec/lanes.h"
+#include "codec/payload_header.h"
+#include "codec/rows.h"
+
+namespace theatron::codec::rvl {
+namespace {
+
+// --- Nibbles out -------------------------------------------------------------
+
+// The nibbles of a number below 512 and, from bit 12, how many they are.
+constexpr auto short_codes = [] {
+    std::array<std::uint16_t, 512> codes{};
+    for (unsigned v = 0; v < 512; ++v) {
+        const unsigned count = v < 8 ? 1 : v < 64 ? 2 : 3;
+        unsigned nibbles = (v & 7) | (v & 0x38) << 1 | (v & 0x1c0) << 2;
+        nibbles |= count > 1 ? 0x008 : 0;
+        nibbles |= count > 2 ? 0x080 : 0;
+        codes[v] = std::uint16_t(nibbles | count << 12);
+    }
+    return codes;
+}();
+
+// Collects nibbles, lowest first. Writes eight bytes at a time, of which the
+// last seven may be rewritten: the end of the buffer needs that much slack.
+class NibbleWriter {
+public:
+    explicit NibbleWriter(std::byte* out) : begin_(out), out_(out) {}
+
+    // At most 56 bits at a time.
+    void put_bits(std::uint64_t bits, unsigned count) {
+        pending_ |= bits << pending_count_;
+        pending_count_ += count;
+        store_lanes(out_, pending_);
+        out_ += pending_count_ / 8;
+        pending_ >>= pending_count_ & ~7u;
+        pending_count_ %= 8;
+    }
+
+    void put_number(std::uint32_t value) {
+        if (value < 512) {
+            const std::uint16_t code = short_codes[value];
+            put_bits(code & 0xfff, (code >> 12) * 4u);
+            return;
+        }
+        std::uint64_t bits = 0;
+        unsigned count = 0;
+        for (; value >= 8; value >>= 3, count += 4)
+            bits |= std::uint64_t(8 | (value & 7)) << count;
+        put_bits(bits | std::uint64_t(value) << count, count + 4);
+    }
+
+    // The bytes written, the last nibble filled up with zero.
+    std::size_t finish() const { return std::size_t(out_ - begin_) + (pending_count_ > 0 ? 1 : 0); }
+
+private:
+    std::byte* begin_;
+    std::byte* out_;
+    std::uint64_t pending_ = 0;
+    unsigned pending_count_ = 0;  // 0 or 4 bits
+};
+
+constexpr std::size_t write_slack = 8;
+
+// --- Runs --------------------------------------------------------------------
+
+std::size_t end_of_zeros(const std::uint16_t* values, std::size_t at, std::size_t count) {
+    for (; at + 4 <= count; at += 4) {
+        if (const Lanes lanes = load_lanes(values + at); lanes != 0)
+            return at + std::size_t(std::countr_zero(lanes)) / 16;
+    }
+    while (at < count && values[at] == 0)
+        ++at;
+    return at;
+}
+
+std::size_t end_of_nonzeros(const std::uint16_t* values, std::size_t at, std::size_t count) {
+    for (; at + 4 <= count; at += 4) {
+        if (const Lanes zeros = lowest_zero_lane(load_lanes(values + at)); zeros != 0)
+            return at + std::size_t(std::countr_zero(zeros)) / 16;
+    }
+    while (at < count && values[at] != 0)
+        ++at;
+    return at;
+}
+
+// Writes the differences `codes`, zigzagged, of `count` (1 to 4) lanes.
+inline void put_differences(NibbleWriter& out, Lanes codes, unsigned count) {
+    codes &= lowest_lanes(count);
+    if ((codes & 0xfe00'fe00'fe00'fe00) != 0) {
+        for (unsigned i = 0; i < count; ++i)
+            out.put_number(lane(codes, i));
+        return;
+    }
+    const unsigned c0 = short_codes[lane(codes, 0)];
+    const unsigned c1 = short_codes[lane(codes, 1)];
+    const unsigned c2 = short_codes[lane(codes, 2)];
+    const unsigned c3 = short_codes[lane(codes, 3)];
+    const unsigned n0 = c0 >> 12, n1 = c1 >> 12, n2 = c2 >> 12, n3 = c3 >> 12;
+    const std::uint64_t low = (c0 & 0xfff) | std::uint64_t(c1 & 0xfff) << (4 * n0);
+    const std::uint64_t high = (c2 & 0xfff) | std::uint64_t(c3 & 0xfff) << (4 * n2);
+    const std::uint64_t bits = low | high << (4 * (n0 + n1));
+    // The lanes that are not wanted became single zero nibbles at the end.
+    out.put_bits(bits, 4 * (n0 + n1 + n2 + n3 - (4 - count)));
+}
+
+// --- Nibbles in --------------------------------------------------------------
+
+// What the next three nibbles mean as zigzagged differences: up to three whole
+// numbers, as running sums, so that one addition decodes them all.
+// Lanes 0 to 2 are the sums after one, two and three numbers; where there are
+// fewer they repeat the last. Lane 3 has how many numbers there are (bits 0-1),
+// and the nibbles of the first one, two and three (bits 4-5, 6-7, 8-9).
+constexpr unsigned numbers_in(std::uint64_t entry) {
+    return unsigned(entry >> 48) & 3;
+}
+constexpr unsigned nibbles_of(std::uint64_t entry, unsigned numbers) {
+    return unsigned(entry >> (50 + 2 * numbers)) & 3;
+}
+
+constexpr auto short_decodes = [] {
+    std::array<std::uint64_t, 4096> entries{};
+    for (unsigned bits = 0; bits < 4096; ++bits) {
+        std::uint64_t sums = 0, counts = 0;
+        unsigned numbers = 0, at = 0;
+        std::uint16_t sum = 0;
+        while (at < 3) {
+            unsigned value = 0, nibble = 0, end = at;
+            do {
+                nibble = bits >> (4 * end) & 15;
+                value |= (nibble & 7) << (3 * (end - at));
+                ++end;
+            } while (nibble >= 8 && end < 3);
+            // Unfinished, or a last group of zero that the encoder never writes.
+            if (nibble >= 8 || (nibble == 0 && end - at > 1))
+                break;
+            at = end;
+            sum = std::uint16_t(sum + unzigzag(std::uint16_t(value)));
+            for (unsigned l = numbers; l < 3; ++l)
+                sums = (sums & ~(0xffffull << (16 * l))) | std::uint64_t(sum) << (16 * l);
+            ++numbers;
+            counts |= std::uint64_t(end) << (2 * numbers + 2);
+        }
+        entries[bits] = sums | (counts | numbers | std::uint64_t(at) << 12) << 48;
+    }
+    return entries;
+}();
+
+// Hands out nibbles, lowest first. Past the end there are zeros, and consumed()
+// tells.
+class NibbleReader {
+public:
+    explicit NibbleReader(ByteView in) : in_(in) {}
+
+    // At least 14 nibbles from here on, lowest first.
+    std::uint64_t peek() {
+        if (count_ < 56)
+            refill();
+        return window_;
+    }
+    void skip(unsigned nibbles) {
+        window_ >>= 4 * nibbles;
+        count_ -= 4 * nibbles;
+    }
+
+    // One number of up to `max`; false if the next nibbles are no such number.
+    bool get_number(std::uint32_t max, std::uint32_t& value) {
+        std::uint64_t bits = peek();
+        std::uint64_t result = 0;
+        for (unsigned i = 0; i < 9; ++i, bits >>= 4) {
+            result |= (bits & 7) << (3 * i);
+            if ((bits & 8) == 0) {
+                value = std::uint32_t(result);
+                skip(i + 1);
+                return result <= max && ((bits & 7) != 0 || i == 0);
+            }
+        }
+        return false;
+    }
+
+    std::size_t consumed() const { return 2 * at_ - count_ / 4; }
+
+private:
+    void refill() {
+        std::uint64_t next = 0;
+        if (at_ + 8 <= in_.size())
+            std::memcpy(&next, in_.data() + at_, 8);
+        else if (at_ < in_.size())
+            std::memcpy(&next, in_.data() + at_, in_.size() - at_);
+        // Bits of a byte that only half fits are ORed in again, equal, next time.
+        window_ |= next << count_;
+        const unsigned bytes = (63 - count_) / 8;
+        at_ += bytes;
+        count_ += 8 * bytes;
+    }
+
+    ByteView in_;
+    std::size_t at_ = 0;  // the next byte to take; may run past the end
+    std::uint64_t window_ = 0;
+    unsigned count_ = 0;  // bits of `window_` that count
+};
+
+}  // namespace
+
+std::size_t max_encoded_runs(std::size_t count) {
+    // A measured pixel takes six nibbles at most, the lengths of runs at most one
+    // for each pixel and two more.
+    return (7 * count + 2) / 2 + 1 + write_slack;
+}
+
+std::size_t encode_runs(std::span<const std::uint16_t> values, std::span<std::byte> out) {
+    assert(out.size() >= max_encoded_runs(values.size()));
+    const std::uint16_t* v = values.data();
+    const std::size_t count = values.size();
+    NibbleWriter nibbles(out.data());
+    std::uint16_t previous = 0;
+    for (std::size_t at = 0; at < count;) {
+        const std::size_t begin = end_of_zeros(v, at, count);
+        const std::size_t end = end_of_nonzeros(v, begin, count);
+        nibbles.put_number(std::uint32_t(begin - at));
+        nibbles.put_number(std::uint32_t(end - begin));
+        at = end;
+        if (begin == end)
+            break;
+
+        std::size_t i = begin;
+        if (i + 4 <= count) {
+            const Lanes here = load_lanes(v + i);
+            const unsigned some = unsigned(std::min<std::size_t>(end - i, 4));
+            put_differences(nibbles, zigzag_lanes(subtract_lanes(here, here << 16 | previous)),
+                            some);
+            i += some;
+            for (; i + 4 <= end; i += 4) {
+                const Lanes left = load_lanes(v + i - 1);
+                put_differences(nibbles, zigzag_lanes(subtract_lanes(load_lanes(v + i), left)), 4);
+            }
+            if (i < end && i + 4 <= count) {
+                const Lanes left = load_lanes(v + i - 1);
+                put_differences(nibbles, zigzag_lanes(subtract_lanes(load_lanes(v + i), left)),
+                                unsigned(end - i));
+                i = end;
+            }
+            previous = v[i - 1];
+        }
+        for (; i < end; previous = v[i++])
+            nibbles.put_number(zigzag(std::uint16_t(v[i] - previous)));
+    }
+    return nibbles.finish();
+}
+
+Status decode_runs(ByteView encoded, std::span<std::uint16_t> values) {
+    std::uint16_t* v = values.data();
+    const std::size_t count = values.size();
+    const std::size_t nibble_count = 2 * encoded.size();
+    NibbleReader nibbles(encoded);
+    std::uint16_t previous = 0;
+    Lanes zero_seen = 0;
+    for (std::size_t at = 0; at < count;) {
+        std::uint32_t zeros = 0, measured = 0;
+        if (!nibbles.get_number(std::uint32_t(count - at), zeros) ||
+            !nibbles.get_number(std::uint32_t(count - at - zeros), measured))
+            return nibbles.consumed() > nibble_count ? Status::truncated : Status::malformed;
+        // Also what follows a truncation: zeros without end.
+        if ((zeros == 0 && at > 0) || (measured == 0 && at + zeros < count))
+            return nibbles.consumed() > nibble_count ? Status::truncated : Status::malformed;
+        std::memset(v + at, 0, 2 * zeros);
+        at += zeros;
+
+        const std::size_t end = at + measured;
+        while (at < end) {
+            std::uint64_t window = nibbles.peek();
+            unsigned used = 0;
+            // Four look-ups of three nibbles fit into one window.
+            for (int i = 0; i < 4; ++i) {
+                const std::uint64_t entry = short_decodes[window & 0xfff];
+                unsigned some = numbers_in(entry);
+                if (at + 4 > count || some == 0)
+                    break;
+                const Lanes decoded = add_lanes(previous * every_lane, entry);
+                store_lanes(v + at, decoded);
+                if (end - at <= some) {
+                    some = unsigned(end - at);
+                    zero_seen |= lowest_zero_lane(decoded | ~lowest_lanes(some));
+                    used += nibbles_of(entry, some);
+                    previous = lane(decoded, some - 1);
+                    at = end;
+                    break;
+                }
+                zero_seen |= lowest_zero_lane(decoded | Lanes{1} << 48);
+                at += some;
+                previous = std::uint16_t(previous + lane(entry, 2));
+                used += unsigned(entry >> 60);
+                window >>= 4 * (entry >> 60);
+            }
+            nibbles.skip(used);
+            if (used == 0) {
+                std::uint32_t code;
+                if (!nibbles.get_number(0xffff, code))
+                    return nibbles.consumed() > nibble_count ? Status::truncated
+                                                             : Status::malformed;
+                previous = std::uint16_t(previous + unzigzag(std::uint16_t(code)));
+                zero_seen |= previous == 0 ? 1 : 0;
+                v[at++] = previous;
+            }
+        }
+    }
+    if (nibbles.consumed() > nibble_count)
+        return Status::truncated;
+    if (nibble_count - nibbles.consumed() > 1)
+        return Status::trailing_bytes;
+    const bool clean_end = nibble_count == nibbles.consumed() || (nibbles.peek() & 15) == 0;
+    return clean_end && zero_seen == 0 ? Status::ok : Status::malformed;
+}
+
+std::size_t max_encoded_size(Size size) {
+    return payload_header_size + max_encoded_runs(size.area());
+}
+
+std::size_t encode(DepthView depth, std::span<std::byte> out) {
+    assert(is_valid(depth.size) && depth.contiguous());
+    put_header({.codec = DepthCodecId::rvl, .size = depth.size}, out.data());
+    return payload_header_size +
+           encode_runs({depth.pixels, depth.size.area()}, out.subspan(payload_header_size));
+}
+
+Result<Size> read_size(ByteView encoded) {
+    const auto header = read_header(encoded, DepthCodecId::rvl, false);
+    if (!header)
+        return header.error();
+    return header->size;
+}
+
+Status decode(ByteView encoded, MutableDepthView out) {
+    assert(out.contiguous());
+    const auto size = read_size(encoded);
+    if (!size)
+        return size.error();
+    if (*size != out.size)
+        return Status::size_mismatch;
+    return decode_runs(encoded.subspan(payload_header_size), {out.pixels, out.size.area()});
+}
+
+}  // namespace theatron::codec::rvl
