@@ -51,8 +51,8 @@ public:
     virtual ~ColorEncoder() = default;
 
     // Encodes `color`, which is not empty, and returns the bytes, valid until
-    // the next call. Fails only if a camera's JPEG that must be recoded is damaged.
-    // `key`: the frame must be decodable by itself.
+    // the next call and no longer than `color` itself, whose JPEG they may be. Fails only if a
+    // camera's JPEG that must be recoded is damaged. `key`: the frame must be decodable by itself.
     virtual Result<ByteView> encode(const ColorData& color, bool key) = 0;
 };
 

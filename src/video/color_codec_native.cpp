@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cassert>
+
+#include "base/error.h"
+#include "video/color_codec.h"
+#include "video/color_raw.h"
+#include "video/color_setting.h"
+#include "video/jpeg_native.h"
+#include "video/raw_codec.h"
+
+namespace theatron::video {
+namespace {
+
+// The pixels of a camera's picture, which may come as JPEG.
+class Pixels {
+public:
+    Result<ColorView> of(const ColorData& color) {
+        if (!color.is_jpeg())
+            return color.pixels.view();
+        if (const Status s = decompressor_.decompress(color.jpeg, image_); s != Status::ok)
+            return s;
+        return std::as_const(image_).view();
+    }
+
+private:
+    JpegDecompressor decompressor_;
+    ColorImage image_;
+};
+
+class RawEncoder final : public ColorEncoder {
+public:
+    Result<ByteView> encode(const ColorData& color, bool) override {
+        const Result<ColorView> image = pixels_.of(color);
+        if (!image)
+            return image.error();
+        bytes_.resize(color_raw::encoded_size(image->size));
+        color_raw::encode(*image, bytes_);
+        return ByteView(bytes_);
+    }
+
+private:
+    Pixels pixels_;
+    Bytes bytes_;
+};
+
+class JpegEncoder final : public ColorEncoder {
+public:
+    explicit JpegEncoder(const JpegParams& params)
+        : pass_(params.pass), compressor_(params.quality, params.halve_chroma) {}
+
+    Result<ByteView> encode(const ColorData& color, bool) override {
+        if (pass_ && color.is_jpeg())
+            return ByteView(color.jpeg);
+        const Result<ColorView> image = pixels_.of(color);
+        if (!image)
+            return image.error();
+        return compressor_.compress(*image);
+    }
+
+private:
+    bool pass_;
+    Pixels pixels_;
+    JpegCompressor compressor_;
+};
+
+class JpegDecoder final : public ColorDecoder {
+public:
+    Status submit(ByteView encoded, FrameNumber frame) override {
+        ColorImage image = queue_.take_blank();
+        const Status status = decompressor_.decompress(encoded, image);
+        if (status == Status::ok)
+            queue_.put(frame, std::move(image));
+        else
+            queue_.recycle(std::move(image));
+        return status;
+    }
+    std::optional<Decoded> poll() override { return queue_.poll(); }
+    void recycle(ColorImage image) override { queue_.recycle(std::move(image)); }
+
+private:
+    JpegDecompressor decompressor_;
+    DecodedQueue queue_;
+};
+
+[[noreturn]] void refuse(ColorCodecId id) {
+    throw Error("This build has no colour codec number " + std::to_string(int(id)) + ".");
+}
+
+}  // namespace
+
+std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting) {
+    switch (setting.id) {
+        case ColorCodecId::raw:
+            return std::make_unique<RawEncoder>();
+        case ColorCodecId::jpeg: {
+            Options options = Options::parse(setting.text);
+            return std::make_unique<JpegEncoder>(take_jpeg_params(options));
+        }
+        case ColorCodecId::h264:
+            break;
+    }
+    refuse(setting.id);
+}
+
+std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id) {
+    switch (id) {
+        case ColorCodecId::raw:
+            return make_raw_decoder();
+        case ColorCodecId::jpeg:
+            return std::make_unique<JpegDecoder>();
+        case ColorCodecId::h264:
+            break;
+    }
+    refuse(id);
+}
+
+}  // namespace theatron::video

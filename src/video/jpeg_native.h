@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG pictures to pixels and back, with libjpeg-turbo. Native builds only.
+#pragma once
+
+#include <memory>
+
+#include "base/bytes.h"
+#include "base/status.h"
+#include "image/image.h"
+
+namespace theatron::video {
+
+// Decodes pictures one after the other. Not thread safe. Prints nothing.
+class JpegDecompressor {
+public:
+    JpegDecompressor();
+    ~JpegDecompressor();
+
+    // Gives `out` the picture's size and pixels, keeping its memory. Safe for
+    // untrusted input; see read_jpeg_size for what is refused. A picture whose
+    // data ends early or is damaged is refused as well. On failure the content
+    // of `out` is unspecified.
+    Status decompress(ByteView jpeg, ColorImage& out);
+
+private:
+    struct Library;
+    std::unique_ptr<Library> library_;
+};
+
+// Encodes pictures one after the other. Not thread safe.
+class JpegCompressor {
+public:
+    // `quality`: 1 to 100. `halve_chroma`: 4:2:0 rather than 4:4:4.
+    JpegCompressor(int quality, bool halve_chroma);
+    ~JpegCompressor();
+
+    // The picture's bytes, valid until the next call.
+    ByteView compress(ColorView image);
+
+private:
+    struct Library;
+    std::unique_ptr<Library> library_;
+    int quality_;
+    bool halve_chroma_;
+    Bytes bytes_;
+};
+
+}  // namespace theatron::video
