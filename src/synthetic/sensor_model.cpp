@@ -60,17 +60,18 @@ private:
     std::uint32_t key_;
 };
 
+// The hexagon as measured on the infrared image of an unbinned 640x576 frame, to
+// within two pixels; the edges of binned frames lie at half of it.
+bool inside_hexagon(float px, float py) {
+    return px > 152 - py / 1.8f && px < 514 + py / 1.8f && px > 0.6f * (py - 333) &&
+           px < 628 - 0.6f * (py - 396);
+}
+
 std::vector<float> illumination(const DepthSensorParams& params, Size size) {
     std::vector<float> share(size.area());
-    const float half_width = float(size.width) / 2;
     for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            const float dx = (float(x) + 0.5f) / half_width - 1;
-            const float dy = (float(y) + 0.5f - float(size.height) / 2) / half_width;
-            const float light = 1 - params.corner_falloff * (dx * dx + dy * dy);
-            share[std::size_t(y * size.width + x)] =
-                in_illuminated_hexagon(size, x, y) ? std::max(light, 0.05f) : 0;
-        }
+        for (int x = 0; x < size.width; ++x)
+            share[std::size_t(y * size.width + x)] = illumination_at(params, size, x, y);
     }
     return share;
 }
@@ -120,13 +121,13 @@ DepthSensorParams nfov_binned() {
     return params;
 }
 
-// Measured on the infrared image of an unbinned 640x576 frame, to within two
-// pixels; the edges of binned frames lie at half of it.
-bool in_illuminated_hexagon(Size size, int x, int y) {
-    const float px = (float(x) + 0.5f) * 640 / float(size.width);
-    const float py = (float(y) + 0.5f) * 576 / float(size.height);
-    return px > 152 - py / 1.8f && px < 514 + py / 1.8f && px > 0.6f * (py - 333) &&
-           px < 628 - 0.6f * (py - 396);
+float illumination_at(const DepthSensorParams& params, Size size, int x, int y) {
+    const float u = (float(x) + 0.5f) / float(size.width);
+    const float v = (float(y) + 0.5f) / float(size.height);
+    if (!inside_hexagon(640 * u, 576 * v))
+        return 0;
+    const float dx = 2 * u - 1, dy = (2 * v - 1) * 576 / 640;
+    return std::max(1 - params.corner_falloff * (dx * dx + dy * dy), 0.05f);
 }
 
 DepthSensor::DepthSensor(const DepthSensorParams& params, Size size, std::uint32_t seed)

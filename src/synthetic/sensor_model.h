@@ -32,13 +32,13 @@ struct DepthSensorParams {
     // one metre in front of the lens. Falls with the distance squared.
     float counts_at_1m = 2000;
     float corner_falloff = 0.6f;  // share of the light missing at half a width from the middle
-    float min_counts = 55;        // less is not measured
+    float min_counts = 45;        // less is not measured
     float max_counts = 45000;     // more saturates and is not measured
-    float counts_jitter = 0.08f;  // relative noise of the amplitude in that decision
+    float counts_jitter = 0.2f;   // relative noise of the amplitude in that decision
 
     // Variance of one measurement: shot_mm2 / counts + read_mm2 / counts^2.
-    float shot_mm2 = 130;
-    float read_mm2 = 26000;
+    float shot_mm2 = 150;
+    float read_mm2 = 36000;
     float noise_radius_px = 1.5f;    // the sensor's own smoothing
     float noise_white_share = 0.2f;  // of the variance, without neighbours in common
 
@@ -99,9 +99,9 @@ private:
     std::vector<std::uint8_t> near_edge_;       // one row
 };
 
-// Whether the light of the camera reaches this pixel: the hexagon of the narrow field
-// of view.
-bool in_illuminated_hexagon(Size size, int x, int y);
+// Share of the camera's light that reaches this pixel: 1 in the middle, 0 outside the
+// hexagon of the narrow field of view.
+float illumination_at(const DepthSensorParams& params, Size size, int x, int y);
 
 struct ColorSensorParams {
     float exposure_stops = 0.12f;  // deviation between cameras
