@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synthetic/sensor_scene.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+namespace theatron::synthetic {
+
+DepthImage read_png16(const std::filesystem::path& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               std::fclose);
+    if (!file)
+        throw std::runtime_error("cannot open " + path.string());
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file.get());
+    png_read_info(png, info);
+    if (png_get_bit_depth(png, info) != 16 || png_get_channels(png, info) != 1)
+        throw std::runtime_error("not a 16-bit grey picture: " + path.string());
+    png_set_swap(png);
+    DepthImage image({int(png_get_image_width(png, info)), int(png_get_image_height(png, info))});
+    for (int y = 0; y < image.size.height; ++y)
+        png_read_row(png, reinterpret_cast<png_bytep>(image.view().row(y)), nullptr);
+    png_destroy_read_struct(&png, &info, nullptr);
+    return image;
+}
+
+namespace {
+
+constexpr float mm_per_m = 1000;
+
+// Solves the normal equations m p = r of six parameters; false if they are singular.
+bool solve(std::array<std::array<double, 7>, 6>& m) {
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (m[i][i] < 1e-6)
+            return false;
+        for (std::size_t k = i + 1; k < 6; ++k) {
+            const double factor = m[k][i] / m[i][i];
+            for (std::size_t c = i; c < 7; ++c)
+                m[k][c] -= factor * m[i][c];
+        }
+    }
+    for (std::size_t i = 6; i-- > 0;) {
+        for (std::size_t c = i + 1; c < 6; ++c)
+            m[i][6] -= m[i][c] * m[c][6];
+        m[i][6] /= m[i][i];
+    }
+    return true;
+}
+
+// The depth of one pixel, from a curved surface fitted to those around it that
+// belong to the same surface.
+float smoothed(View<const float> depth, int x, int y) {
+    constexpr int radius = 4;
+    const float own = depth.row(y)[x];
+    const float same_surface = 15 + 0.012f * own;
+    std::array<std::array<double, 7>, 6> m{};
+    int n = 0;
+    for (int dy = -radius; dy <= radius; ++dy) {
+        for (int dx = -radius; dx <= radius; ++dx) {
+            if (x + dx < 0 || x + dx >= depth.size.width || y + dy < 0 ||
+                y + dy >= depth.size.height)
+                continue;
+            const float z = depth.row(y + dy)[x + dx];
+            if (z == 0 || std::abs(z - own) > same_surface)
+                continue;
+            const double u = dx, v = dy;
+            const std::array<double, 7> row{1, u, v, u * u, u * v, v * v, z - own};
+            for (std::size_t i = 0; i < 6; ++i) {
+                for (std::size_t c = i; c < 7; ++c)
+                    m[i][c] += row[i] * row[c];
+            }
+            ++n;
+        }
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t c = 0; c < i; ++c)
+            m[i][c] = m[c][i];
+    }
+    return n >= 20 && solve(m) ? own + float(m[0][6]) : own;
+}
+
+using Mask = Image<std::uint8_t>;
+
+Image<float> neighbourhood_mean(const Image<float>& in) {
+    Image<float> out(in.size);
+    const auto [width, height] = in.size;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            float sum = 0;
+            for (int dy = -1; dy <= 1; ++dy) {
+                for (int dx = -1; dx <= 1; ++dx)
+                    sum += in.view().row(
+                        std::clamp(y + dy, 0, height - 1))[std::clamp(x + dx, 0, width - 1)];
+            }
+            out.view().row(y)[x] = sum / 9;
+        }
+    }
+    return out;
+}
+
+// Holes of three pixels across and more: dark or dazzling surfaces, not edges.
+Mask wide_holes(const Image<float>& valid) {
+    Image<float> inner(valid.size);
+    const Image<float> mean = neighbourhood_mean(valid);
+    for (std::size_t i = 0; i < inner.pixels.size(); ++i)
+        inner.pixels[i] = mean.pixels[i] == 0;
+    const Image<float> grown = neighbourhood_mean(inner);
+    Mask wide(valid.size);
+    for (std::size_t i = 0; i < wide.pixels.size(); ++i)
+        wide.pixels[i] = grown.pixels[i] > 0;
+    return wide;
+}
+
+// What is known of a scene before it becomes surfaces.
+struct Estimate {
+    Image<float> depth_mm;  // 0 = not measured
+    Image<float> valid;     // share of the frames in which it was measured
+    Image<float> counts;    // amplitude
+};
+
+// Gives narrow holes the surface beside them: the model has to find edges itself.
+void fill_holes(Estimate& e) {
+    const auto [width, height] = e.depth_mm.size;
+    for (int pass = 0; pass < 3; ++pass) {
+        const Estimate before = e;
+        for (int y = 1; y + 1 < height; ++y) {
+            for (int x = 1; x + 1 < width; ++x) {
+                const int at = y * width + x;
+                if (before.depth_mm.pixels[std::size_t(at)] > 0)
+                    continue;
+                // In turn from either side, so that neither surface grows.
+                const int side = (x + y) % 2 ? 1 : -1;
+                for (const int offset : {side, side * width, -side, -side * width}) {
+                    const std::size_t from = std::size_t(at + offset);
+                    if (before.depth_mm.pixels[from] == 0)
+                        continue;
+                    e.depth_mm.pixels[std::size_t(at)] = before.depth_mm.pixels[from];
+                    e.counts.pixels[std::size_t(at)] = before.counts.pixels[from];
+                    break;
+                }
+            }
+        }
+    }
+}
+
+bool at_step(const Image<float>& depth_mm, int x, int y) {
+    float nearest = 1e9f, farthest = 0;
+    for (int dy = -2; dy <= 2; ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+            const int px = std::clamp(x + dx, 0, depth_mm.size.width - 1);
+            const float z =
+                depth_mm.view().row(std::clamp(y + dy, 0, depth_mm.size.height - 1))[px];
+            if (z == 0)
+                continue;
+            nearest = std::min(nearest, z);
+            farthest = std::max(farthest, z);
+        }
+    }
+    return farthest - nearest > 60 + 0.03f * nearest;
+}
+
+Scene scene_from(Estimate e, const DepthSensorParams& params) {
+    const Size size = e.depth_mm.size;
+    const Mask dark = wide_holes(e.valid);
+    const Image<float> validity = neighbourhood_mean(e.valid);
+    const Image<float> measured = e.depth_mm;
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            if (measured.view().row(y)[x] > 0)
+                e.depth_mm.view().row(y)[x] = smoothed(measured.view(), x, y);
+        }
+    }
+    fill_holes(e);
+
+    Scene scene;
+    for (Image<float>* image : {&scene.depth_m, &scene.reflectivity, &scene.cos_incidence})
+        image->resize(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = std::size_t(y * size.width + x);
+            const float z = e.depth_mm.pixels[i] / mm_per_m;
+            float counts = e.counts.pixels[i];
+            if (dark.pixels[i])
+                counts = 0;
+            else if (validity.pixels[i] < 1 && !at_step(e.depth_mm, x, y))
+                counts = std::min(counts, 2 * params.min_counts * validity.pixels[i]);
+            const float light = illumination_at(params, size, x, y);
+            scene.depth_m.pixels[i] = z;
+            scene.cos_incidence.pixels[i] = 1;
+            scene.reflectivity.pixels[i] =
+                light > 0 ? counts * z * z / (params.counts_at_1m * light) : 0;
+        }
+    }
+    return scene;
+}
+
+// The variance of the noise around a pixel, from those on the same surface.
+float variance_around(const DepthImage& first, const DepthImage& second, int x, int y) {
+    constexpr int radius = 6;
+    const int own = std::max(first.view().row(y)[x], second.view().row(y)[x]);
+    double sum = 0;
+    int n = 0;
+    for (int py = std::max(y - radius, 0); py <= std::min(y + radius, first.size.height - 1);
+         ++py) {
+        for (int px = std::max(x - radius, 0); px <= std::min(x + radius, first.size.width - 1);
+             ++px) {
+            const int a = first.view().row(py)[px], b = second.view().row(py)[px];
+            if (a == 0 || b == 0 || std::abs(b - a) > 12 || std::abs(a - own) > own / 20)
+                continue;
+            sum += (b - a) * (b - a);
+            ++n;
+        }
+    }
+    // Both frames are rounded to millimetres, which adds 1/12 each.
+    return n > 8 ? std::max(float(sum / n) / 2 - 1 / 12.0f, 0.03f) : 4.0f;
+}
+
+}  // namespace
+
+Scene scene_from_pair(const DepthImage& first, const DepthImage& second,
+                      const DepthSensorParams& params) {
+    const Size size = first.size;
+    Estimate e{Image<float>(size), Image<float>(size), Image<float>(size)};
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = std::size_t(y * size.width + x);
+            const float a = first.pixels[i], b = second.pixels[i];
+            const int frames = (a > 0) + (b > 0);
+            if (frames == 0)
+                continue;
+            e.valid.pixels[i] = float(frames) / 2;
+            e.depth_mm.pixels[i] = (a + b) / float(frames);
+            // The model's variance, solved for the amplitude.
+            const float v = variance_around(first, second, x, y);
+            const float root =
+                std::sqrt(params.shot_mm2 * params.shot_mm2 + 4 * v * params.read_mm2);
+            e.counts.pixels[i] =
+                std::max((params.shot_mm2 + root) / (2 * v), 1.5f * params.min_counts);
+        }
+    }
+    return scene_from(std::move(e), params);
+}
+
+Scene scene_from_infrared(const DepthImage& depth, const DepthImage& infrared,
+                          const DepthSensorParams& params) {
+    const Size size = depth.size;
+    Estimate e{Image<float>(size), Image<float>(size), Image<float>(size)};
+    for (std::size_t i = 0; i < size.area(); ++i) {
+        e.depth_mm.pixels[i] = depth.pixels[i];
+        e.valid.pixels[i] = depth.pixels[i] > 0;
+        e.counts.pixels[i] = infrared.pixels[i];
+    }
+    e.counts = neighbourhood_mean(e.counts);
+    return scene_from(std::move(e), params);
+}
+
+}  // namespace theatron::synthetic
