@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/cloud_passes.h"
+
+#include "render/matrix.h"
+
+namespace theatron::render {
+namespace {
+
+// `Camera` in cloud.glsl, in the layout std140.
+struct CameraUniforms {
+    float clip_from_camera[16];
+    float color_from_camera[16];
+    float color_pinhole[4];
+    float color_radial[4];
+    float color_more[4];
+    float color_image[4];
+    float depth_image[4];
+};
+static_assert(sizeof(CameraUniforms) == 208);
+
+void put(float (&out)[16], const Mat4& matrix) {
+    for (std::size_t i = 0; i < 16; ++i)
+        out[i] = float(matrix.m[i]);
+}
+
+void put(float (&out)[4], double x, double y, double z, double w) {
+    out[0] = float(x);
+    out[1] = float(y);
+    out[2] = float(z);
+    out[3] = float(w);
+}
+
+CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
+    const Calibration& calibration = source.calibration;
+    const Pose eye_from_camera = inverse(view.room_from_eye) * room_from_camera(calibration);
+    CameraUniforms u{};
+    put(u.clip_from_camera, projection(view) * matrix(eye_from_camera));
+    put(u.color_from_camera, matrix(calibration.color_from_depth));
+    // Without a colour picture its size stays 0 and everything lies outside.
+    if (source.color_size != Size{} && calibration.color.size != Size{}) {
+        const CameraModel color = scaled(calibration.color, source.color_size);
+        put(u.color_pinhole, color.fx, color.fy, color.cx, color.cy);
+        put(u.color_radial, color.k[0], color.k[1], color.k[2], color.k[3]);
+        put(u.color_more, color.k[4], color.k[5], color.p1, color.p2);
+        put(u.color_image, color.size.width, color.size.height, color.max_radius, 0);
+    }
+    const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
+    put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
+    return u;
+}
+
+class SplatPass final : public CloudPass {
+public:
+    void draw(const CloudFrame& frame) override {
+        const Size size = frame.textures.depth_size();
+        program_.use();
+        glUniform1i(columns_, size.width);
+        glUniform1f(pixels_per_tan_, float(pixels_per_tan(frame)));
+        // Below 2, a point covers no neighbour's pixel in the camera's own picture.
+        glUniform1f(point_scale_, 1.5f);
+        glDrawArraysInstanced(GL_POINTS, 0, GLsizei(size.area()),
+                              GLsizei(frame.textures.sources().size()));
+    }
+
+private:
+    Program program_ = make_cloud_program(
+        {"cloud.glsl", "splat.vert"}, {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"});
+    GLint columns_ = program_.uniform("columns");
+    GLint pixels_per_tan_ = program_.uniform("pixels_per_tan");
+    GLint point_scale_ = program_.uniform("point_scale");
+};
+
+// Two triangles for each cell of the image. The last corner of both is the
+// cell's upper left one: it is the provoking vertex, see mesh.vert.
+std::vector<GLuint> grid_indices(Size size) {
+    std::vector<GLuint> indices;
+    indices.reserve(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
+    const auto at = [&](int x, int y) { return GLuint(y * size.width + x); };
+    // In upright strips, so that a row's vertices are still at hand for the next row.
+    constexpr int strip = 16;
+    for (int first = 0; first + 1 < size.width; first += strip)
+        for (int y = 0; y + 1 < size.height; ++y)
+            for (int x = first; x < first + strip && x + 1 < size.width; ++x) {
+                const GLuint cell[] = {at(x + 1, y),     at(x + 1, y + 1), at(x, y),
+                                       at(x + 1, y + 1), at(x, y + 1),     at(x, y)};
+                indices.insert(indices.end(), std::begin(cell), std::end(cell));
+            }
+    return indices;
+}
+
+class MeshPass final : public CloudPass {
+public:
+    void draw(const CloudFrame& frame) override {
+        const Size size = frame.textures.depth_size();
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, grid_.name());
+        if (size != grid_size_) {
+            const std::vector<GLuint> indices = grid_indices(size);
+            glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLuint)),
+                         indices.data(), GL_STATIC_DRAW);
+            grid_size_ = size;
+            count_ = GLsizei(indices.size());
+        }
+        program_.use();
+        glUniform1i(columns_, size.width);
+        glDrawElementsInstanced(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr,
+                                GLsizei(frame.textures.sources().size()));
+    }
+
+private:
+    Program program_ = make_cloud_program({"cloud.glsl", "mesh.vert"},
+                                          {"cloud.glsl", "color.glsl", "output.glsl", "mesh.frag"});
+    GLint columns_ = program_.uniform("columns");
+    Buffer grid_;
+    Size grid_size_;
+    GLsizei count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<CloudPass> make_splat_pass() {
+    return std::make_unique<SplatPass>();
+}
+
+std::unique_ptr<CloudPass> make_mesh_pass() {
+    return std::make_unique<MeshPass>();
+}
+
+void CameraBlock::bind(const CloudFrame& frame) const {
+    std::vector<CameraUniforms> block;
+    for (const auto& [id, source] : frame.textures.sources())
+        block.push_back(uniforms(source, frame.view));
+    block.resize(max_cameras);  // shaders expect the whole array behind the binding
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer_.name());
+    glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(block.size() * sizeof(CameraUniforms)), block.data(),
+                 GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer_.name());
+    frame.textures.bind();
+}
+
+Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
+    Program program(vertex, fragment);
+    program.set_sampler("depth_images", 0);
+    program.set_sampler("ray_tables", 1);
+    program.set_sampler("color_images", 2);
+    program.bind_block("Cameras", CameraBlock::binding);
+    return program;
+}
+
+double pixels_per_tan(const CloudFrame& frame) {
+    return frame.target.size.width / (frame.view.right - frame.view.left);
+}
+
+}  // namespace theatron::render

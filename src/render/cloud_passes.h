@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes that draw clouds: one object per way of drawing, which holds its
+// programs, and a draw call over a description of the frame.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string_view>
+
+#include "render/cloud_scene.h"
+#include "render/cloud_textures.h"
+#include "render/gl.h"
+
+namespace theatron::render {
+
+// One look at the clouds.
+struct CloudFrame {
+    const CloudTextures& textures;
+    const CameraView& view;
+    DrawTarget target;
+};
+
+class CloudPass {
+public:
+    virtual ~CloudPass() = default;
+    // Target, depth test and masks are set; draws over what is there.
+    virtual void draw(const CloudFrame& frame) = 0;
+};
+
+std::unique_ptr<CloudPass> make_splat_pass();
+std::unique_ptr<CloudPass> make_mesh_pass();
+
+// The calibrations of a frame's cameras as the shaders read them (cloud.glsl).
+class CameraBlock {
+public:
+    static constexpr unsigned binding = 0;
+    // Uploads and binds the block, and the textures. The cameras are in the order of
+    // textures.sources().
+    void bind(const CloudFrame& frame) const;
+
+private:
+    Buffer buffer_;
+};
+
+// A program with cloud.glsl in it: its samplers and block bound as
+// CloudTextures::bind and CameraBlock::bind do.
+Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
+
+// Picture pixels per unit of the tangent, at the middle of the view.
+double pixels_per_tan(const CloudFrame& frame);
+
+}  // namespace theatron::render

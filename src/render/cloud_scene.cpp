@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/cloud_scene.h"
+
+#include <optional>
+
+#include "base/error.h"
+#include "render/cloud_passes.h"
+#include "render/cloud_textures.h"
+#include "render/render_target.h"
+
+namespace theatron::render {
+namespace {
+
+struct NamedPass {
+    const char* name;
+    std::unique_ptr<CloudPass> (*make)();
+};
+
+constexpr NamedPass passes[] = {{"splat", make_splat_pass}, {"mesh", make_mesh_pass}};
+
+constexpr Rgb background{32, 34, 38};
+
+}  // namespace
+
+const std::vector<std::string>& renderer_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const NamedPass& pass : passes)
+            all.push_back(pass.name);
+        return all;
+    }();
+    return names;
+}
+
+void check_renderer_name(std::string_view name) {
+    std::string choices;
+    for (const std::string& known : renderer_names()) {
+        if (known == name)
+            return;
+        choices += (choices.empty() ? "" : ", ") + known;
+    }
+    throw Error("There is no renderer \"" + std::string(name) + "\": choose one of " + choices +
+                ".");
+}
+
+struct CloudScene::Parts {
+    CloudTextures textures;
+    CameraBlock cameras;
+    // Core profiles draw nothing without one, though no attributes are used.
+    VertexArray no_attributes;
+    std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
+    std::optional<RenderTarget> picture;
+
+    CloudPass& pass(std::string_view name) {
+        check_renderer_name(name);
+        auto known = passes.find(name);
+        if (known == passes.end())
+            for (const NamedPass& candidate : render::passes)
+                if (candidate.name == name)
+                    known = passes.emplace(name, candidate.make()).first;
+        return *known->second;
+    }
+};
+
+CloudScene::CloudScene() : parts_(std::make_unique<Parts>()) {}
+CloudScene::~CloudScene() = default;
+CloudScene::CloudScene(CloudScene&&) noexcept = default;
+CloudScene& CloudScene::operator=(CloudScene&&) noexcept = default;
+
+void CloudScene::set_camera(CameraId camera, const Calibration& calibration) {
+    parts_->textures.set_camera(camera, calibration);
+}
+
+void CloudScene::remove_camera(CameraId camera) {
+    parts_->textures.remove_camera(camera);
+}
+
+Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
+    return parts_->textures.upload(camera, depth, color);
+}
+
+void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::string_view renderer) {
+    CloudPass& pass = parts_->pass(renderer);
+    if (parts_->textures.sources().empty())
+        return;
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    glViewport(target.x, target.y, target.size.width, target.size.height);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
+#ifndef __EMSCRIPTEN__
+    if (epoxy_is_desktop_gl())
+        glEnable(GL_PROGRAM_POINT_SIZE);  // always on in ES
+#endif
+    glBindVertexArray(parts_->no_attributes.name());
+    const CloudFrame frame{parts_->textures, view, target};
+    parts_->cameras.bind(frame);
+    pass.draw(frame);
+    glBindVertexArray(0);
+}
+
+Picture CloudScene::render(const CameraView& view, Size size, std::string_view renderer) {
+    check_renderer_name(renderer);
+    if (!parts_->picture || parts_->picture->size() != size)
+        parts_->picture.emplace(size);
+    parts_->picture->clear(background);
+    draw(view, parts_->picture->target(), renderer);
+    return parts_->picture->read();
+}
+
+}  // namespace theatron::render

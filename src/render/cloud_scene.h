@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The live clouds: what the cameras see, kept on the GPU and drawn from any side.
+//
+// Depth and colour stay images: points come into being in the vertex shader, from
+// the depth texture, a table of rays and the calibration. No GL type appears
+// here, so that every other folder may include this file.
+//
+// All functions need the GL context current in which the scene was made, also
+// the destructor.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/status.h"
+#include "geometry/calibration.h"
+#include "image/image.h"
+#include "render/camera_view.h"
+
+namespace theatron::render {
+
+// At most so many cameras are in one scene.
+inline constexpr int max_cameras = 16;
+
+// A part of a framebuffer: the one with this GL name (0 is the window's), and in
+// it the rectangle whose lower left corner is (x, y).
+struct DrawTarget {
+    unsigned framebuffer = 0;
+    int x = 0, y = 0;
+    Size size;
+};
+
+// A picture read back. `depth_mm` is the distance along the view's axis in
+// millimetres, 0 where no cloud was drawn and beyond 65 m.
+struct Picture {
+    ColorImage color;
+    DepthImage depth_mm;
+};
+
+// The ways to draw, simplest first: "splat" (a point for each depth pixel, sized by
+// its distance), "mesh" (the depth image as a grid, torn where it jumps).
+const std::vector<std::string>& renderer_names();
+
+// Throws an Error that names the choices if there is no such renderer.
+void check_renderer_name(std::string_view name);
+
+class CloudScene {
+public:
+    // Throws Error where the context lacks what the shaders need.
+    CloudScene();
+    ~CloudScene();
+    CloudScene(CloudScene&&) noexcept;
+    CloudScene& operator=(CloudScene&&) noexcept;
+
+    // Adds a camera or changes its calibration. Changing only where it stands
+    // is cheap; a new lens costs some tens of milliseconds, and another image size
+    // also the camera's picture. Throws Error beyond max_cameras.
+    void set_camera(CameraId camera, const Calibration& calibration);
+    void remove_camera(CameraId camera);
+
+    // Takes a camera's newest images; both may be freed afterwards. `color` may
+    // be empty (no pixels: the last one stays, grey if there was none) and of any size:
+    // it is a scaled picture of the calibrated colour camera.
+    // size_mismatch: depth is not of the calibrated size, or there is no such
+    // camera; nothing was changed.
+    Status upload(CameraId camera, DepthView depth, ColorView color);
+
+    // Draws all clouds over what the target holds, tested against its depth. Color goes
+    // to the first draw buffer, millimetres to the second (an unsigned integer
+    // one), if there is one. Throws Error if there is no such renderer.
+    void draw(const CameraView& view, const DrawTarget& target, std::string_view renderer);
+
+    // The clouds alone before a dark background, read back: slow, waits for the GPU.
+    Picture render(const CameraView& view, Size size, std::string_view renderer);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::render

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/cloud_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "render/test_context.h"
+
+namespace theatron::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr CameraId first_camera{0}, second_camera{7};
+constexpr std::uint16_t wall_mm = 2000, step_mm = 1200;
+
+// A wall with a nearer board in front of it, and a hole in the board.
+bool on_board(int x, int y) {
+    return x >= 30 && x < 60 && y >= 20 && y < 50;
+}
+bool in_hole(int x, int y) {
+    return x >= 40 && x < 46 && y >= 30 && y < 36;
+}
+DepthImage wall_and_board(Size size) {
+    DepthImage depth(size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            depth.view().row(y)[x] = in_hole(x, y) ? 0 : on_board(x, y) ? step_mm : wall_mm;
+    return depth;
+}
+
+// Colour that tells its column (red) and row (green); at most 256 a side.
+ColorImage position_colors(Size size) {
+    ColorImage color(size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            color.view().row(y)[x] = {std::uint8_t(x), std::uint8_t(y), 128};
+    return color;
+}
+
+// Depth and colour camera are one pinhole.
+Calibration simple_calibration(Size size = {96, 72}) {
+    Calibration calibration;
+    calibration.depth = pinhole(size, 60);
+    calibration.color = calibration.depth;
+    calibration.registered = true;
+    calibration.room_from_camera = {Quat{0, 1, 0, 0}, Vec3{0.2, 1.4, 0.3}};
+    return calibration;
+}
+
+// A colour camera as on real devices: beside the depth camera, turned a little, with
+// a distorting lens and more pixels.
+Calibration real_calibration() {
+    Calibration calibration = simple_calibration();
+    calibration.depth.k = {0.2, -0.05, 0.01, 0.1, 0.02, 0};
+    calibration.color = pinhole({256, 144}, 80);
+    calibration.color.k = {0.12, -0.08, 0.01, 0, 0, 0};
+    calibration.color.p1 = 0.001;
+    calibration.color.p2 = -0.002;
+    calibration.color_from_depth = {rotation_about({1, 0.2, 0}, 0.05), {-0.032, -0.002, 0.004}};
+    return calibration;
+}
+
+CameraView own_view(const Calibration& calibration) {
+    return view_of_camera(calibration.depth, room_from_camera(calibration), calibration.depth.size);
+}
+
+class CloudSceneTest : public ::testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        test_context();
+        scene = std::make_unique<CloudScene>();
+    }
+    void TearDown() override {
+        scene.reset();
+        EXPECT_EQ(test_context().errors(), errors_before) << test_context().first_error();
+    }
+
+    // Shows one camera with the step scene and colours that tell positions.
+    void show(const Calibration& calibration) {
+        scene->set_camera(first_camera, calibration);
+        ASSERT_EQ(scene->upload(first_camera, wall_and_board(calibration.depth.size).view(),
+                                position_colors(calibration.color.size).view()),
+                  Status::ok);
+    }
+    Picture render(const CameraView& view, Size size = {96, 72}) {
+        return scene->render(view, size, GetParam());
+    }
+
+    const int errors_before = test_context().errors();
+    std::unique_ptr<CloudScene> scene;
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryRenderer, CloudSceneTest, ::testing::ValuesIn(renderer_names()),
+                         [](const auto& test) { return test.param; });
+
+// Pixels at a step or at a hole may belong to either side.
+bool near_an_edge(int x, int y) {
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (on_board(x + dx, y + dy) != on_board(x, y) ||
+                in_hole(x + dx, y + dy) != in_hole(x, y))
+                return true;
+    return false;
+}
+
+TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheDepthIsTheDepthImage) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const DepthImage expected = wall_and_board(calibration.depth.size);
+    const DepthImage drawn = render(own_view(calibration)).depth_mm;
+    for (int y = 1; y + 1 < drawn.size.height; ++y)
+        for (int x = 1; x + 1 < drawn.size.width; ++x)
+            if (!near_an_edge(x, y)) {
+                ASSERT_NEAR(drawn.view().row(y)[x], expected.view().row(y)[x], 1)
+                    << "at " << x << ", " << y;
+            }
+}
+
+TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheColorIsNotShifted) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const ColorImage expected = position_colors(calibration.color.size);
+    const ColorImage drawn = render(own_view(calibration)).color;
+    for (int y = 1; y + 1 < drawn.size.height; ++y)
+        for (int x = 1; x + 1 < drawn.size.width; ++x)
+            if (!near_an_edge(x, y) && !in_hole(x, y)) {
+                const Rgb want = expected.view().row(y)[x], got = drawn.view().row(y)[x];
+                ASSERT_NEAR(got.r, want.r, 1) << "at " << x << ", " << y;
+                ASSERT_NEAR(got.g, want.g, 1) << "at " << x << ", " << y;
+                ASSERT_EQ(got.b, 128);
+            }
+}
+
+TEST_P(CloudSceneTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
+    const Calibration calibration = real_calibration();
+    show(calibration);
+    CameraModel eye = calibration.depth;  // without its distortion: what the view shows
+    eye.k = {};
+    const Picture drawn = render(own_view(calibration));
+    const DepthImage depth = wall_and_board(calibration.depth.size);
+    int compared = 0;
+    double sum_x = 0, sum_y = 0;  // a point's place within its pixel evens out, a shift does not
+    for (int y = 2; y < 70; ++y)
+        for (int x = 2; x < 94; ++x) {
+            const double z = drawn.depth_mm.view().row(y)[x] / 1000.0;
+            const Vec2 ray = unproject(eye, {double(x), double(y)}).value();
+            const Vec3 point{ray.x * z, ray.y * z, z};
+            const auto source = project(calibration.depth, point);
+            if (!source || near_an_edge(int(std::lround(source->x)), int(std::lround(source->y))))
+                continue;
+            EXPECT_NEAR(depth.view().row(int(std::lround(source->y)))[std::lround(source->x)],
+                        z * 1000, 1);
+            const Vec2 expected =
+                project(calibration.color, calibration.color_from_depth * point).value();
+            if (expected.x < 3 || expected.x > 252 || expected.y < 3 || expected.y > 140)
+                continue;
+            const Rgb got = drawn.color.view().row(y)[x];
+            const double error_x = got.r - expected.x, error_y = got.g - expected.y;
+            // One pixel of the depth camera is up to two of the colour camera.
+            ASSERT_NEAR(error_x, 0, 2.2) << "at " << x << ", " << y;
+            ASSERT_NEAR(error_y, 0, 2.2) << "at " << x << ", " << y;
+            sum_x += error_x;
+            sum_y += error_y;
+            ++compared;
+        }
+    EXPECT_GT(compared, 4500);
+    // Where splats overlap at equal depth the first one, to the upper left, wins.
+    EXPECT_NEAR(sum_x / compared, 0, 0.5);
+    EXPECT_NEAR(sum_y / compared, 0, 0.5);
+}
+
+TEST_P(CloudSceneTest, HolesStayHoles) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const Picture drawn = render(own_view(calibration));
+    for (int y = 31; y < 35; ++y)
+        for (int x = 41; x < 45; ++x) {
+            EXPECT_EQ(drawn.depth_mm.view().row(y)[x], 0);
+            EXPECT_EQ(drawn.color.view().row(y)[x], drawn.color.view().row(32)[42]);
+        }
+}
+
+TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const CameraView side =
+        orbited(own_view(calibration),
+                point_of_interest(calibration, wall_and_board({96, 72}).view()), 50, 0);
+    const Picture drawn = render(side, {192, 144});
+    // Each drawn pixel, carried back to the camera, lies on one of the two planes.
+    const Pose camera_from_eye = inverse(room_from_camera(calibration)) * side.room_from_eye;
+    int on_planes = 0, between = 0;
+    for (int y = 0; y < 144; ++y)
+        for (int x = 0; x < 192; ++x) {
+            const double z = drawn.depth_mm.view().row(y)[x] / 1000.0;
+            if (z == 0)
+                continue;
+            const double tx = side.left + (side.right - side.left) * (x + 0.5) / 192;
+            const double ty = side.top + (side.bottom - side.top) * (y + 0.5) / 144;
+            const double depth = (camera_from_eye * Vec3{tx * z, ty * z, z}).z;
+            // A splat faces the viewer, so its rim leaves the plane by its radius.
+            const bool on_plane = std::abs(depth - 1.2) < 0.03 || std::abs(depth - 2) < 0.03;
+            ++(on_plane ? on_planes : between);
+        }
+    EXPECT_GT(on_planes, 5000);
+    EXPECT_EQ(between, 0);
+}
+
+TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const Size size{384, 288};
+    const CameraView side = orbited(own_view(calibration), {0.2, 1.4, -1.0}, -25, 15);
+    const Picture drawn = render(side, size);
+    // The board's upper right corner: leaving it to the right the depth jumps to the wall.
+    const Vec2 ray = unproject(calibration.depth, {59, 20}).value();
+    const Vec3 corner = room_from_camera(calibration) * Vec3{ray.x * 1.2, ray.y * 1.2, 1.2};
+    const Vec3 eye = inverse(side.room_from_eye) * corner;
+    const double x = (eye.x / eye.z - side.left) / (side.right - side.left) * size.width;
+    const double y = (eye.y / eye.z - side.top) / (side.bottom - side.top) * size.height;
+    const auto depth_at = [&](double dx, double dy) {
+        return int(drawn.depth_mm.view().row(int(y + dy))[int(x + dx)]);
+    };
+    // One pixel of the camera is about five here.
+    EXPECT_NEAR(depth_at(-4, 4), eye.z * 1000, 25);
+    EXPECT_GT(std::abs(depth_at(8, 4) - eye.z * 1000), 300);
+    EXPECT_GT(std::abs(depth_at(-4, -8) - eye.z * 1000), 300);
+}
+
+TEST_P(CloudSceneTest, MovingACameraInTheRoomMovesItsPicture) {
+    Calibration calibration = simple_calibration();
+    show(calibration);
+    const CameraView view = own_view(calibration);
+    const DepthImage before = render(view).depth_mm;
+    calibration.room_from_camera.translation.z -= 0.5;  // away from the viewer
+    scene->set_camera(first_camera, calibration);
+    const DepthImage after = render(view).depth_mm;
+    EXPECT_EQ(before.view().row(36)[48], step_mm);
+    EXPECT_EQ(after.view().row(36)[48], step_mm + 500);
+    EXPECT_EQ(after.view().row(0)[0], 0) << "the picture became smaller";
+}
+
+TEST_P(CloudSceneTest, CamerasOfDifferentSizesAreDrawnTogether) {
+    const Calibration near = simple_calibration();
+    Calibration far = simple_calibration({160, 40});
+    far.room_from_camera.translation.x += 40;
+    show(near);
+    scene->set_camera(second_camera, far);  // moves the first to larger textures
+    DepthImage flat(far.depth.size);
+    flat.pixels.assign(flat.size.area(), 1500);
+    ASSERT_EQ(scene->upload(second_camera, flat.view(), {}), Status::ok);
+
+    EXPECT_EQ(render(own_view(near)).depth_mm.view().row(10)[10], wall_mm);
+    const Picture second = render(own_view(far), far.depth.size);
+    EXPECT_EQ(second.depth_mm.view().row(20)[80], 1500);
+    EXPECT_EQ(second.color.view().row(20)[80], (Rgb{102, 102, 102})) << "grey without colour";
+
+    scene->remove_camera(first_camera);
+    EXPECT_EQ(render(own_view(near)).depth_mm.view().row(10)[10], 0);
+    EXPECT_EQ(render(own_view(far), far.depth.size).depth_mm.view().row(20)[80], 1500);
+}
+
+TEST_P(CloudSceneTest, DepthUnitsAreThoseOfTheCalibration) {
+    Calibration calibration = simple_calibration();
+    calibration.depth_unit_mm = 0.25;
+    show(calibration);
+    EXPECT_EQ(render(own_view(calibration)).depth_mm.view().row(10)[10], wall_mm / 4);
+}
+
+TEST(CloudScene, RefusesImagesOfAnotherSizeThanCalibrated) {
+    test_context();
+    CloudScene scene;
+    const DepthImage depth({64, 48});
+    EXPECT_EQ(scene.upload(first_camera, depth.view(), {}), Status::size_mismatch);
+    scene.set_camera(first_camera, simple_calibration());
+    EXPECT_EQ(scene.upload(first_camera, depth.view(), {}), Status::size_mismatch);
+}
+
+TEST(CloudScene, AnUnknownRendererIsAnsweredWithTheChoices) {
+    try {
+        check_renderer_name("raytrace");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("\"raytrace\""));
+        for (const std::string& name : renderer_names())
+            EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+}
+
+TEST(CloudScene, AnEmptySceneIsItsBackground) {
+    test_context();
+    CloudScene scene;
+    const Picture picture = scene.render({}, {4, 4}, "mesh");
+    EXPECT_EQ(picture.depth_mm.pixels, std::vector<std::uint16_t>(16, 0));
+    EXPECT_EQ(picture.color.pixels.front(), picture.color.pixels.back());
+}
+
+}  // namespace
+}  // namespace theatron::render

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/cloud_textures.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "render/cloud_scene.h"
+
+namespace theatron::render {
+namespace {
+
+Size larger(Size a, Size b) {
+    return {std::max(a.width, b.width), std::max(a.height, b.height)};
+}
+
+Texture make_array(GLenum format, Size size, int layers, GLint filter) {
+    Texture texture;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, format, size.width, size.height, layers);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+template <class Image>
+void upload_layer(const Texture& texture, int layer, Image image, GLenum format, GLenum type) {
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, GLint(image.stride));
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, image.size.width, image.size.height, 1,
+                    format, type, image.pixels);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+void clear_depth(const Texture& texture, Size size, int layer) {
+    const DepthImage nothing(size);
+    upload_layer(texture, layer, nothing.view(), GL_RED_INTEGER, GL_UNSIGNED_SHORT);
+}
+
+}  // namespace
+
+void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) {
+    const auto known = sources_.find(camera);
+    if (known != sources_.end() && known->second.calibration.depth == calibration.depth) {
+        known->second.calibration = calibration;
+        return;
+    }
+    if (known == sources_.end() && sources_.size() == std::size_t(max_cameras))
+        throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
+
+    CloudSource source;
+    source.calibration = calibration;
+    source.rays = make_ray_table(calibration.depth);
+    source.layer = known != sources_.end() ? known->second.layer : free_layer();
+    make_room(source.layer + 1, calibration.depth.size, calibration.color.size);
+    upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
+    clear_depth(*depth_, depth_size_, source.layer);
+    sources_[camera] = std::move(source);
+}
+
+void CloudTextures::remove_camera(CameraId camera) {
+    sources_.erase(camera);
+}
+
+Status CloudTextures::upload(CameraId camera, DepthView depth, ColorView color) {
+    const auto known = sources_.find(camera);
+    if (known == sources_.end() || depth.size != known->second.calibration.depth.size)
+        return Status::size_mismatch;
+    CloudSource& source = known->second;
+    upload_layer(*depth_, source.layer, depth, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
+    if (color.pixels) {
+        make_room(0, {}, color.size);
+        upload_layer(*color_, source.layer, color, GL_RGB, GL_UNSIGNED_BYTE);
+        source.color_size = color.size;
+    }
+    return Status::ok;
+}
+
+void CloudTextures::bind() const {
+    const std::optional<Texture>* const textures[] = {&depth_, &rays_, &color_};
+    for (unsigned unit = 0; unit < 3; ++unit) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, *textures[unit] ? (*textures[unit])->name() : 0);
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+// Replaces the textures by larger ones where they do not hold what is asked for.
+void CloudTextures::make_room(int layers, Size depth, Size color) {
+    const int new_layers = std::max(layers, layers_);
+    const Size new_depth = larger(depth, depth_size_);
+    const Size new_color = larger(color, larger(color_size_, {1, 1}));
+    if (new_layers != layers_ || new_depth != depth_size_) {
+        Texture moved = make_array(GL_R16UI, new_depth, new_layers, GL_NEAREST);
+        for (int layer = 0; layer < new_layers; ++layer)
+            clear_depth(moved, new_depth, layer);
+        for (const auto& [id, source] : sources_)
+            copy_layer(*depth_, moved, source.layer, source.calibration.depth.size);
+        depth_ = std::move(moved);
+        depth_size_ = new_depth;
+
+        // Not every driver can copy float textures.
+        rays_ = make_array(GL_RG32F, new_depth, new_layers, GL_NEAREST);
+        for (const auto& [id, source] : sources_)
+            upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
+    }
+    if (new_layers != layers_ || new_color != color_size_) {
+        Texture moved = make_array(GL_RGB8, new_color, new_layers, GL_LINEAR);
+        for (const auto& [id, source] : sources_)
+            if (source.color_size != Size{})
+                copy_layer(*color_, moved, source.layer, source.color_size);
+        color_ = std::move(moved);
+        color_size_ = new_color;
+    }
+    layers_ = new_layers;
+}
+
+void CloudTextures::copy_layer(const Texture& from, const Texture& to, int layer, Size size) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, copy_source_.name());
+    glFramebufferTextureLayer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, from.name(), 0, layer);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, to.name());
+    glCopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, 0, 0, size.width, size.height);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+}
+
+int CloudTextures::free_layer() const {
+    const auto taken = [&](int layer) {
+        for (const auto& [id, source] : sources_)
+            if (source.layer == layer)
+                return true;
+        return false;
+    };
+    int layer = 0;
+    while (taken(layer))
+        ++layer;
+    return layer;
+}
+
+}  // namespace theatron::render

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The images of all cameras in one set of array textures, a layer each.
+//
+// The arrays are as large as the largest image; smaller ones lie in the upper
+// left corner, with depth 0 beside them. Adding cameras or larger images moves
+// everything to new textures and keeps what the cameras show.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/ids.h"
+#include "geometry/calibration.h"
+#include "geometry/ray_table.h"
+#include "image/image.h"
+#include "render/gl.h"
+
+namespace theatron::render {
+
+// One camera's place in the set.
+struct CloudSource {
+    Calibration calibration;
+    int layer = 0;
+    Size color_size;  // of the newest picture; 0 x 0: none yet
+    Image<Ray> rays;  // kept for moving to larger textures
+};
+
+class CloudTextures {
+public:
+    // See CloudScene for what these do.
+    void set_camera(CameraId camera, const Calibration& calibration);
+    void remove_camera(CameraId camera);
+    Status upload(CameraId camera, DepthView depth, ColorView color);
+
+    const std::map<CameraId, CloudSource>& sources() const { return sources_; }
+    // The size that all layers of depth share; 0 x 0 without cameras.
+    Size depth_size() const { return depth_size_; }
+
+    // Binds depth, rays and colour to the texture units 0, 1 and 2.
+    void bind() const;
+
+private:
+    void make_room(int layers, Size depth, Size color);
+    void copy_layer(const Texture& from, const Texture& to, int layer, Size size) const;
+    int free_layer() const;
+
+    std::map<CameraId, CloudSource> sources_;
+    int layers_ = 0;
+    Size depth_size_, color_size_;
+    std::optional<Texture> depth_, rays_, color_;
+    Framebuffer copy_source_;
+};
+
+}  // namespace theatron::render

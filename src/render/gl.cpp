@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <regex>
+
+#include "base/error.h"
+#include "render/shader_source.h"
+
+namespace theatron::render {
+namespace {
+
+ShaderPart find_part(std::string_view name) {
+    for (const ShaderFile& file : embedded_shaders())
+        if (file.name == name)
+            return {file.name, file.text};
+    throw Error("There is no shader file " + std::string(name) + " in this build.");
+}
+
+constexpr std::string_view preamble =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp sampler2DArray;\n"
+    "precision highp usampler2DArray;\n";
+
+int count_lines(std::string_view text) {
+    return int(std::count(text.begin(), text.end(), '\n'));
+}
+
+// The file and line of a line of the whole source, as make_source put it together.
+std::string place_of(int line, const std::vector<ShaderPart>& parts) {
+    line -= count_lines(preamble);
+    for (const ShaderPart& part : parts) {
+        const int lines = count_lines(part.text) + 1;
+        if (line <= lines)
+            return std::string(part.name) + ":" + std::to_string(line);
+        line -= lines;
+    }
+    return "end of file";
+}
+
+std::string make_source(const std::vector<ShaderPart>& parts) {
+    std::string source(preamble);
+    for (const ShaderPart& part : parts)
+        source.append(part.text) += '\n';
+    return source;
+}
+
+// Drivers name a place as "0:17" or "0(17)", meaning line 17 of the whole source: not
+// all of them heed #line. Puts our file and line there.
+std::string with_file_names(const std::string& log, const std::vector<ShaderPart>& parts) {
+    static const std::regex place(R"((^|\s)0[:(](\d+)\)?)");
+    std::string text;
+    auto from = log.cbegin();
+    for (std::sregex_iterator it(log.begin(), log.end(), place), end; it != end; ++it) {
+        text.append(from, log.cbegin() + it->position());
+        text += (*it)[1].str() + place_of(std::atoi((*it)[2].str().c_str()), parts);
+        from = log.cbegin() + it->position() + it->length();
+    }
+    return text.append(from, log.cend());
+}
+
+template <class GetLength, class GetLog>
+std::string info_log(GLuint object, GetLength get_length, GetLog get_log) {
+    GLint length = 0;
+    get_length(object, GL_INFO_LOG_LENGTH, &length);
+    std::string log(std::size_t(length > 0 ? length : 1), '\0');
+    GLsizei used = 0;
+    get_log(object, GLsizei(log.size()), &used, log.data());
+    log.resize(std::size_t(used));
+    return log;
+}
+
+}  // namespace
+
+GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
+    const std::string source = make_source(parts);
+    const GLuint shader = glCreateShader(kind);
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint compiled = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (!compiled) {
+        const std::string log = info_log(
+            shader, [](auto... a) { glGetShaderiv(a...); },
+            [](auto... a) { glGetShaderInfoLog(a...); });
+        glDeleteShader(shader);
+        throw Error("The shader " + std::string(parts.back().name) +
+                    " does not compile on this driver: " + with_file_names(log, parts));
+    }
+    return shader;
+}
+
+Program::Program(ShaderFiles vertex, ShaderFiles fragment) {
+    const std::pair<GLenum, ShaderFiles> stages[] = {{GL_VERTEX_SHADER, vertex},
+                                                     {GL_FRAGMENT_SHADER, fragment}};
+    for (const auto& [kind, files] : stages) {
+        std::vector<ShaderPart> parts;
+        for (const std::string_view file : files)
+            parts.push_back(find_part(file));
+        const GLuint shader = compile_shader(kind, parts);
+        glAttachShader(name(), shader);
+        glDeleteShader(shader);  // lives on as long as the program
+    }
+    glLinkProgram(name());
+    GLint linked = 0;
+    glGetProgramiv(name(), GL_LINK_STATUS, &linked);
+    if (!linked)
+        throw Error("The shaders " + std::string(*(vertex.end() - 1)) + " and " +
+                    std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
+                    info_log(
+                        name(), [](auto... a) { glGetProgramiv(a...); },
+                        [](auto... a) { glGetProgramInfoLog(a...); }));
+}
+
+GLint Program::uniform(const char* uniform_name) const {
+    return glGetUniformLocation(name(), uniform_name);
+}
+
+void Program::set_sampler(const char* uniform_name, int unit) const {
+    use();
+    glUniform1i(uniform(uniform_name), unit);
+}
+
+void Program::bind_block(const char* block_name, unsigned binding) const {
+    const GLuint index = glGetUniformBlockIndex(name(), block_name);
+    if (index != GL_INVALID_INDEX)
+        glUniformBlockBinding(name(), index, binding);
+}
+
+}  // namespace theatron::render

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// 4x4 matrices as GL takes them: columns one after the other.
+#pragma once
+
+#include <array>
+
+#include "geometry/vec.h"
+#include "render/camera_view.h"
+
+namespace theatron::render {
+
+struct Mat4 {
+    std::array<double, 16> m{};  // m[4 * column + row]
+};
+
+Mat4 operator*(const Mat4& a, const Mat4& b);
+Mat4 matrix(const Pose& pose);
+
+// Clip coordinates from the eye's frame. Their w is the distance along the
+// view's axis in metres, which the shaders rely on.
+Mat4 projection(const CameraView& view);
+
+}  // namespace theatron::render

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GL ES 3 context without a window or a display server, for pictures into
+// files and for tests. Works on Mesa's software renderer.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace theatron::render {
+
+class OffscreenContext {
+public:
+    // Makes the context and makes it current on this thread. Throws Error, saying
+    // what to install, where there is no EGL that can do it.
+    OffscreenContext();
+    // Nothing of this context may be in use any more.
+    ~OffscreenContext();
+    OffscreenContext(const OffscreenContext&) = delete;
+    OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+    // For use on another thread: released by one, made current by the other.
+    void make_current();
+    void release();
+
+    // The driver's name for itself, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
+    std::string renderer_name() const;
+    // GL errors that the driver has reported so far, and the text of the first.
+    int errors() const;
+    std::string first_error() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::render

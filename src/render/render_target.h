@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture to draw into and to read back: colour, and metric depth beside it.
+#pragma once
+
+#include "render/cloud_scene.h"
+#include "render/gl.h"
+
+namespace theatron::render {
+
+class RenderTarget {
+public:
+    explicit RenderTarget(Size size);
+
+    DrawTarget target() const { return {framebuffer_.name(), 0, 0, size_}; }
+    Size size() const { return size_; }
+
+    void clear(Rgb background) const;
+    // Waits until everything is drawn.
+    Picture read() const;
+
+private:
+    Size size_;
+    Texture color_, depth_mm_, depth_;
+    Framebuffer framebuffer_;
+};
+
+}  // namespace theatron::render

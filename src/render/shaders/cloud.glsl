@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every cloud shader knows of the cameras: their images and calibrations.
+// One entry of `cameras` for each camera of a draw call, in its own order.
+
+struct Camera {
+    mat4 clip_from_camera;   // its w is the distance along the view's axis
+    mat4 color_from_camera;  // depth camera's frame to colour camera's frame
+    vec4 color_pinhole;      // fx, fy, cx, cy in pixels of the newest colour picture
+    vec4 color_radial;       // k1, k2, k3, k4
+    vec4 color_more;         // k5, k6, p1, p2
+    vec4 color_image;        // width, height, largest radius (0: no limit), 0
+    vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
+};
+
+layout(std140) uniform Cameras {
+    Camera cameras[16];
+};
+
+uniform usampler2DArray depth_images;
+uniform sampler2DArray ray_tables;
+uniform sampler2DArray color_images;
+
+int layer_of(int camera) {
+    return int(cameras[camera].depth_image.y);
+}
+
+// The depth of a pixel, 0 where nothing was measured.
+float depth_m(int camera, ivec2 pixel) {
+    uint units = texelFetch(depth_images, ivec3(pixel, layer_of(camera)), 0).r;
+    return float(units) * cameras[camera].depth_image.x;
+}
+
+// The point that `pixel` sees at distance `z`, in the depth camera's frame.
+vec3 point_at(int camera, ivec2 pixel, float z) {
+    vec2 ray = texelFetch(ray_tables, ivec3(pixel, layer_of(camera)), 0).rg;
+    return vec3(ray * z, z);
+}
+
+// Where the colour camera sees a point of the depth camera's frame, in pixels; far
+// outside its picture where it cannot.
+vec2 color_pixel(int camera, vec3 point) {
+    const vec2 unseen = vec2(-1e4);
+    vec3 p = (cameras[camera].color_from_camera * vec4(point, 1.0)).xyz;
+    vec4 k = cameras[camera].color_radial;
+    vec4 more = cameras[camera].color_more;
+    vec4 pinhole = cameras[camera].color_pinhole;
+    float limit = cameras[camera].color_image.z;
+
+    vec2 d = p.xy / p.z;
+    float r2 = dot(d, d);
+    if (p.z <= 0.0 || (limit > 0.0 && r2 > limit * limit))
+        return unseen;
+    float radial = (1.0 + r2 * (k.x + r2 * (k.y + r2 * k.z))) /
+                   (1.0 + r2 * (k.w + r2 * (more.x + r2 * more.y)));
+    vec2 tangential = vec2(more.z, more.w) * (2.0 * d.x * d.y) +
+                      vec2(more.w, more.z) * (r2 + 2.0 * d * d);
+    return (d * radial + tangential) * pinhole.xy + pinhole.zw;
+}
