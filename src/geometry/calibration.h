@@ -16,8 +16,9 @@ struct Calibration {
     Pose color_from_depth;
     double depth_unit_mm = 1;  // millimetres per step of a depth pixel
 
-    // Where the depth camera is in the room. Meaningful only if `registered`.
-    Pose room_from_camera;
+    // Where the depth camera is in the room. Until it is `registered` that is a
+    // guess: at eye height above the origin, level, looking along -z.
+    Pose room_from_camera{Quat{0, 1, 0, 0}, Vec3{0, 1.5, 0}};
     bool registered = false;
 
     bool operator==(const Calibration&) const = default;

@@ -87,7 +87,7 @@ private:
         FrameNumber newest = 0;
         std::uint64_t frames = 0, bytes = 0, dropped = 0;
         RateWindow frame_rate, bit_rate;
-        SampleWindow ages{20'000};
+        SampleWindow ages{4000};
         double age_ms = 0;
         bool asked_for_key = false;
         TimePoint asked_at;

@@ -16,14 +16,6 @@ constexpr Vec3 room_up{0, 1, 0};
 
 }  // namespace
 
-Pose room_from_camera(const Calibration& calibration) {
-    if (calibration.registered)
-        return calibration.room_from_camera;
-    // Half a turn about x: the camera's y down, z forward become the room's y up, -z forward.
-    constexpr double eye_height_m = 1.5;
-    return {Quat{0, 1, 0, 0}, Vec3{0, eye_height_m, 0}};
-}
-
 CameraView view_of_camera(const CameraModel& camera, const Pose& room_from_camera, Size picture) {
     CameraView view;
     view.room_from_eye = room_from_camera;
@@ -76,7 +68,7 @@ Vec3 point_of_interest(const Calibration& calibration, DepthView depth) {
         std::nth_element(values.begin(), middle, values.end());
         distance_m = *middle * calibration.depth_unit_mm / 1000;
     }
-    return room_from_camera(calibration) * Vec3{0, 0, distance_m};
+    return calibration.room_from_camera * Vec3{0, 0, distance_m};
 }
 
 }  // namespace theatron::render

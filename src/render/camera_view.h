@@ -18,10 +18,6 @@ struct CameraView {
     double near_m = 0.05, far_m = 100;
 };
 
-// Where a camera stands in the room: as registered, otherwise at eye height
-// above the origin, looking level along -z.
-Pose room_from_camera(const Calibration& calibration);
-
 // What a camera sees, drawn into a picture of `picture` size: the picture agrees
 // with the camera's own, pixel by pixel, but for its lens distortion. Where the
 // pictures' proportions differ, more is seen at two sides and nothing is lost.

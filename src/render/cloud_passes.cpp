@@ -32,7 +32,7 @@ void put(float (&out)[4], double x, double y, double z, double w) {
 
 CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
     const Calibration& calibration = source.calibration;
-    const Pose eye_from_camera = inverse(view.room_from_eye) * room_from_camera(calibration);
+    const Pose eye_from_camera = inverse(view.room_from_eye) * calibration.room_from_camera;
     CameraUniforms u{};
     put(u.clip_from_camera, projection(view) * matrix(eye_from_camera));
     put(u.color_from_camera, matrix(calibration.color_from_depth));

@@ -65,7 +65,7 @@ Calibration real_calibration() {
 }
 
 CameraView own_view(const Calibration& calibration) {
-    return view_of_camera(calibration.depth, room_from_camera(calibration), calibration.depth.size);
+    return view_of_camera(calibration.depth, calibration.room_from_camera, calibration.depth.size);
 }
 
 class CloudSceneTest : public ::testing::TestWithParam<std::string> {
@@ -192,7 +192,7 @@ TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
                 point_of_interest(calibration, wall_and_board({96, 72}).view()), 50, 0);
     const Picture drawn = render(side, {192, 144});
     // Each drawn pixel, carried back to the camera, lies on one of the two planes.
-    const Pose camera_from_eye = inverse(room_from_camera(calibration)) * side.room_from_eye;
+    const Pose camera_from_eye = inverse(calibration.room_from_camera) * side.room_from_eye;
     int on_planes = 0, between = 0;
     for (int y = 0; y < 144; ++y)
         for (int x = 0; x < 192; ++x) {
@@ -218,7 +218,7 @@ TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
     const Picture drawn = render(side, size);
     // The board's upper right corner: leaving it to the right the depth jumps to the wall.
     const Vec2 ray = unproject(calibration.depth, {59, 20}).value();
-    const Vec3 corner = room_from_camera(calibration) * Vec3{ray.x * 1.2, ray.y * 1.2, 1.2};
+    const Vec3 corner = calibration.room_from_camera * Vec3{ray.x * 1.2, ray.y * 1.2, 1.2};
     const Vec3 eye = inverse(side.room_from_eye) * corner;
     const double x = (eye.x / eye.z - side.left) / (side.right - side.left) * size.width;
     const double y = (eye.y / eye.z - side.top) / (side.bottom - side.top) * size.height;

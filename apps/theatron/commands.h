@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program's commands. Each adds itself to the command line; its callback
+// does the work and throws Error with one sentence if that cannot be done.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace theatron::app {
+
+void add_host_command(CLI::App& app);
+void add_join_command(CLI::App& app);
+void add_bench_command(CLI::App& app);
+void add_demo_command(CLI::App& app);
+
+}  // namespace theatron::app

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host.h"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "codec/depth_codec.h"
+#include "net/certificate.h"
+#include "net/server.h"
+#include "session/host_session.h"
+#include "video/color_codec.h"
+
+namespace theatron::app {
+namespace {
+
+std::filesystem::path default_state_folder() {
+    if (const char* set = std::getenv("XDG_STATE_HOME"); set && *set)
+        return std::filesystem::path(set) / "theatron";
+    const char* home = std::getenv("HOME");
+    return std::filesystem::path(home ? home : "/tmp") / ".local/state/theatron";
+}
+
+// The token outlives the host, so that participants find back after a restart.
+std::string load_or_make_token(const std::filesystem::path& folder) {
+    const auto path = folder / "join.token";
+    std::string token;
+    std::ifstream(path) >> token;
+    if (!token.empty())
+        return token;
+    token = net::random_token();
+    std::ofstream out(path);
+    out << token << "\n";
+    out.close();
+    if (!out)
+        throw Error("Cannot write " + path.string() +
+                    "; make its folder writable or name another with --state.");
+    std::filesystem::permissions(
+        path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    return token;
+}
+
+// Where others reach a host that listens everywhere: its first outside address.
+std::string outside_address() {
+    ifaddrs* all = nullptr;
+    if (getifaddrs(&all) != 0)
+        return "127.0.0.1";
+    std::string found = "127.0.0.1";
+    for (const ifaddrs* i = all; i; i = i->ifa_next) {
+        if (!i->ifa_addr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_LOOPBACK) ||
+            !(i->ifa_flags & IFF_UP))
+            continue;
+        char text[INET_ADDRSTRLEN];
+        const auto* address = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
+        if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text)))
+            found = text;
+        break;
+    }
+    freeifaddrs(all);
+    return found;
+}
+
+// Cameras whose place in the room nobody knows stand side by side, so far apart
+// that none stands in another's picture.
+constexpr double unregistered_distance_m = 12;
+
+session::HostSession::CheckedCodec check_depth(const std::string& text) {
+    const auto parsed = codec::parse_depth_setting(text);
+    return {parsed.setting.text, parsed.problem};
+}
+
+session::HostSession::CheckedCodec check_color(const std::string& text) {
+    const auto parsed = video::parse_color_setting(text);
+    return {parsed.setting.text, parsed.problem};
+}
+
+}  // namespace
+
+struct Host::Impl {
+    std::atomic<std::size_t>& participants;
+    net::Certificate certificate;
+    net::Link link;
+    std::unique_ptr<session::HostSession> session;
+    std::unique_ptr<net::Server> server;
+    std::vector<std::unique_ptr<send::CameraLane>> lanes;
+    std::thread thread;
+    // Frames given up per camera because a receiver was too slow; server's thread.
+    std::map<CameraId, std::uint64_t> dropped_slow;
+    mutable std::mutex figures_mutex;
+    nlohmann::json participant_figures = nlohmann::json::array();
+    std::map<CameraId, std::uint64_t> dropped_slow_figures;
+
+    explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
+    ~Impl() {
+        // The server's thread uses the lanes: it ends first.
+        if (server)
+            server->stop();
+        if (thread.joinable())
+            thread.join();
+        lanes.clear();
+    }
+
+    void open(const HostOptions& options, const capture::Progress& progress);
+    wire::Camera describe(CameraId id, const capture::CameraInfo& info) const;
+    net::Server::Handler handler();
+    void start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras);
+
+    // All below on the server's thread.
+    void carry_out();
+    void change_settings();
+    void distribute(const send::EncodedMedia& media);
+    void note_participants();
+};
+
+void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
+    if (options.cameras.empty())
+        throw Error(
+            "A host needs a camera; give one with --camera, for example --camera folder:DIR.");
+    std::vector<std::unique_ptr<capture::Camera>> cameras;
+    for (const std::string& specification : options.cameras)
+        cameras.push_back(capture::open_camera(specification, progress));
+
+    const auto state = options.state.empty() ? default_state_folder() : options.state;
+    certificate = net::load_or_make_certificate(state);
+    session::HostSession::Config config;
+    config.token = options.token.empty() ? load_or_make_token(state) : options.token;
+    config.name = options.name;
+    config.check_depth = check_depth;
+    config.check_color = check_color;
+    config.equal_secrets = net::equal_secrets;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        config.cameras.push_back(describe(CameraId(i), cameras[i]->info()));
+
+    link = {options.link_host, 0, config.token, certificate.fingerprint};
+    session = std::make_unique<session::HostSession>(std::move(config));
+    server = std::make_unique<net::Server>(options.listen, certificate, handler());
+    link.port = server->port();
+    const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
+    if (link.host.empty())
+        link.host = everywhere ? outside_address() : options.listen.address;
+
+    // The lanes never change once the server's thread runs.
+    start_lanes(std::move(cameras));
+    thread = std::thread([this] { server->run(); });
+}
+
+wire::Camera Host::Impl::describe(CameraId id, const capture::CameraInfo& info) const {
+    Calibration calibration = info.calibration;
+    if (!calibration.registered)
+        calibration.room_from_camera.translation.x += int(id) * unregistered_distance_m;
+    wire::Camera camera;
+    camera.id = id;
+    camera.name = info.name;
+    camera.depth_stream = depth_stream(id);
+    camera.color_stream = color_stream(id);
+    camera.has_color = calibration.color.size != Size{};
+    camera.frames_per_second = info.frames_per_second;
+    camera.calibration = encode_calibration(calibration);
+    return camera;
+}
+
+net::Server::Handler Host::Impl::handler() {
+    net::Server::Handler h;
+    h.connected = [this](net::PeerId peer, const std::string& address) {
+        log::info("host", "connection", {{"id", int(peer)}, {"address", address}});
+        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
+        carry_out();
+    };
+    h.control = [this](net::PeerId peer, ByteView bytes) {
+        session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
+        carry_out();
+    };
+    // Participants do not publish yet; what they send is not asked for.
+    h.media = [this](net::PeerId peer, ByteView) {
+        server->close(peer, "media was not asked for");
+    };
+    h.closed = [this](net::PeerId peer, const std::string& why) {
+        log::info("host", "participant left", {{"id", int(peer)}, {"why", why}});
+        session->on_closed(ParticipantId(std::uint32_t(peer)));
+        carry_out();
+    };
+    h.now = steady_now;
+    h.tick = [this] {
+        session->on_tick(steady_now());
+        carry_out();
+        note_participants();
+    };
+    return h;
+}
+
+void Host::Impl::start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        send::CameraLane::Events events;
+        events.media = [this](send::EncodedMedia media) {
+            server->post([this, media = std::move(media)] { distribute(media); });
+        };
+        events.state = [this](wire::CameraState state) {
+            server->post([this, state = std::move(state)] {
+                if (state.condition == wire::CameraCondition::failed)
+                    log::error("host", "camera failed",
+                               {{"camera", int(state.camera)}, {"problem", state.problem}});
+                session->on_camera(state);
+                carry_out();
+            });
+        };
+        lanes.push_back(std::make_unique<send::CameraLane>(CameraId(i), std::move(cameras[i]),
+                                                           std::move(events)));
+    }
+}
+
+void Host::Impl::carry_out() {
+    for (const auto& action : session->take_actions()) {
+        const net::PeerId peer{std::uint32_t(action.participant)};
+        using Kind = session::HostSession::Action::Kind;
+        switch (action.kind) {
+            case Kind::send:
+                server->send_control(peer, wire::encode_control(action.message));
+                break;
+            case Kind::close:
+                log::warning("host", "participant refused",
+                             {{"id", int(peer)}, {"why", action.why}});
+                server->close(peer, action.why);
+                break;
+            case Kind::joined:
+                log::info("host", "participant joined", {{"id", int(peer)}, {"name", action.why}});
+                break;
+            case Kind::request_key: {
+                const auto camera = std::size_t(camera_of(action.key.stream));
+                if (camera < lanes.size())
+                    lanes[camera]->request_key(action.key.stream, action.key.setting);
+                break;
+            }
+            case Kind::change_settings:
+                change_settings();
+                break;
+        }
+    }
+}
+
+void Host::Impl::change_settings() {
+    const auto convert = [](const std::vector<session::ActiveSetting>& settings) {
+        std::vector<send::LaneSetting> result;
+        for (const auto& s : settings)
+            result.push_back({s.id, s.codec});
+        return result;
+    };
+    for (const auto& lane : lanes)
+        lane->set_settings(convert(session->depth_settings()), convert(session->color_settings()));
+}
+
+void Host::Impl::distribute(const send::EncodedMedia& encoded) {
+    const wire::MediaHeader& header = encoded.header;
+    net::Media media{encoded.message,  header.stream,         header.setting, header.frame,
+                     header.reference, header.temporal_layer, header.key};
+    for (const ParticipantId receiver : session->receivers(header.stream, header.setting)) {
+        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), media);
+        dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
+        if (pushed.needs_key)
+            session->on_broken_stream(header.stream, header.setting);
+    }
+}
+
+void Host::Impl::note_participants() {
+    nlohmann::json list = nlohmann::json::array();
+    for (const auto& [id, participant] : session->participants())
+        if (participant.joined)
+            list.push_back({{"id", int(id)}, {"name", participant.name}});
+    participants = list.size();
+    const std::lock_guard lock(figures_mutex);
+    participant_figures = std::move(list);
+    dropped_slow_figures = dropped_slow;
+}
+
+Host::Host(const HostOptions& options, const capture::Progress& progress)
+    : impl_(std::make_unique<Impl>(participants_)) {
+    impl_->open(options, progress);
+}
+
+Host::~Host() = default;
+
+std::string Host::link() const {
+    return net::format_link(impl_->link);
+}
+
+std::uint16_t Host::port() const {
+    return impl_->link.port;
+}
+
+std::vector<std::string> Host::camera_names() const {
+    std::vector<std::string> names;
+    for (const auto& lane : impl_->lanes)
+        names.push_back(lane->info().name);
+    return names;
+}
+
+nlohmann::json Host::figures() const {
+    const std::lock_guard lock(impl_->figures_mutex);
+    nlohmann::json cameras = nlohmann::json::array();
+    for (const auto& lane : impl_->lanes) {
+        const send::LaneFigures f = lane->figures();
+        nlohmann::json stages = nlohmann::json::array();
+        for (const auto& stage : f.stages)
+            stages.push_back(
+                {{"name", stage.name}, {"p50_ms", stage.p50_ms}, {"p99_ms", stage.p99_ms}});
+        cameras.push_back({{"name", f.name},
+                           {"fps", f.frames_per_second},
+                           {"frames", f.frames},
+                           {"dropped_newest", f.dropped_newest},
+                           {"dropped_slow_receiver", impl_->dropped_slow_figures[lane->id()]},
+                           {"bytes", f.bytes},
+                           {"stages", stages}});
+    }
+    return {{"cameras", cameras}, {"participants", impl_->participant_figures}};
+}
+
+std::string Host::status_line() const {
+    std::string line = std::to_string(participants()) + " participant(s)";
+    for (const auto& lane : impl_->lanes) {
+        const send::LaneFigures f = lane->figures();
+        char text[160];
+        std::snprintf(text, sizeof(text), "  %s %.1f fps", f.name.c_str(), f.frames_per_second);
+        line += text;
+    }
+    return line;
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A running host: cameras, their lanes, the session and its network port.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "net/link.h"
+#include "send/camera_lane.h"
+
+namespace theatron::app {
+
+struct HostOptions {
+    std::vector<std::string> cameras;  // specifications
+    net::Endpoint listen;
+    std::string name = "operating room";
+    std::string link_host;        // what the link says; empty: found out
+    std::string token;            // empty: kept in the state folder
+    std::filesystem::path state;  // keys and token; empty: the user's state folder
+};
+
+// Works from construction to destruction, on threads of its own.
+class Host {
+public:
+    // Opens everything; throws Error with one sentence if something cannot be had.
+    Host(const HostOptions& options, const capture::Progress& progress);
+    ~Host();
+
+    std::string link() const;
+    std::uint16_t port() const;
+    std::vector<std::string> camera_names() const;
+
+    // What went on so far: cameras with stages, participants, drops.
+    nlohmann::json figures() const;
+    // One line of the same for people.
+    std::string status_line() const;
+    std::size_t participants() const { return participants_; }
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::atomic<std::size_t> participants_{0};
+};
+
+}  // namespace theatron::app

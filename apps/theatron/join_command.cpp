@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron join
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "codec/depth_codec.h"
+#include "commands.h"
+#include "files/png_file.h"
+#include "participant.h"
+#include "participant_figures.h"
+#include "render/cloud_scene.h"
+#include "render/offscreen_context_native.h"
+#include "stop_signal.h"
+#include "video/color_codec.h"
+#include "view_choice.h"
+
+namespace theatron::app {
+namespace {
+
+struct Flags {
+    std::string link;
+    std::string name = "guest";
+    std::string depth_codec = "trvl";
+    std::string color_codec = "jpeg:quality=85";
+    std::string offscreen, depth_file;
+    std::string renderer = "mesh";
+    std::string size = "1280x720";
+    std::string view = "camera:0";
+    double seconds = 0;
+    double warmup = 0;
+    bool json = false;
+};
+
+Size parse_size(const std::string& text) {
+    Size size;
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 ||
+        !is_valid(size))
+        throw Error("The size '" + text + "' is not WIDTHxHEIGHT, for example 1280x720.");
+    return size;
+}
+
+// Draws what came, from one viewpoint, into files.
+class OffscreenPicture {
+public:
+    OffscreenPicture(const Flags& flags)
+        : size_(parse_size(flags.size)), renderer_(flags.renderer), view_(parse_view(flags.view)) {
+        render::check_renderer_name(renderer_);
+    }
+
+    void take(Participant& participant) {
+        std::uint64_t generation = 0;
+        const auto cameras = participant.cameras(generation);
+        if (generation != generation_) {
+            for (const auto& [id, calibration] : calibrations_)
+                scene_.remove_camera(id);
+            calibrations_.clear();
+            for (const auto& camera : cameras) {
+                scene_.set_camera(camera.description.id, camera.calibration);
+                calibrations_[camera.description.id] = camera.calibration;
+            }
+            generation_ = generation;
+        }
+        for (const auto& frame : participant.take_frames()) {
+            const ColorView color = frame->color ? frame->color->view() : ColorView{};
+            if (scene_.upload(frame->camera, frame->depth.view(), color) != Status::ok)
+                continue;
+            newest_[frame->camera] = frame;
+        }
+    }
+
+    void write(const std::string& color_file, const std::string& depth_file) {
+        if (newest_.empty())
+            throw Error("No picture came from the host, so none was written.");
+        const render::CameraView view = view_.resolve(calibrations_, newest_, size_);
+        const render::Picture picture = scene_.render(view, size_, renderer_);
+        if (!color_file.empty())
+            files::write_png(color_file, picture.color.view());
+        if (!depth_file.empty())
+            files::write_png(depth_file, picture.depth_mm.view());
+        if (context_.errors() > 0)
+            throw Error("The graphics driver reported an error: " + context_.first_error());
+    }
+
+private:
+    Size size_;
+    std::string renderer_;
+    ViewChoice view_;
+    render::OffscreenContext context_;
+    render::CloudScene scene_;
+    std::uint64_t generation_ = 0;
+    std::map<CameraId, Calibration> calibrations_;
+    std::map<CameraId, receive::CameraFramePtr> newest_;
+};
+
+// Lines on standard input change the codecs: "depth rvl", "color raw".
+// Returns false at the end of the input or at "quit".
+bool obey_input(Participant& participant) {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    while (poll(&input, 1, 0) > 0 && (input.revents & (POLLIN | POLLHUP))) {
+        std::string line;
+        if (!std::getline(std::cin, line))
+            return false;
+        std::istringstream words(line);
+        std::string what, codec;
+        words >> what >> codec;
+        if (what == "quit")
+            return false;
+        if (what == "depth" && !codec.empty())
+            participant.choose_codecs(codec, "");
+        else if (what == "color" && !codec.empty())
+            participant.choose_codecs("", codec);
+        else if (!what.empty())
+            std::fprintf(stderr, "Say 'depth CODEC', 'color CODEC' or 'quit'.\n");
+    }
+    return true;
+}
+
+void run(const Flags& flags) {
+    Participant::Options options;
+    options.link = net::parse_link(flags.link);
+    options.name = flags.name;
+    const auto depth = codec::parse_depth_setting(flags.depth_codec);
+    const auto color = video::parse_color_setting(flags.color_codec);
+    for (const std::string& problem : {depth.problem, color.problem})
+        if (!problem.empty())
+            throw Error(problem);
+    options.depth_codec = depth.setting.text;
+    options.color_codec = color.setting.text;
+    options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+
+    std::unique_ptr<OffscreenPicture> picture;
+    if (!flags.offscreen.empty() || !flags.depth_file.empty())
+        picture = std::make_unique<OffscreenPicture>(flags);
+
+    catch_stop_signals();
+    Participant participant(options);
+    const bool live_line = !flags.json && isatty(STDOUT_FILENO);
+    const bool has_end = flags.seconds > 0 || picture;
+    const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
+    const Duration warmup = seconds_to_duration(flags.warmup);
+    const TimePoint started = steady_now();
+    TimePoint first_frame{}, next_line{};
+    bool warm = flags.warmup <= 0;
+    bool listening = true;  // to standard input
+
+    while (!stop_requested()) {
+        if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
+            first_frame = steady_now();
+        if (picture)
+            picture->take(participant);
+        else
+            (void)participant.take_frames();
+
+        const auto status = participant.status();
+        if (status.phase == Participant::Phase::refused)
+            throw Error(status.problem);
+        if (listening && !obey_input(participant)) {
+            listening = false;
+            if (!has_end && isatty(STDIN_FILENO))
+                break;
+        }
+        const TimePoint now = steady_now();
+        if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {
+            participant.reset_figures();
+            warm = true;
+        }
+        if (has_end && first_frame != TimePoint{} && now - first_frame >= warmup + length)
+            break;
+        constexpr Duration join_patience = std::chrono::seconds(10);
+        if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
+            throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
+        if (live_line && now >= next_line) {
+            std::cout << "\r\033[K" << status_line(participant) << std::flush;
+            next_line = now + 500ms;
+        }
+    }
+    if (live_line)
+        std::cout << "\n";
+    const nlohmann::json figures = participant_figures(participant);
+    if (picture)
+        picture->write(flags.offscreen, flags.depth_file);
+    if (flags.json)
+        std::cout << figures.dump() << std::endl;
+    else if (!live_line)
+        std::cout << status_line(participant) << std::endl;
+}
+
+std::string join_names(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+}  // namespace
+
+void add_join_command(CLI::App& app) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = app.add_subcommand("join", "Join a session with the link of its host");
+    command->footer(
+        "Depth codecs: " + join_names(codec::depth_codec_names()) +
+        "\nColour codecs: " + join_names(video::color_codec_names()) +
+        "\n\nLines on standard input change codecs while it runs: 'depth rvl', 'color "
+        "jpeg:quality=60'.\n"
+        "\nExamples:\n"
+        "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
+        "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
+        "--json");
+    command->add_option("link", flags->link, "The link that the host printed")->required();
+    command->add_option("--name", flags->name, "Your name, shown to the others")
+        ->capture_default_str();
+    command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")
+        ->capture_default_str();
+    command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")
+        ->capture_default_str();
+    command->add_option("--offscreen", flags->offscreen,
+                        "Draw the last picture into this PNG file");
+    command->add_option("--depth", flags->depth_file,
+                        "Write that picture's depth, in millimetres, into this 16-bit PNG file");
+    command->add_option("--renderer", flags->renderer, join_names(render::renderer_names()))
+        ->capture_default_str();
+    command->add_option("--size", flags->size, "Size of the picture")->capture_default_str();
+    command
+        ->add_option("--view", flags->view,
+                     "camera:N, or camera:N,yaw=DEGREES,pitch=DEGREES to look from beside it")
+        ->capture_default_str();
+    command->add_option("--seconds", flags->seconds,
+                        "End this long after the first picture (default with --offscreen: 3)");
+    command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
+    command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron: the command-line program.
+#include <cstdio>
+
+#include "base/error.h"
+#include "commands.h"
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Theatron: open telepresence for the operating room.\n\n"
+        "A host streams its RGB-D cameras; others join with the link that it prints:\n"
+        "  theatron host --camera folder:DIR,loop=1\n"
+        "  theatron join 'https://HOST:PORT/#join=...&cert=...' --offscreen view.png --seconds 3\n"
+        "  theatron demo");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", THEATRON_VERSION);
+    theatron::app::add_host_command(app);
+    theatron::app::add_join_command(app);
+    theatron::app::add_bench_command(app);
+    theatron::app::add_demo_command(app);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e);
+    } catch (const theatron::Error& e) {
+        std::fprintf(stderr, "theatron: %s\n", e.what());
+        return 1;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "theatron: something unexpected went wrong: %s\n", e.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <map>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "net/clock_sync.h"
+
+namespace theatron::app {
+namespace {
+
+// Waiting before another attempt: soon at first, then patiently.
+constexpr Duration first_wait = std::chrono::milliseconds(200);
+constexpr Duration longest_wait = std::chrono::seconds(2);
+
+}  // namespace
+
+// What other threads see.
+struct Participant::Shared {
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    Status status;
+    std::vector<Camera> cameras;
+    std::uint64_t generation = 0;
+    std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
+    std::vector<receive::StreamFigures> figures;
+    bool reset_wanted = false;
+    net::ClockSync clock;
+    net::Client* client = nullptr;  // while one runs
+    bool stopping = false;
+    std::string depth_wish, color_wish;  // codecs to ask for
+};
+
+Participant::Participant(Options options)
+    : options_(std::move(options)),
+      session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec}),
+      receiver_({[this](receive::CameraFramePtr frame) {
+                     {
+                         const std::lock_guard lock(shared_->mutex);
+                         shared_->newest[frame->camera] = std::move(frame);
+                     }
+                     shared_->changed.notify_all();
+                 },
+                 [this](StreamId stream, SettingId setting) {
+                     shared_->client->send_control(
+                         wire::encode_control(wire::RequestKey{stream, setting}));
+                 }}),
+      shared_(std::make_unique<Shared>()) {
+    thread_ = std::thread([this] { run(); });
+}
+
+Participant::~Participant() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->stopping = true;
+        if (shared_->client)
+            shared_->client->stop();
+    }
+    shared_->changed.notify_all();
+    thread_.join();
+}
+
+void Participant::run() {
+    Duration wait = first_wait;
+    bool was_joined = false;
+    while (true) {
+        net::Client client(options_.link, handler());
+        {
+            const std::lock_guard lock(shared_->mutex);
+            if (shared_->stopping)
+                return;
+            shared_->client = &client;
+            shared_->clock = {};
+        }
+        const net::Client::End end = client.run();
+
+        std::unique_lock lock(shared_->mutex);
+        shared_->client = nullptr;
+        if (shared_->stopping)
+            return;
+        const bool refused = end.final || !session_.refusal().empty();
+        const std::string why = session_.refusal().empty() ? end.why : session_.refusal();
+        const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
+        if (shared_->status.phase == Phase::joined) {
+            was_joined = true;
+            wait = first_wait;
+        }
+        shared_->status.phase = refused ? Phase::refused : Phase::lost;
+        shared_->status.problem = why;
+        shared_->changed.notify_all();
+        if (refused)
+            return;
+        if (news) {
+            lock.unlock();
+            remark(why + (was_joined ? " Reconnecting." : " Trying again."));
+            lock.lock();
+        }
+        if (shared_->changed.wait_for(lock, wait, [&] { return shared_->stopping; }))
+            return;
+        wait = std::min(2 * wait, longest_wait);
+    }
+}
+
+net::Client::Handler Participant::handler() {
+    net::Client::Handler h;
+    h.connected = [this] {
+        pings_ = 0;
+        next_ping_ = next_report_ = steady_now();
+        const Bytes hello = session_.begin();
+        shared_->client->send_control(hello);
+    };
+    h.control = [this](ByteView message) { on_control(message); };
+    h.media = [this](ByteView message) { (void)receiver_.on_media(message, now()); };
+    h.now = [this] { return now(); };
+    h.tick = [this] { on_tick(); };
+    return h;
+}
+
+void Participant::on_control(ByteView message) {
+    using Change = session::ViewerSession::Change;
+    switch (session_.on_control(message)) {
+        case Change::welcomed: {
+            receiver_.set_cameras(session_.cameras());
+            std::vector<Camera> cameras;
+            for (const wire::Camera& camera : session_.cameras()) {
+                const auto calibration = decode_calibration(camera.calibration);
+                if (!calibration) {
+                    remark("The host's camera " + camera.name + " has a calibration that is " +
+                           std::string(to_text(calibration.error())) + "; it is left out.");
+                    continue;
+                }
+                cameras.push_back({camera, *calibration, {camera.id, {}, ""}});
+            }
+            std::unique_lock lock(shared_->mutex);
+            shared_->cameras = std::move(cameras);
+            ++shared_->generation;
+            shared_->newest.clear();
+            shared_->status.phase = Phase::joined;
+            shared_->status.problem.clear();
+            shared_->status.host_name = session_.welcome().host_name;
+            const bool again = ++shared_->status.joins > 1;
+            lock.unlock();
+            shared_->changed.notify_all();
+            if (again)
+                remark("Connected again.");
+            break;
+        }
+        case Change::settings:
+            if (!session_.note().empty())
+                remark(session_.note());
+            try {
+                receiver_.set_settings(session_.settings());
+            } catch (const Error& e) {
+                remark(e.what());
+            }
+            break;
+        case Change::camera:
+            on_camera_states();
+            break;
+        case Change::pong: {
+            const wire::Pong& pong = session_.pong();
+            const std::lock_guard lock(shared_->mutex);
+            shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
+            shared_->status.round_trip = shared_->clock.round_trip();
+            shared_->status.clock_error = shared_->clock.error_bound();
+            break;
+        }
+        case Change::refused:
+        case Change::nothing:
+            break;
+    }
+}
+
+void Participant::on_camera_states() {
+    std::vector<std::string> news;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        for (Camera& camera : shared_->cameras) {
+            const auto found = session_.camera_states().find(camera.description.id);
+            if (found == session_.camera_states().end() ||
+                found->second.condition == camera.state.condition)
+                continue;
+            camera.state = found->second;
+            using Condition = wire::CameraCondition;
+            const std::string name = "Camera " + camera.description.name;
+            if (camera.state.condition == Condition::ended)
+                news.push_back(name + " has ended; its last picture stays.");
+            else if (camera.state.condition == Condition::failed)
+                news.push_back(name + " has failed: " + camera.state.problem);
+        }
+    }
+    for (const std::string& text : news)
+        remark(text);
+}
+
+void Participant::on_tick() {
+    const TimePoint local = steady_now();
+    net::Client& client = *shared_->client;
+    if (!session_.joined())
+        return;
+    if (local >= next_ping_) {
+        client.send_control(wire::encode_control(wire::Ping{local}));
+        // The offset is wanted soon; then it only has to follow the drift.
+        next_ping_ = local + (++pings_ < 8 ? 100ms : 1000ms);
+    }
+
+    std::string depth_wish, color_wish;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (std::exchange(shared_->reset_wanted, false)) {
+            receiver_.reset_figures();
+            next_report_ = local;
+        }
+        depth_wish = std::exchange(shared_->depth_wish, "");
+        color_wish = std::exchange(shared_->color_wish, "");
+    }
+    if (!depth_wish.empty() || !color_wish.empty())
+        client.send_control(session_.choose(depth_wish, color_wish));
+
+    if (local < next_report_)
+        return;
+    next_report_ = local + 250ms;
+    const auto figures = receiver_.figures(now());
+    wire::Report report;
+    for (const auto& f : figures)
+        report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,
+                                  Duration(std::int64_t(f.age_ms * 1000))});
+    client.send_control(wire::encode_control(report));
+    const std::lock_guard lock(shared_->mutex);
+    shared_->figures = figures;
+}
+
+Participant::Status Participant::status() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->status;
+}
+
+std::vector<Participant::Camera> Participant::cameras(std::uint64_t& generation) const {
+    const std::lock_guard lock(shared_->mutex);
+    generation = shared_->generation;
+    return shared_->cameras;
+}
+
+std::vector<receive::CameraFramePtr> Participant::take_frames() {
+    const std::lock_guard lock(shared_->mutex);
+    std::vector<receive::CameraFramePtr> frames;
+    for (auto& [camera, frame] : shared_->newest)
+        frames.push_back(std::move(frame));
+    shared_->newest.clear();
+    return frames;
+}
+
+bool Participant::wait_for_frame(Duration timeout) {
+    std::unique_lock lock(shared_->mutex);
+    return shared_->changed.wait_for(lock, timeout, [&] { return !shared_->newest.empty(); });
+}
+
+std::vector<receive::StreamFigures> Participant::figures() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->figures;
+}
+
+void Participant::reset_figures() {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->reset_wanted = true;
+}
+
+TimePoint Participant::now() const {
+    const std::lock_guard lock(shared_->mutex);
+    return steady_now() + shared_->clock.offset();
+}
+
+void Participant::choose_codecs(const std::string& depth, const std::string& color) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!depth.empty())
+        shared_->depth_wish = depth;
+    if (!color.empty())
+        shared_->color_wish = color;
+}
+
+void Participant::remark(const std::string& text) const {
+    if (options_.remark)
+        options_.remark(text);
+}
+
+}  // namespace theatron::app

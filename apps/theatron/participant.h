@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A participant: one connection to a host that finds back by itself, and the
+// newest decoded images of every camera.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "geometry/calibration.h"
+#include "net/client.h"
+#include "receive/receiver.h"
+#include "session/viewer_session.h"
+
+namespace theatron::app {
+
+class Participant {
+public:
+    struct Options {
+        net::Link link;
+        std::string name = "guest";
+        std::string depth_codec = "trvl";
+        std::string color_codec = "jpeg:quality=85";
+        // Told what a person should know: reconnecting, refused, a camera ended.
+        // Called from the participant's thread.
+        std::function<void(const std::string&)> remark;
+    };
+
+    // Begins to connect at once, on a thread of its own. Throws Error for a codec
+    // that does not exist.
+    explicit Participant(Options options);
+    ~Participant();
+
+    enum class Phase { connecting, joined, lost, refused };
+    struct Status {
+        Phase phase = Phase::connecting;
+        std::string problem;  // why lost or refused
+        std::string host_name;
+        Duration round_trip{};
+        Duration clock_error{};
+        int joins = 0;  // how often it got in, 1 without any loss
+    };
+    Status status() const;
+
+    struct Camera {
+        wire::Camera description;
+        Calibration calibration;
+        wire::CameraState state;
+    };
+    // All cameras of the host; `generation` grows whenever they changed.
+    std::vector<Camera> cameras(std::uint64_t& generation) const;
+
+    // The newest frame of each camera that is newer than what was taken before.
+    std::vector<receive::CameraFramePtr> take_frames();
+
+    // Waits until some frame is there to be taken, at most `timeout`.
+    bool wait_for_frame(Duration timeout);
+
+    std::vector<receive::StreamFigures> figures() const;
+    void reset_figures();
+
+    // Session time now, as well as it is known.
+    TimePoint now() const;
+
+    // Other codecs from now on; an empty text keeps the codec.
+    void choose_codecs(const std::string& depth, const std::string& color);
+
+private:
+    void run();
+    net::Client::Handler handler();
+    void on_control(ByteView message);
+    void on_camera_states();
+    void on_tick();
+    void remark(const std::string& text) const;
+
+    const Options options_;
+
+    // The participant's thread only, unless under mutex_.
+    session::ViewerSession session_;
+    receive::Receiver receiver_;
+    TimePoint next_ping_, next_report_;
+    int pings_ = 0;
+
+    struct Shared;
+    std::unique_ptr<Shared> shared_;
+    std::thread thread_;
+};
+
+}  // namespace theatron::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A participant's figures for scripts and for people.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "participant.h"
+
+namespace theatron::app {
+
+// {"host","cameras":[{"name","state","fps","mbit_per_s","age_ms":{…},"dropped","depth_codec",
+// "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"dropped","codec",…}
+nlohmann::json participant_figures(const Participant& participant);
+
+// The same in one line.
+std::string status_line(const Participant& participant);
+
+}  // namespace theatron::app
