@@ -61,7 +61,7 @@ JpegCompressor::JpegCompressor(int quality, bool halve_chroma)
 
 JpegCompressor::~JpegCompressor() = default;
 
-ByteView JpegCompressor::compress(ColorView image) {
+ByteView JpegCompressor::compress(ColorView image) & {
     const int subsampling = halve_chroma_ ? TJSAMP_420 : TJSAMP_444;
     const auto [width, height] = image.size;
     const std::size_t enough = tjBufSize(width, height, subsampling);

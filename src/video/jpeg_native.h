@@ -35,7 +35,7 @@ public:
     ~JpegCompressor();
 
     // The picture's bytes, valid until the next call.
-    ByteView compress(ColorView image);
+    ByteView compress(ColorView image) &;
 
 private:
     struct Library;

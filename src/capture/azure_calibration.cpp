@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/azure_calibration.h"
+
+#include <optional>
+
+namespace theatron::capture {
+namespace {
+
+using Json = JsonFields::Json;
+
+// The sensor after binning or scaling, and where the picture lies in it.
+struct Mode {
+    Size picture;
+    Size sensor;
+    int left = 0, top = 0;
+};
+
+constexpr Size depth_sensor{1024, 1024};
+constexpr Mode depth_modes[] = {
+    {{320, 288}, {512, 512}, 96, 90},      // NFOV 2x2 binned
+    {{640, 576}, {1024, 1024}, 192, 180},  // NFOV unbinned
+    {{512, 512}, {512, 512}, 0, 0},        // WFOV 2x2 binned
+    {{1024, 1024}, {1024, 1024}, 0, 0},    // WFOV unbinned
+};
+constexpr Mode color_modes[] = {
+    {{1280, 720}, {1280, 960}, 0, 120},   {{1920, 1080}, {1920, 1440}, 0, 180},
+    {{2560, 1440}, {2560, 1920}, 0, 240}, {{2048, 1536}, {2048, 1536}, 0, 0},
+    {{3840, 2160}, {3840, 2880}, 0, 360}, {{4096, 3072}, {4096, 3072}, 0, 0},
+};
+
+// The radius that the SDK takes where the factory could not measure one, about
+// 120 degrees.
+constexpr double usual_metric_radius = 1.7;
+
+template <std::size_t N>
+std::optional<Mode> mode_of(const Mode (&modes)[N], Size picture) {
+    for (const Mode& mode : modes)
+        if (mode.picture == picture)
+            return mode;
+    return std::nullopt;
+}
+
+struct Sensor {
+    Size size;
+    CameraModel model;  // fx, fy, cx, cy as parts of the sensor's width and height
+    Pose camera_from_device;
+};
+
+Sensor read_sensor(JsonFields& fields, const Json& cameras, std::string_view location) {
+    for (const Json& camera : cameras) {
+        const Json& found = fields.member(camera, "Location");
+        if (!found.is_string() || found.get_ref<const std::string&>() != location)
+            continue;
+        Sensor sensor;
+        sensor.size = {fields.integer(camera, "SensorWidth"),
+                       fields.integer(camera, "SensorHeight")};
+
+        const Json& intrinsics = fields.member(camera, "Intrinsics");
+        const Json& type = fields.member(intrinsics, "ModelType");
+        if (!type.is_string() ||
+            type.get_ref<const std::string&>() != "CALIBRATION_LensDistortionModelBrownConrady")
+            fields.note("has a lens model other than BrownConrady");
+        // cx, cy, fx, fy, k1 to k6, the distortion's centre (unused), p2, p1.
+        double p[14] = {};
+        fields.numbers(intrinsics, "ModelParameters", p, /*at_least=*/true);
+        CameraModel& model = sensor.model;
+        model.cx = p[0];
+        model.cy = p[1];
+        model.fx = p[2];
+        model.fy = p[3];
+        std::copy(p + 4, p + 10, model.k.begin());
+        model.p2 = p[12];
+        model.p1 = p[13];
+        model.max_radius = fields.number(camera, "MetricRadius");
+        if (model.max_radius <= 0.0001)
+            model.max_radius = usual_metric_radius;
+
+        const Json& rt = fields.member(camera, "Rt");
+        sensor.camera_from_device = {fields.rotation_matrix(rt, "Rotation"),
+                                     fields.vector(rt, "Translation")};
+        return sensor;
+    }
+    fields.note("describes no camera at " + std::string(location));
+    return {};
+}
+
+// Early devices were calibrated on the middle 16:9 part of the 4:3 sensor.
+void widen_to_four_by_three(CameraModel& model) {
+    model.cy = (model.cy * 2304 + 384) / 3072;
+    model.fy = model.fy * 2304 / 3072;
+}
+
+CameraModel in_mode(const CameraModel& normalised, const Mode& mode) {
+    CameraModel model = normalised;
+    model.size = mode.picture;
+    model.fx *= mode.sensor.width;
+    model.fy *= mode.sensor.height;
+    // Half a pixel from the corner of the first pixel to its centre.
+    model.cx = model.cx * mode.sensor.width - mode.left - 0.5;
+    model.cy = model.cy * mode.sensor.height - mode.top - 0.5;
+    return model;
+}
+
+}  // namespace
+
+bool looks_like_azure_calibration(std::string_view text) {
+    return text.find("\"CalibrationInformation\"") != std::string_view::npos;
+}
+
+ParsedCalibration parse_azure_calibration(std::string_view text, Size depth, Size color) {
+    const bool has_color = color != Size{};
+    const auto refused = [](std::string problem) {
+        return ParsedCalibration{.calibration = {}, .problem = std::move(problem)};
+    };
+    const std::optional<Mode> depth_mode = mode_of(depth_modes, depth);
+    if (!depth_mode)
+        return refused("is an Azure Kinect's, which gives no depth of " + to_text(depth));
+    const std::optional<Mode> color_mode = mode_of(color_modes, color);
+    if (has_color && !color_mode)
+        return refused("is an Azure Kinect's, which gives no colour of " + to_text(color));
+
+    JsonFields fields;
+    const Json json = fields.parse(text);
+    const Json& cameras = fields.member(fields.member(json, "CalibrationInformation"), "Cameras");
+    if (!cameras.is_array())
+        fields.note("holds no list as 'Cameras'");
+    if (!fields.problem().empty())
+        return refused(fields.problem());
+
+    const Sensor depth_camera = read_sensor(fields, cameras, "CALIBRATION_CameraLocationD0");
+    if (depth_camera.size != depth_sensor)
+        fields.note("describes a depth sensor of " + to_text(depth_camera.size) +
+                    " instead of 1024x1024");
+    Calibration calibration;
+    calibration.depth = in_mode(depth_camera.model, *depth_mode);
+    if (has_color) {
+        Sensor color_camera = read_sensor(fields, cameras, "CALIBRATION_CameraLocationPV0");
+        const auto [width, height] = color_camera.size;
+        if (std::int64_t(width) * 9 == std::int64_t(height) * 16)
+            widen_to_four_by_three(color_camera.model);
+        else if (std::int64_t(width) * 3 != std::int64_t(height) * 4)
+            fields.note("describes a colour sensor of " + to_text(color_camera.size));
+        calibration.color = in_mode(color_camera.model, *color_mode);
+        calibration.color_from_depth =
+            color_camera.camera_from_device * inverse(depth_camera.camera_from_device);
+    }
+    if (fields.problem().empty())
+        fields.note(implausibility(calibration));
+    if (!fields.problem().empty())
+        return refused(fields.problem());
+    return {.calibration = calibration, .problem = {}};
+}
+
+}  // namespace theatron::capture

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/camera.h"
+
+#include <filesystem>
+#include <new>
+
+#include "base/error.h"
+#include "base/options.h"
+#include "capture/folder_camera.h"
+
+namespace theatron::capture {
+namespace {
+
+struct Kind {
+    const char* name;
+    const char* help;
+    std::unique_ptr<Camera> (*open)(Options& options, const Progress& progress);
+};
+
+// A further kind of camera is one more line.
+constexpr Kind kinds[] = {
+    {"folder", folder_camera_help, open_folder_camera},
+};
+
+// What the standard library throws, as a sentence too.
+std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress& progress) {
+    try {
+        return kind.open(options, progress);
+    } catch (const std::filesystem::filesystem_error& problem) {
+        throw Error("Cannot read '" + problem.path1().string() + "': " + problem.code().message() +
+                    ".");
+    } catch (const std::bad_alloc&) {
+        throw Error("There is not enough memory to open the camera '" + options.text() + "'.");
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> open_camera(std::string_view specification, const Progress& progress) {
+    Options options = Options::parse(specification);
+    for (const Kind& kind : kinds)
+        if (options.kind() == kind.name)
+            return open(kind, options, progress);
+    std::string names;
+    for (const Kind& kind : kinds)
+        names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    throw Error("There is no camera '" + options.kind() + "'; there are " + names + ".");
+}
+
+std::vector<std::string> camera_kinds() {
+    std::vector<std::string> lines;
+    for (const Kind& kind : kinds)
+        lines.push_back(kind.help);
+    return lines;
+}
+
+}  // namespace theatron::capture

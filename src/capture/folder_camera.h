@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A folder of pictures as a camera (docs/formats/camera_folder.md).
+#pragma once
+
+#include "base/options.h"
+#include "capture/camera.h"
+
+namespace theatron::capture {
+
+inline constexpr const char* folder_camera_help =
+    "folder:DIR  pictures DIR/depth/*.png (16-bit grey) and DIR/color/*.jpg or *.png; "
+    "fps=30, loop=0, start=0 (first frame), preload=1 (read all at start; usual below 1 GiB), "
+    "invalid=65535 (a depth value that means no reading)";
+
+std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& progress);
+
+}  // namespace theatron::capture

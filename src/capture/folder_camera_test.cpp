@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "capture/camera.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "testing/shared_data.h"
+#include "testing/temporary_folder.h"
+#include "video/jpeg_native.h"
+
+namespace theatron::capture {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+DepthImage flat_depth(Size size, std::uint16_t value) {
+    DepthImage image(size);
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return image;
+}
+
+Bytes jpeg_picture(Size size) {
+    const ColorImage image(size);
+    video::JpegCompressor compressor(85, true);
+    const ByteView bytes = compressor.compress(image.view());
+    return Bytes(bytes.begin(), bytes.end());
+}
+
+// A folder with `frames` frames, whose depth is 1000 and their number.
+class FolderCamera : public ::testing::Test {
+protected:
+    static constexpr Size depth_size{8, 6}, color_size{16, 12};
+
+    void SetUp() override {
+        log::set_level(log::Level::error);
+        fs::create_directories(path() / "depth");
+        fs::create_directories(path() / "color");
+    }
+    void TearDown() override { log::set_level(log::Level::info); }
+    fs::path path() const { return folder_.path() / "scene"; }
+    static std::string numbered(int n, const char* ending) {
+        return (n < 10 ? "0" : "") + std::to_string(n) + ending;
+    }
+    void add_depth(int n, Size size = depth_size) {
+        files::write_png(path() / "depth" / numbered(n, ".png"),
+                         flat_depth(size, std::uint16_t(1000 + n)).view());
+    }
+    void add_jpeg(int n, Size size = color_size) {
+        files::write_file(path() / "color" / numbered(n, ".jpg"), jpeg_picture(size));
+    }
+    void add_frames(int count) {
+        for (int n = 0; n < count; ++n) {
+            add_depth(n);
+            add_jpeg(n);
+        }
+    }
+    std::unique_ptr<Camera> open(const std::string& options = "") {
+        return open_camera("folder:" + path().string() + options);
+    }
+    std::string problem(const std::string& options = "") {
+        try {
+            open(options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+private:
+    theatron::testing::TemporaryFolder folder_;
+};
+
+TEST_F(FolderCamera, PlaysItsFramesInOrderAndEnds) {
+    add_frames(3);
+    for (const char* options : {",fps=200", ",fps=200,preload=0"}) {
+        const auto camera = open(options);
+        EXPECT_EQ(camera->info().name, "scene");
+        EXPECT_EQ(camera->info().frames_per_second, 200);
+        TimePoint before;
+        for (FrameNumber n = 0; n < 3; ++n) {
+            const Capture capture = camera->next(10s);
+            ASSERT_EQ(capture.kind, Capture::Kind::frame);
+            // A machine that stalls may skip frames, but never mixes them up.
+            EXPECT_EQ(capture.frame->depth,
+                      flat_depth(depth_size, std::uint16_t(1000 + capture.frame->number)));
+            EXPECT_EQ(capture.frame->color.jpeg, jpeg_picture(color_size));
+            EXPECT_EQ(capture.frame->color.size, color_size);
+            EXPECT_GE(capture.frame->times.delivered, capture.frame->times.captured);
+            EXPECT_GT(capture.frame->times.captured, before);
+            before = capture.frame->times.captured;
+            if (capture.frame->number == 2)
+                break;
+        }
+        EXPECT_EQ(camera->next(10s).kind, Capture::Kind::end);
+        EXPECT_EQ(camera->next(10s).kind, Capture::Kind::end);
+    }
+}
+
+TEST_F(FolderCamera, NothingComesBeforeItsTime) {
+    add_frames(2);
+    const auto camera = open(",fps=0.1");
+    EXPECT_EQ(camera->next(0ms).kind, Capture::Kind::frame);
+    EXPECT_EQ(camera->next(1ms).kind, Capture::Kind::nothing);
+    EXPECT_EQ(camera->next(0ms).kind, Capture::Kind::nothing);
+}
+
+TEST_F(FolderCamera, HeldFramesKeepTheirPixels) {
+    add_frames(2);
+    const auto camera = open(",fps=200,loop=1");
+    const FramePtr first = camera->next(1s).frame;
+    const DepthImage copy = first->depth;
+    for (int n = 0; n < 5; ++n)
+        camera->next(1s);
+    EXPECT_EQ(first->depth, copy);
+}
+
+TEST_F(FolderCamera, ColorMayBePngOrMissing) {
+    for (int n = 0; n < 3; ++n)
+        add_depth(n);
+    ColorImage image(color_size);
+    image.pixels[5] = {1, 2, 3};
+    files::write_png(path() / "color" / "01.png", image.view());
+    const auto camera = open(",fps=0.5,start=1");
+    const FramePtr frame = camera->next(1s).frame;
+    EXPECT_EQ(frame->depth.pixels[0], 1001);
+    EXPECT_EQ(frame->color.pixels, image);
+    EXPECT_FALSE(frame->color.is_jpeg());
+    EXPECT_EQ(camera->info().calibration.color.size, color_size);
+
+    const FramePtr without = open(",start=2")->next(1s).frame;
+    EXPECT_TRUE(without->color.empty());
+
+    fs::remove_all(path() / "color");
+    EXPECT_EQ(open()->info().calibration.color.size, Size{});
+}
+
+TEST_F(FolderCamera, NamesOfDigitsCountAsNumbers) {
+    for (const int value : {2, 10, 9})
+        files::write_png(path() / "depth" / (std::to_string(value) + ".png"),
+                         flat_depth(depth_size, std::uint16_t(value)).view());
+    for (const auto& [start, value] : {std::pair{0, 2}, {1, 9}, {2, 10}})
+        EXPECT_EQ(open(",start=" + std::to_string(start))->next(1s).frame->depth.pixels[0], value);
+}
+
+TEST_F(FolderCamera, OneDepthValueCanMeanNoReading) {
+    add_frames(1);
+    EXPECT_EQ(open(",invalid=1000")->next(1s).frame->depth.pixels[0], 0);
+    EXPECT_EQ(open(",invalid=999")->next(1s).frame->depth.pixels[0], 1000);
+}
+
+TEST_F(FolderCamera, CalibrationComesFromTheFileBesideThePictures) {
+    add_frames(1);
+    EXPECT_EQ(open()->info().calibration.depth, pinhole(depth_size, 64));
+    std::ofstream(path() / "camera-intrinsics.txt") << "7 0 4 0 7 3 0 0 1";
+    EXPECT_EQ(open()->info().calibration.depth.fx, 7);
+    std::ofstream(path() / "calibration.json")
+        << R"({"depth":{"width":8,"height":6,"fx":9,"fy":9,"cx":4,"cy":3}})";
+    EXPECT_EQ(open()->info().calibration.depth.fx, 9);
+    std::ofstream(path() / "calibration.json") << "{";
+    EXPECT_EQ(problem(), "'" + (path() / "calibration.json").string() + "' is not JSON.");
+}
+
+TEST_F(FolderCamera, NamesTheFrameOfAnOddSize) {
+    add_frames(3);
+    add_depth(1, {7, 6});
+    const std::string sentence = "'" + (path() / "depth/01.png").string() +
+                                 "' is 7x6, but the first picture of its folder is 8x6.";
+    EXPECT_EQ(problem(), sentence);
+
+    // Without reading all at opening, it is found when its turn comes.
+    const auto camera = open(",preload=0,fps=200");
+    Capture capture = camera->next(1s);
+    while (capture.kind != Capture::Kind::failed && capture.kind != Capture::Kind::end)
+        capture = camera->next(1s);
+    EXPECT_EQ(capture.problem, sentence);
+    EXPECT_EQ(camera->next(1s).kind, Capture::Kind::failed);
+
+    add_depth(1);
+    add_jpeg(2, {16, 11});
+    EXPECT_THAT(problem(), AllOf(HasSubstr("02.jpg"), HasSubstr("16x11"), HasSubstr("16x12")));
+}
+
+TEST_F(FolderCamera, SaysWhatIsWrongWithTheFiles) {
+    EXPECT_THAT(problem(), HasSubstr("holds no PNG pictures"));
+    add_frames(2);
+    EXPECT_EQ(problem(), "");
+    EXPECT_THAT(problem(",start=2"), HasSubstr("has 2 frames"));
+    EXPECT_THAT(problem(",fps=0"), HasSubstr("fps=0"));
+    EXPECT_THAT(problem(",speed=1"), HasSubstr("'speed' is unknown"));
+
+    files::write_file(path() / "color/01.jpg", as_bytes("not a picture"));
+    EXPECT_THAT(problem(), AllOf(HasSubstr("01.jpg"), HasSubstr("not a whole JPEG")));
+    Bytes cut = jpeg_picture(color_size);
+    cut.resize(100);
+    files::write_file(path() / "color/01.jpg", cut);
+    EXPECT_THAT(problem(), AllOf(HasSubstr("01.jpg"), HasSubstr("not a whole JPEG")));
+    add_jpeg(1);
+
+    files::write_png(path() / "depth/01.png", ColorImage(depth_size).view());
+    EXPECT_THAT(problem(), AllOf(HasSubstr("01.png"), HasSubstr("16 bits grey")));
+    files::write_file(path() / "depth/01.png", as_bytes("not a picture"));
+    EXPECT_THAT(problem(), AllOf(HasSubstr("01.png"), HasSubstr("is not a PNG picture")));
+
+    fs::remove_all(path() / "depth");
+    EXPECT_THAT(problem(), HasSubstr("holds no folder 'depth'"));
+    fs::remove_all(path());
+    EXPECT_EQ(problem(), "There is no folder '" + path().string() + "'.");
+}
+
+TEST(OpenCamera, NamesTheKindsThereAre) {
+    try {
+        open_camera("webcam:0");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("There is no camera 'webcam'; there are folder"));
+    }
+    EXPECT_THROW(open_camera(""), Error);
+    EXPECT_THROW(open_camera("folder"), Error);
+    EXPECT_THAT(camera_kinds(), ::testing::Contains(HasSubstr("folder:DIR")));
+}
+
+TEST(FolderCameraOnRealData, EverySequenceOpens) {
+    THEATRON_REQUIRE_DATA("README.md");
+    int sequences = 0;
+    for (const auto& entry : fs::directory_iterator(theatron::testing::shared_data())) {
+        if (!fs::is_directory(entry.path() / "depth"))
+            continue;
+        ++sequences;
+        const auto camera = open_camera("folder:" + entry.path().string() + ",preload=0");
+        const Capture capture = camera->next(1s);
+        ASSERT_EQ(capture.kind, Capture::Kind::frame) << entry.path();
+        const Calibration& calibration = camera->info().calibration;
+        EXPECT_EQ(capture.frame->depth.size, calibration.depth.size);
+        EXPECT_EQ(capture.frame->color.size, calibration.color.size);
+    }
+    EXPECT_GT(sequences, 0);
+}
+
+}  // namespace
+}  // namespace theatron::capture

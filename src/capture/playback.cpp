@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/playback.h"
+
+#include <thread>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+
+namespace theatron::capture {
+namespace {
+
+class RecordedCamera final : public Camera {
+public:
+    RecordedCamera(CameraInfo info, std::unique_ptr<Recording> recording,
+                   const PlaybackOptions& options)
+        : info_(std::move(info)),
+          recording_(std::move(recording)),
+          playback_(*recording_, seconds_to_duration(1 / info_.frames_per_second), options.loop,
+                    options.start) {}
+
+    const CameraInfo& info() const override { return info_; }
+
+    Capture next(Duration timeout) override {
+        if (over_)
+            return *over_;
+        try {
+            if (!waiting_ && !prepare())
+                return finish({.kind = Capture::Kind::end, .frame = {}, .problem = {}});
+        } catch (const std::exception& problem) {
+            return finish({.kind = Capture::Kind::failed, .frame = {}, .problem = problem.what()});
+        }
+        const TimePoint now = steady_now();
+        if (waiting_->times.captured > now + timeout) {
+            std::this_thread::sleep_for(timeout);
+            return {};
+        }
+        std::this_thread::sleep_for(waiting_->times.captured - now);
+        waiting_->times.delivered = steady_now();
+        return {.kind = Capture::Kind::frame, .frame = std::move(waiting_), .problem = {}};
+    }
+
+private:
+    // Reads the next frame while there is still time until it is due.
+    bool prepare() {
+        const auto upcoming = playback_.upcoming(steady_now());
+        if (!upcoming)
+            return false;
+        auto frame = pool_.take();
+        playback_.read(*frame);
+        frame->number = upcoming->number;
+        frame->times = {.captured = upcoming->due};
+        waiting_ = std::move(frame);
+        return true;
+    }
+
+    Capture finish(Capture how) {
+        over_ = std::move(how);
+        return *over_;
+    }
+
+    CameraInfo info_;
+    std::unique_ptr<Recording> recording_;
+    Playback playback_;
+    FramePool pool_;
+    std::shared_ptr<Frame> waiting_;
+    std::optional<Capture> over_;
+};
+
+}  // namespace
+
+PlaybackOptions take_playback_options(Options& options) {
+    PlaybackOptions playback;
+    playback.loop = options.take_flag("loop");
+    playback.start = options.take_int("start", 0, 0, 1'000'000);
+    constexpr int not_given = -1;
+    if (const int preload = options.take_int("preload", not_given, 0, 1); preload != not_given)
+        playback.preload = preload == 1;
+    return playback;
+}
+
+std::optional<Playback::Upcoming> Playback::upcoming(TimePoint now) {
+    while (true) {
+        const std::optional<Duration> offset = recording_.offset();
+        if (!offset) {
+            if (!rewind())
+                return std::nullopt;
+            continue;
+        }
+        if (to_pass_over_ > 0) {
+            --to_pass_over_;
+            recording_.skip();
+            continue;
+        }
+        if (!begun_) {
+            begun_ = true;
+            zero_ = now - *offset;
+        }
+        last_offset_ = *offset;
+        const TimePoint due = zero_ + *offset;
+        if (now - due <= period_)
+            return Upcoming{number_, due};
+        recording_.skip();
+        ++number_;
+    }
+}
+
+void Playback::read(Frame& out) {
+    recording_.read(out);
+    ++number_;
+}
+
+bool Playback::rewind() {
+    if (!loop_)
+        return false;
+    recording_.rewind();
+    zero_ += last_offset_ + period_;
+    return recording_.offset().has_value();
+}
+
+MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
+                                 const Progress& progress) {
+    frames_.reserve(expected_frames);
+    while (const std::optional<Duration> offset = source.offset()) {
+        Kept kept{*offset, {}};
+        source.read(kept.frame);
+        frames_.push_back(std::move(kept));
+        if (progress && expected_frames > 0)
+            progress("reading frames",
+                     std::min(1.0, double(frames_.size()) / double(expected_frames)));
+    }
+}
+
+std::optional<Duration> MemoryRecording::offset() {
+    if (next_ == frames_.size())
+        return std::nullopt;
+    return frames_[next_].offset;
+}
+
+void MemoryRecording::read(Frame& out) {
+    const Frame& kept = frames_[next_++].frame;
+    // Assigning keeps the memory that `out` already has.
+    out.depth = kept.depth;
+    out.color = kept.color;
+}
+
+std::unique_ptr<Camera> make_recorded_camera(CameraInfo info, std::unique_ptr<Recording> recording,
+                                             const PlaybackOptions& options) {
+    return std::make_unique<RecordedCamera>(std::move(info), std::move(recording), options);
+}
+
+}  // namespace theatron::capture

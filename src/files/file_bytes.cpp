@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/file_bytes.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+
+namespace theatron::files {
+namespace {
+
+struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+[[noreturn]] void refuse(const char* what, const std::filesystem::path& path, const char* why) {
+    throw Error("Cannot " + std::string(what) + " '" + path.string() + "': " + why + ".");
+}
+
+}  // namespace
+
+Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes) {
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (status.type() == std::filesystem::file_type::not_found)
+        refuse("read", path, "there is no such file");
+    if (status.type() != std::filesystem::file_type::regular)
+        refuse("read", path, problem ? problem.message().c_str() : "it is not a file");
+    const auto size = std::filesystem::file_size(path, problem);
+    if (problem)
+        refuse("read", path, problem.message().c_str());
+    if (size > max_bytes)
+        refuse("read", path, "it is too large");
+
+    const File file(std::fopen(path.c_str(), "rb"));
+    if (!file)
+        refuse("read", path, std::strerror(errno));
+    Bytes bytes(size);
+    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+        refuse("read", path, "it ended early");
+    return bytes;
+}
+
+void write_file(const std::filesystem::path& path, ByteView bytes) {
+    std::filesystem::path draft = path;
+    draft += ".part";
+    File file(std::fopen(draft.c_str(), "wb"));
+    if (!file)
+        refuse("write", path, std::strerror(errno));
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    // Closing may be what finds the disk full.
+    const bool closed = std::fclose(file.release()) == 0;
+    if (!written || !closed || std::rename(draft.c_str(), path.c_str()) != 0) {
+        const int reason = errno;
+        std::remove(draft.c_str());
+        refuse("write", path, std::strerror(reason));
+    }
+}
+
+}  // namespace theatron::files

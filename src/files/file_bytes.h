@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files as bytes. Throws Error with one sentence that names the file.
+#pragma once
+
+#include <filesystem>
+
+#include "base/bytes.h"
+
+namespace theatron::files {
+
+// Reads a regular file of at most `max_bytes`.
+Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t(1) << 30);
+
+// Writes beside `path` first and renames, so that a reader never sees half a file.
+void write_file(const std::filesystem::path& path, ByteView bytes);
+
+}  // namespace theatron::files
