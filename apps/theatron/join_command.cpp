@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -16,11 +15,9 @@
 #include "files/png_file.h"
 #include "participant.h"
 #include "participant_figures.h"
-#include "render/cloud_scene.h"
-#include "render/offscreen_context_native.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
-#include "view_choice.h"
+#include "viewer_scene.h"
 
 namespace theatron::app {
 namespace {
@@ -49,56 +46,25 @@ Size parse_size(const std::string& text) {
 }
 
 // Draws what came, from one viewpoint, into files.
-class OffscreenPicture {
-public:
-    OffscreenPicture(const Flags& flags)
-        : size_(parse_size(flags.size)), renderer_(flags.renderer), view_(parse_view(flags.view)) {
-        render::check_renderer_name(renderer_);
+struct OffscreenPicture {
+    explicit OffscreenPicture(const Flags& flags)
+        : size(parse_size(flags.size)), view(parse_view(flags.view)) {
+        render::check_renderer_name(flags.renderer);
     }
 
-    void take(Participant& participant) {
-        std::uint64_t generation = 0;
-        const auto cameras = participant.cameras(generation);
-        if (generation != generation_) {
-            for (const auto& [id, calibration] : calibrations_)
-                scene_.remove_camera(id);
-            calibrations_.clear();
-            for (const auto& camera : cameras) {
-                scene_.set_camera(camera.description.id, camera.calibration);
-                calibrations_[camera.description.id] = camera.calibration;
-            }
-            generation_ = generation;
-        }
-        for (const auto& frame : participant.take_frames()) {
-            const ColorView color = frame->color ? frame->color->view() : ColorView{};
-            if (scene_.upload(frame->camera, frame->depth.view(), color) != Status::ok)
-                continue;
-            newest_[frame->camera] = frame;
-        }
-    }
-
-    void write(const std::string& color_file, const std::string& depth_file) {
-        if (newest_.empty())
+    void write(const Flags& flags) {
+        if (!scene.has_picture())
             throw Error("No picture came from the host, so none was written.");
-        const render::CameraView view = view_.resolve(calibrations_, newest_, size_);
-        const render::Picture picture = scene_.render(view, size_, renderer_);
-        if (!color_file.empty())
-            files::write_png(color_file, picture.color.view());
-        if (!depth_file.empty())
-            files::write_png(depth_file, picture.depth_mm.view());
-        if (context_.errors() > 0)
-            throw Error("The graphics driver reported an error: " + context_.first_error());
+        const render::Picture picture = scene.render(view, size, flags.renderer);
+        if (!flags.offscreen.empty())
+            files::write_png(flags.offscreen, picture.color.view());
+        if (!flags.depth_file.empty())
+            files::write_png(flags.depth_file, picture.depth_mm.view());
     }
 
-private:
-    Size size_;
-    std::string renderer_;
-    ViewChoice view_;
-    render::OffscreenContext context_;
-    render::CloudScene scene_;
-    std::uint64_t generation_ = 0;
-    std::map<CameraId, Calibration> calibrations_;
-    std::map<CameraId, receive::CameraFramePtr> newest_;
+    Size size;
+    ViewChoice view;
+    ViewerScene scene;
 };
 
 // Lines on standard input change the codecs: "depth rvl", "color raw".
@@ -156,7 +122,7 @@ void run(const Flags& flags) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
             first_frame = steady_now();
         if (picture)
-            picture->take(participant);
+            picture->scene.take(participant);
         else
             (void)participant.take_frames();
 
@@ -187,7 +153,7 @@ void run(const Flags& flags) {
         std::cout << "\n";
     const nlohmann::json figures = participant_figures(participant);
     if (picture)
-        picture->write(flags.offscreen, flags.depth_file);
+        picture->write(flags);
     if (flags.json)
         std::cout << figures.dump() << std::endl;
     else if (!live_line)

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron bench
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench_color.h"
+#include "bench_depth.h"
+#include "bench_pipeline.h"
+#include "bench_sequence.h"
+#include "codec/depth_codec.h"
+#include "commands.h"
+#include "video/color_codec.h"
+
+namespace theatron::app {
+namespace {
+
+// Prints a result as a table, and writes it to `file` or, for "-", as JSON.
+void report(const nlohmann::json& result, const std::string& file,
+            const std::function<void()>& print_table) {
+    if (file == "-") {
+        std::cout << result.dump(2) << std::endl;
+        return;
+    }
+    print_table();
+    if (file.empty())
+        return;
+    std::ofstream out(file);
+    out << result.dump(2) << "\n";
+    if (!out.flush())
+        throw Error("Cannot write " + file + ".");
+}
+
+void print_codecs(const nlohmann::json& sequences) {
+    for (const auto& sequence : sequences) {
+        std::printf("%s  %dx%d, %d frames\n", sequence["sequence"].get<std::string>().c_str(),
+                    sequence["width"].get<int>(), sequence["height"].get<int>(),
+                    sequence["frames"].get<int>());
+        std::printf("  %-28s %9s %9s %7s %10s %10s\n", "codec", "first kB", "mean kB", "ratio",
+                    "encode ms", "decode ms");
+        for (const auto& c : sequence["codecs"])
+            std::printf("  %-28s %9.1f %9.1f %7.2f %10.2f %10.2f%s\n",
+                        c["name"].get<std::string>().c_str(), c["bytes_first"].get<double>() / 1000,
+                        c["bytes_mean"].get<double>() / 1000, c["ratio"].get<double>(),
+                        c["encode_ms"].get<double>(), c["decode_ms"].get<double>(),
+                        c["lossless"].get<bool>() ? "" : "  lossy");
+    }
+}
+
+struct CodecFlags {
+    std::vector<std::string> folders;
+    std::vector<std::string> codecs;
+    int frames = 150;
+    std::string json;
+};
+
+CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, CodecFlags& flags) {
+    CLI::App* command = bench.add_subcommand(name, help);
+    command->add_option("folder", flags.folders, "Folders with depth/*.png and color/*")
+        ->required();
+    command->add_option("--codecs", flags.codecs,
+                        "Which codecs, separated by blanks (default: all)");
+    command->add_option("--frames", flags.frames, "At most so many frames of each")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--json", flags.json,
+                        "Write the result to this file; - prints it instead of the table");
+    return command;
+}
+
+void add_depth(CLI::App& bench) {
+    const auto flags = std::make_shared<CodecFlags>();
+    CLI::App* command = add_codec_bench(
+        bench, "depth", "Depth codecs: size and speed, checked, one thread", *flags);
+    command->footer(
+        "Example: theatron bench depth recordings/table --codecs rvl trvl --json depth.json");
+    command->callback([flags] {
+        const auto codecs = flags->codecs.empty() ? codec::depth_codec_names() : flags->codecs;
+        nlohmann::json sequences = nlohmann::json::array();
+        for (const std::string& folder : flags->folders) {
+            const BenchSequence s = load_sequence(folder, false, flags->frames);
+            sequences.push_back(bench_depth_sequence(s.name, s.depth, codecs));
+        }
+        const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
+        report(result, flags->json, [&] { print_codecs(sequences); });
+    });
+}
+
+void add_color(CLI::App& bench) {
+    const auto flags = std::make_shared<CodecFlags>();
+    CLI::App* command = add_codec_bench(
+        bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
+    command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
+    command->callback([flags] {
+        const auto codecs = flags->codecs.empty() ? video::color_codec_names() : flags->codecs;
+        nlohmann::json sequences = nlohmann::json::array();
+        for (const std::string& folder : flags->folders) {
+            const BenchSequence s = load_sequence(folder, true, flags->frames);
+            sequences.push_back(bench_color_sequence(s.name, s.color, codecs));
+        }
+        const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
+        report(result, flags->json, [&] { print_codecs(sequences); });
+    });
+}
+
+void add_pipeline(CLI::App& bench) {
+    struct Flags {
+        PipelineBench bench;
+        int cameras = 0;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "pipeline", "From cameras to decoded images, host and viewers in processes of their own");
+    command->footer(
+        "Example: theatron bench pipeline --camera folder:recordings/table,loop=1,preload=1 "
+        "--cameras 4 --seconds 20");
+    command->add_option("--camera", flags->bench.cameras, "A camera; repeat for more")->required();
+    command->add_option("--cameras", flags->cameras, "So many in all, by using those given again");
+    command->add_option("--viewers", flags->bench.viewers, "Participants")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command->add_option("--seconds", flags->bench.seconds, "Measured time")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 86400));
+    command->add_option("--warmup", flags->bench.warmup_seconds, "Time before that")
+        ->capture_default_str();
+    command->add_option("--depth-codec", flags->bench.depth_codec, "Of all viewers")
+        ->capture_default_str();
+    command->add_option("--color-codec", flags->bench.color_codec, "Of all viewers")
+        ->capture_default_str();
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        PipelineBench b = flags->bench;
+        for (std::size_t i = 0; b.cameras.size() < std::size_t(flags->cameras); ++i)
+            b.cameras.push_back(flags->bench.cameras[i % flags->bench.cameras.size()]);
+        const nlohmann::json r = bench_pipeline(b);
+        report(r, flags->json, [&] {
+            std::printf("%d camera(s), %d viewer(s), %.0f s, %s + %s\n", r["cameras"].get<int>(),
+                        r["viewers"].get<int>(), r["seconds"].get<double>(), b.depth_codec.c_str(),
+                        b.color_codec.c_str());
+            std::printf(
+                "  lowest %.2f fps, %lu frame(s) dropped, %.1f Mbit/s a camera, %.2f cores\n",
+                r["fps_min"].get<double>(), r["frames_dropped"].get<unsigned long>(),
+                r["mbit_per_camera"].get<double>(), r["cpu_cores"].get<double>());
+            std::printf("  age when decoded: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n",
+                        r["age_ms"]["p50"].get<double>(), r["age_ms"]["p99"].get<double>(),
+                        r["age_ms"]["max"].get<double>());
+            for (const auto& stage : r["stages"])
+                std::printf("  %-14s p50 %6.2f ms  p99 %6.2f ms\n",
+                            stage["name"].get<std::string>().c_str(), stage["p50_ms"].get<double>(),
+                            stage["p99_ms"].get<double>());
+        });
+    });
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure the product with its own code");
+    bench->require_subcommand(1);
+    add_depth(*bench);
+    add_color(*bench);
+    add_pipeline(*bench);
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// This program started again as a child, for measurements between processes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace theatron::app {
+
+class ChildProcess {
+public:
+    // Starts this program with `arguments`; its standard output can be read.
+    // Throws Error.
+    explicit ChildProcess(const std::vector<std::string>& arguments);
+    ~ChildProcess();  // kills what still runs
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    // The next line of its output; empty at the end.
+    std::string read_line();
+
+    void interrupt();
+
+    struct End {
+        int exit_code = 0;
+        double cpu_seconds = 0;
+        double peak_memory_mb = 0;
+    };
+    // Waits for its end.
+    End wait();
+
+private:
+    int pid_ = -1;
+    int output_ = -1;
+};
+
+}  // namespace theatron::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron demo: a host and a viewer in one program, with cameras that need no
+// hardware, and pictures of what the viewer sees.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "commands.h"
+#include "files/png_file.h"
+#include "host.h"
+#include "participant.h"
+#include "participant_figures.h"
+#include "progress.h"
+#include "stop_signal.h"
+#include "viewer_scene.h"
+
+namespace theatron::app {
+namespace {
+
+struct Flags {
+    std::vector<std::string> cameras = {"synthetic:camera=0,cameras=2",
+                                        "synthetic:camera=1,cameras=2"};
+    std::string out = "demo";
+    std::string listen = "127.0.0.1:0";
+    double seconds = 0;
+};
+
+struct View {
+    const char* file;
+    const char* renderer;
+    ViewChoice choice;
+};
+
+void run(const Flags& flags) {
+    catch_stop_signals();
+    const std::filesystem::path folder = flags.out;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw Error("Cannot make the folder '" + flags.out +
+                    "' for the pictures: " + error.message() + ".");
+
+    HostOptions options;
+    options.cameras = flags.cameras;
+    options.listen = net::parse_endpoint(flags.listen);
+    options.state = folder / "host";
+    options.name = "demo operating room";
+    Host host(options, show_progress());
+
+    Participant::Options join;
+    join.link = net::parse_link(host.link());
+    join.name = "demo viewer";
+    join.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+    Participant viewer(join);
+
+    constexpr Size size{1280, 720};
+    ViewerScene scene;
+    const View views[] = {{"mesh.png", "mesh", {CameraId{0}, 0, 0}},
+                          {"mesh_from_the_side.png", "mesh", {CameraId{0}, 25, 10}},
+                          {"splat.png", "splat", {CameraId{0}, 0, 0}}};
+
+    std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
+              << "  theatron join '" << host.link() << "' --offscreen view.png\n\n"
+              << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
+    const TimePoint begin = steady_now();
+    TimePoint next_line{}, next_picture = begin + 1s;
+    bool announced = false;
+    while (!stop_requested() &&
+           (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
+        viewer.wait_for_frame(50ms);
+        scene.take(viewer);
+        const TimePoint now = steady_now();
+        if (scene.has_picture() && now >= next_picture) {
+            for (const View& view : views)
+                files::write_png(folder / view.file,
+                                 scene.render(view.choice, size, view.renderer).color.view());
+            if (!std::exchange(announced, true))
+                for (const View& view : views)
+                    std::cout << "  " << (folder / view.file).string() << "\n";
+            next_picture = steady_now() + 5s;
+        }
+        if (announced && now >= next_line) {
+            if (isatty(STDOUT_FILENO))
+                std::cout << "\r\033[K" << status_line(viewer) << std::flush;
+            else
+                std::cout << status_line(viewer) << std::endl;
+            next_line = now + (isatty(STDOUT_FILENO) ? Duration(500ms) : Duration(2s));
+        }
+    }
+    std::cout << "\nThe demo has ended. Next, try your own camera:\n"
+                 "  theatron host --camera mkv:RECORDING.mkv,loop=1\n"
+                 "  theatron host --help\n";
+    if (!announced)
+        throw Error("The demo ended before the first picture; give it more time with --seconds.");
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        app.add_subcommand("demo", "See it work: a generated room, streamed to a viewer");
+    command->footer("Example: theatron demo --seconds 20 --out pictures");
+    command->add_option("--camera", flags->cameras,
+                        "Other cameras than the generated ones; repeat for more");
+    command->add_option("--out", flags->out, "Folder for the pictures")->capture_default_str();
+    command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
+        ->capture_default_str();
+    command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a participant sees, drawn offscreen: the newest frames of all cameras.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "participant.h"
+#include "render/cloud_scene.h"
+#include "render/offscreen_context_native.h"
+#include "view_choice.h"
+
+namespace theatron::app {
+
+// Use from one thread.
+class ViewerScene {
+public:
+    // Takes over what is new: cameras and frames.
+    void take(Participant& participant);
+
+    bool has_picture() const { return !newest_.empty(); }
+
+    // Throws Error if that camera gave nothing, or if the driver reported an error.
+    render::Picture render(const ViewChoice& view, Size size, const std::string& renderer);
+
+private:
+    render::OffscreenContext context_;
+    render::CloudScene scene_;
+    std::uint64_t generation_ = 0;
+    std::map<CameraId, Calibration> calibrations_;
+    std::map<CameraId, receive::CameraFramePtr> newest_;
+};
+
+}  // namespace theatron::app
