@@ -16,10 +16,18 @@ enum class SettingId : std::uint16_t {};
 enum class ParticipantId : std::uint32_t {};
 
 // Depth and colour of a camera are two streams with fixed numbers.
-constexpr StreamId depth_stream(CameraId camera) { return StreamId(2 * int(camera)); }
-constexpr StreamId color_stream(CameraId camera) { return StreamId(2 * int(camera) + 1); }
-constexpr bool is_depth(StreamId stream) { return int(stream) % 2 == 0; }
-constexpr CameraId camera_of(StreamId stream) { return CameraId(int(stream) / 2); }
+constexpr StreamId depth_stream(CameraId camera) {
+    return StreamId(2 * int(camera));
+}
+constexpr StreamId color_stream(CameraId camera) {
+    return StreamId(2 * int(camera) + 1);
+}
+constexpr bool is_depth(StreamId stream) {
+    return int(stream) % 2 == 0;
+}
+constexpr CameraId camera_of(StreamId stream) {
+    return CameraId(int(stream) / 2);
+}
 
 // Counts the frames of one stream from 0; wraps after 4.5 years at 30 Hz.
 using FrameNumber = std::uint32_t;

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# make demo: install, build, and see it work.   make test: everything that must hold.
+SHELL := /bin/bash
+SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
+
+.PHONY: help setup build demo test format fuzz clean
+
+help:
+	@echo "make demo               install what is needed, build, and show a streamed room"
+	@echo "make demo SECONDS=20    the same, ending by itself"
+	@echo "make test               build and run every check"
+	@echo "make build              build/release/apps/theatron/theatron"
+	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
+	@echo "make format             clang-format over all sources"
+
+setup:
+	@tools/setup.sh
+
+build: setup
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release --target theatron
+
+demo: build
+	@build/release/apps/theatron/theatron demo $(SECONDS_OF_DEMO)
+
+test: setup
+	@tools/test.sh
+
+fuzz: setup
+	@tools/fuzz.sh $(or $(TIME),60)
+
+format: setup
+	@git ls-files '*.h' '*.cpp' '*.cu' | xargs clang-format -i
+
+clean:
+	rm -rf build demo

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks that modules include only what their CMakeLists.txt declares.
+
+Reads theatron_module(NAME ... DEPENDS a b c ...) of every folder in src/ and
+compares it with the #include lines. Dependencies must not form a circle.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+KEYWORDS = {"WEB", "PURE", "DEPENDS", "LINK"}
+
+
+def declared():
+    modules = {}
+    for file in sorted((ROOT / "src").glob("*/CMakeLists.txt")):
+        match = re.search(r"theatron_module\(([^)]*)\)", file.read_text())
+        if not match:
+            continue
+        words = match.group(1).split()
+        name, depends, web = words[0], set(), "WEB" in words
+        if "DEPENDS" in words:
+            for word in words[words.index("DEPENDS") + 1:]:
+                if word in KEYWORDS:
+                    break
+                depends.add(word)
+        modules[name] = (depends, web)
+    return modules
+
+
+def closure(name, modules, path=()):
+    """All modules that `name` may include; raises on a circle."""
+    if name in path:
+        raise ValueError(" -> ".join((*path, name)))
+    result = {name}
+    for other in modules[name][0]:
+        result |= closure(other, modules, (*path, name))
+    return result
+
+
+def main():
+    modules = declared()
+    problems = []
+    for name, (depends, web) in modules.items():
+        for other in sorted(depends - modules.keys()):
+            problems.append(f"src/{name}/CMakeLists.txt: there is no module {other}")
+        for other in sorted(depends & modules.keys()):
+            if web and not modules[other][1]:
+                problems.append(f"src/{name}/CMakeLists.txt: a web module depends on {other}, which is none")
+    if not problems:
+        for name in modules:
+            try:
+                closure(name, modules)
+            except ValueError as circle:
+                problems.append(f"dependencies form a circle: {circle}")
+    for file in sorted((ROOT / "src").rglob("*")):
+        if file.suffix not in {".h", ".cpp", ".cu"} or problems and "circle" in problems[-1]:
+            continue
+        module = file.relative_to(ROOT / "src").parts[0]
+        if module not in modules:
+            problems.append(f"{file.relative_to(ROOT)}: its folder is no module")
+            continue
+        # Tests may use what stands beside the product: other modules' readers of files.
+        allowed = closure(module, modules)
+        if file.stem.endswith(("_test", "_bench")):
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s+"([a-z0-9_]+)/', line)
+            if match and match.group(1) in modules and match.group(1) not in allowed:
+                problems.append(
+                    f"{file.relative_to(ROOT)}:{number}: {module} may not include {match.group(1)}")
+    for problem in problems:
+        print(problem)
+    print(f"{len(modules)} modules, {len(problems)} wrong dependencies")
+    return 1 if problems else 0
+
+
+sys.exit(main())
