@@ -45,3 +45,8 @@ if(NOT EMSCRIPTEN)
   find_package(GTest REQUIRED)
   find_package(PkgConfig REQUIRED)
 endif()
+
+if(EMSCRIPTEN)
+  add_compile_options(-fwasm-exceptions -msimd128)
+  add_link_options(-fwasm-exceptions)
+endif()

@@ -31,7 +31,8 @@ void SettingTable::update() {
     std::erase_if(active_, [&](const ActiveSetting& s) { return !wanted(s.codec); });
 
     // Participants are numbered as they join, so the longest present come first.
-    for (const auto& [participant, codec] : wishes_) {
+    for (const auto& wish : wishes_) {
+        const std::string& codec = wish.second;
         const bool present = std::any_of(active_.begin(), active_.end(),
                                          [&](const ActiveSetting& s) { return s.codec == codec; });
         if (!present && active_.size() < max_active)
