@@ -33,6 +33,7 @@ struct Flags {
     std::string view = "camera:0";
     double seconds = 0;
     double warmup = 0;
+    double every = 0;
     bool json = false;
 };
 
@@ -109,7 +110,7 @@ void run(const Flags& flags) {
 
     catch_stop_signals();
     Participant participant(options);
-    const bool live_line = !flags.json && isatty(STDOUT_FILENO);
+    const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
     const Duration warmup = seconds_to_duration(flags.warmup);
@@ -144,7 +145,10 @@ void run(const Flags& flags) {
         constexpr Duration join_patience = std::chrono::seconds(10);
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
-        if (live_line && now >= next_line) {
+        if (flags.every > 0 && now >= next_line) {
+            std::cout << participant_figures(participant).dump() << std::endl;
+            next_line = now + seconds_to_duration(flags.every);
+        } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
             next_line = now + 500ms;
         }
@@ -202,6 +206,8 @@ void add_join_command(CLI::App& app) {
     command->add_option("--seconds", flags->seconds,
                         "End this long after the first picture (default with --offscreen: 3)");
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
+    command->add_option("--every", flags->every,
+                        "Print the figures as a JSON line every so many seconds");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->callback([flags] { run(*flags); });
 }

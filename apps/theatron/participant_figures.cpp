@@ -79,6 +79,7 @@ nlohmann::json participant_figures(const Participant& participant) {
                            {"fps", depth.frames_per_second},
                            {"frames", depth.frames},
                            {"mbit_per_s", camera_mbit},
+                           {"newest_age_ms", depth.age_ms},
                            {"age_ms", age(depth)},
                            {"color_age_ms", age(color)},
                            {"dropped", depth.dropped + color.dropped},

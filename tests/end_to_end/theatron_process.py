@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Starts the program as a user would, and makes and reads small pictures."""
+import json
+import os
+import pathlib
+import queue
+import signal
+import struct
+import subprocess
+import threading
+import time
+import zlib
+
+PROGRAM = os.environ.get("THEATRON", "build/release/apps/theatron/theatron")
+DATA = pathlib.Path(os.environ.get("THEATRON_DATA", "../shared/data"))
+
+
+class Process:
+    """A running theatron whose output lines can be waited for."""
+
+    def __init__(self, *arguments, **options):
+        self.process = subprocess.Popen(
+            [PROGRAM, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True, **options)
+        self.lines = queue.Queue()
+        self.errors = []
+        threading.Thread(target=self._read_output, daemon=True).start()
+        self.error_thread = threading.Thread(target=self._read_errors, daemon=True)
+        self.error_thread.start()
+
+    def _read_output(self):
+        for line in self.process.stdout:
+            self.lines.put(line)
+        self.lines.put(None)
+
+    def _read_errors(self):
+        for line in self.process.stderr:
+            self.errors.append(line)
+
+    def read_json(self, timeout=30):
+        line = self.lines.get(timeout=timeout)
+        if line is None:
+            self.error_thread.join(5)
+            raise AssertionError("the program ended: " + "".join(self.errors))
+        return json.loads(line)
+
+    def newest_json(self):
+        """The last complete line so far, waiting for at least one."""
+        newest = self.read_json()
+        while not self.lines.empty():
+            newest = self.read_json()
+        return newest
+
+    def wait_for(self, condition, timeout):
+        """Reads JSON lines until one meets the condition; returns it."""
+        deadline = time.monotonic() + timeout
+        while True:
+            figures = self.read_json(timeout=max(0.1, deadline - time.monotonic()))
+            if condition(figures):
+                return figures
+            if time.monotonic() > deadline:
+                raise AssertionError(f"not in {timeout} s; last: {figures}")
+
+    def memory_mb(self):
+        with open(f"/proc/{self.process.pid}/status") as status:
+            for line in status:
+                if line.startswith("VmRSS"):
+                    return int(line.split()[1]) / 1024
+        return 0
+
+    def send(self, sig):
+        self.process.send_signal(sig)
+
+    def say(self, text):
+        self.process.stdin.write(text + "\n")
+        self.process.stdin.flush()
+
+    def end(self, timeout=30):
+        code = self.process.wait(timeout)
+        self.error_thread.join(5)
+        return code
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGCONT)
+            self.process.kill()
+        self.process.wait()
+
+
+def host(state, *cameras, listen="127.0.0.1:0", options=()):
+    arguments = ["host", "--listen", listen, "--json", "--state", state, *options]
+    for camera in cameras:
+        arguments += ["--camera", camera]
+    process = Process(*arguments)
+    process.greeting = process.read_json()
+    return process
+
+
+def run(*arguments, timeout=60):
+    """Runs to the end; returns exit code, output and errors."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=timeout)
+    return done.returncode, done.stdout, done.stderr
+
+
+def write_png(path, width, height, bits, channels, rows):
+    """rows: one bytes object each, big endian for 16 bits."""
+    color_type = {1: 0, 3: 2}[channels]
+    raw = b"".join(b"\0" + row for row in rows)
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits,
+                                                                      color_type, 0, 0, 0))
+                     + chunk(b"IDAT", zlib.compress(raw, 1)) + chunk(b"IEND", b""))
+
+
+def read_png(path):
+    """Returns width, height, channels, and rows of numbers (8 or 16 bits)."""
+    data = path.read_bytes()
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, bits, color_type = struct.unpack(">IIBB", body[:10])
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    channels = {0: 1, 2: 3, 6: 4}[color_type]
+    step = channels * bits // 8
+    raw, rows, above = zlib.decompress(packed), [], bytearray(width * step)
+    for y in range(height):
+        start = y * (width * step + 1)
+        method, row = raw[start], bytearray(raw[start + 1:start + 1 + width * step])
+        for x in range(len(row)):
+            left = row[x - step] if x >= step else 0
+            up, corner = above[x], above[x - step] if x >= step else 0
+            if method == 1:
+                row[x] = (row[x] + left) & 255
+            elif method == 2:
+                row[x] = (row[x] + up) & 255
+            elif method == 3:
+                row[x] = (row[x] + (left + up) // 2) & 255
+            elif method == 4:
+                guess = left + up - corner
+                a, b, c = abs(guess - left), abs(guess - up), abs(guess - corner)
+                row[x] = (row[x] + (left if a <= b and a <= c else up if b <= c else corner)) & 255
+        above = row
+        rows.append(struct.unpack(f">{len(row) // 2}H", bytes(row)) if bits == 16 else bytes(row))
+    return width, height, channels, rows
+
+
+def make_recording(folder, width=160, height=120, frames=20, color=True):
+    """A wall, a floor and a box that moves: depth in mm, colour with bright marks."""
+    (folder / "depth").mkdir(parents=True)
+    if color:
+        (folder / "color").mkdir()
+    for n in range(frames):
+        left = 20 + 3 * n
+        depth, pixels = [], []
+        for y in range(height):
+            row = [1500 + 2 * y + (x * 7 + y * 13 + n * 5) % 4 for x in range(width)]
+            line = [(60 + y % 80, 90, 120)] * width
+            if 40 <= y < 90:
+                for x in range(left, min(left + 40, width)):
+                    row[x] = 900 + (x + y + n) % 3
+                    line[x] = (220, 60, 40)
+            depth.append(struct.pack(f">{width}H", *row))
+            pixels.append(b"".join(bytes(p) for p in line))
+        write_png(folder / "depth" / f"{n:05}.png", width, height, 16, 1, depth)
+        if color:
+            write_png(folder / "color" / f"{n:05}.png", width, height, 8, 3, pixels)
+    return folder
