@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "capture/folder_camera.h"
+#include "capture/mkv_camera.h"
 
 namespace theatron::capture {
 namespace {
@@ -20,6 +21,7 @@ struct Kind {
 // A further kind of camera is one more line.
 constexpr Kind kinds[] = {
     {"folder", folder_camera_help, open_folder_camera},
+    {"mkv", mkv_camera_help, open_mkv_camera},
 };
 
 // What the standard library throws, as a sentence too.

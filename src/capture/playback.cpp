@@ -119,7 +119,8 @@ bool Playback::rewind() {
 
 MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
                                  const Progress& progress) {
-    frames_.reserve(expected_frames);
+    // An expectation may come from a damaged file.
+    frames_.reserve(std::min<std::size_t>(expected_frames, 1 << 14));
     while (const std::optional<Duration> offset = source.offset()) {
         Kept kept{*offset, {}};
         source.read(kept.frame);

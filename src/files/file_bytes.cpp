@@ -40,7 +40,7 @@ Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes) {
     if (!file)
         refuse("read", path, std::strerror(errno));
     Bytes bytes(size);
-    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+    if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
         refuse("read", path, "it ended early");
     return bytes;
 }
@@ -51,7 +51,8 @@ void write_file(const std::filesystem::path& path, ByteView bytes) {
     File file(std::fopen(draft.c_str(), "wb"));
     if (!file)
         refuse("write", path, std::strerror(errno));
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    const bool written =
+        bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
     // Closing may be what finds the disk full.
     const bool closed = std::fclose(file.release()) == 0;
     if (!written || !closed || std::rename(draft.c_str(), path.c_str()) != 0) {

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/mkv_camera.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "capture/azure_calibration.h"
+#include "capture/folder_calibration.h"
+#include "capture/mkv_file.h"
+#include "capture/playback.h"
+#include "capture/time_pairing.h"
+#include "video/jpeg_header.h"
+
+namespace theatron::capture {
+namespace {
+
+namespace fs = std::filesystem;
+using Track = MkvFile::Packet::Track;
+
+constexpr std::uintmax_t usual_preload_bytes = std::uintmax_t(1) << 28;
+constexpr double usual_frames_per_second = 30;
+
+class MkvRecording final : public Recording {
+public:
+    explicit MkvRecording(const fs::path& path) : path_(path), file_(path), pairing_(tolerance()) {
+        if (!upcoming())
+            throw Error("'" + path.string() +
+                        (file_.is_cut_off() ? "' is cut off before its first depth picture."
+                                            : "' holds no whole depth picture."));
+        first_ = pair_->depth.time;
+        if (file_.is_cut_off())
+            log::warning("capture", "the recording is cut off and plays as far as it goes",
+                         {{"file", path.string()}});
+    }
+
+    const MkvFile& file() const { return file_; }
+    double frames_per_second() const {
+        const double fps = file_.frames_per_second();
+        return fps >= 0.1 && fps <= 240 ? fps : usual_frames_per_second;
+    }
+
+    std::optional<Duration> offset() override {
+        if (!upcoming())
+            return std::nullopt;
+        return pair_->depth.time - first_;
+    }
+
+    void skip() override { pair_.reset(); }
+
+    void read(Frame& out) override {
+        const Size size = file_.depth_size();
+        out.depth.resize(size);
+        const Bytes& depth = pair_->depth.payload;
+        for (std::size_t i = 0; i < size.area(); ++i)
+            out.depth.pixels[i] = std::uint16_t(std::to_integer<unsigned>(depth[2 * i]) << 8 |
+                                                std::to_integer<unsigned>(depth[2 * i + 1]));
+        out.color.pixels.pixels.clear();
+        out.color.jpeg.clear();
+        out.color.size = {};
+        if (pair_->color) {
+            out.color.jpeg = std::move(pair_->color->payload);
+            out.color.size = file_.color_size();
+        }
+        pair_.reset();
+    }
+
+    // Seeking needs an index, which a recording that was cut off lacks.
+    void rewind() override {
+        file_ = MkvFile(path_);
+        pairing_ = TimePairing<Bytes>(tolerance());
+        pair_.reset();
+    }
+
+private:
+    Duration tolerance() const { return seconds_to_duration(0.5 / frames_per_second()); }
+
+    // Makes pair_ the upcoming frame, false at the end.
+    bool upcoming() {
+        while (!pair_) {
+            pair_ = pairing_.take();
+            if (pair_)
+                break;
+            std::optional<MkvFile::Packet> packet = file_.read();
+            if (!packet) {
+                pairing_.finish();
+                pair_ = pairing_.take();
+                return pair_.has_value();
+            }
+            add(std::move(*packet));
+        }
+        return true;
+    }
+
+    void add(MkvFile::Packet packet) {
+        if (packet.track == Track::depth) {
+            if (packet.bytes.size() == file_.depth_size().area() * sizeof(std::uint16_t))
+                pairing_.add_depth({packet.time, std::move(packet.bytes)});
+            else
+                note_damage("a depth picture is damaged and left out");
+            return;
+        }
+        const Result<Size> size = video::read_jpeg_size(packet.bytes);
+        if (size && *size == file_.color_size())
+            pairing_.add_color({packet.time, std::move(packet.bytes)});
+        else
+            note_damage("a colour picture is damaged and left out");
+    }
+
+    // Once for each recording, however often it loops.
+    void note_damage(std::string_view what) {
+        if (!std::exchange(damage_noted_, true))
+            log::warning("capture", what, {{"file", path_.string()}});
+    }
+
+    fs::path path_;
+    MkvFile file_;
+    TimePairing<Bytes> pairing_;
+    std::optional<TimePairing<Bytes>::Pair> pair_;
+    Duration first_{};
+    bool damage_noted_ = false;
+};
+
+Calibration read_calibration(const fs::path& path, const MkvFile& file) {
+    if (!file.other_color().empty())
+        log::warning("capture", "colour is not recorded as MJPEG and is left out",
+                     {{"file", path.string()}, {"colour", file.other_color()}});
+    if (file.calibration().empty()) {
+        log::warning("capture", "the recording has no calibration and a usual lens is assumed",
+                     {{"file", path.string()}});
+        return default_calibration(file.depth_size(), file.color_size());
+    }
+    ParsedCalibration parsed =
+        parse_azure_calibration(file.calibration(), file.depth_size(), file.color_size());
+    if (!parsed.problem.empty())
+        throw Error("The calibration in '" + path.string() + "' " + parsed.problem + ".");
+    return parsed.calibration;
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> open_mkv_camera(Options& options, const Progress& progress) {
+    const PlaybackOptions playback = take_playback_options(options);
+    options.require_no_problem();
+    if (options.value().empty())
+        throw Error("The camera 'mkv' needs a file, as in mkv:FILE.");
+
+    const fs::path path = options.value();
+    auto file = std::make_unique<MkvRecording>(path);
+    CameraInfo info;
+    info.name = path.stem().string();
+    info.calibration = read_calibration(path, file->file());
+    info.frames_per_second = file->frames_per_second();
+
+    std::unique_ptr<Recording> recording;
+    if (playback.preload.value_or(fs::file_size(path) <= usual_preload_bytes)) {
+        const std::size_t bytes_per_frame = file->file().depth_size().area() * 2;
+        recording = std::make_unique<MemoryRecording>(
+            *file, std::size_t(fs::file_size(path)) / bytes_per_frame, progress);
+    } else {
+        recording = std::move(file);
+    }
+    return make_recorded_camera(std::move(info), std::move(recording), playback);
+}
+
+}  // namespace theatron::capture

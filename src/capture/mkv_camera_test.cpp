@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "capture/camera.h"
+#include "capture/mkv_file.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "testing/shared_data.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::capture {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* sample = "azure-nfov-unbinned-1frame_640x576/recording.mkv";
+
+std::string problem_with(const fs::path& path, const std::string& options = "") {
+    try {
+        open_camera("mkv:" + path.string() + options);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(MkvCamera, GivesWhatLiesInTheFile) {
+    THEATRON_REQUIRE_DATA(sample);
+    const fs::path path = theatron::testing::shared_data() / sample;
+    for (const char* options : {",loop=1", ",loop=1,preload=0"}) {
+        const auto camera = open_camera("mkv:" + path.string() + options);
+        EXPECT_EQ(camera->info().name, "recording");
+        EXPECT_EQ(camera->info().frames_per_second, 5);
+        for (FrameNumber n = 0; n < 2; ++n) {
+            const Capture capture = camera->next(10s);
+            ASSERT_EQ(capture.kind, Capture::Kind::frame) << capture.problem;
+            const Frame& frame = *capture.frame;
+            EXPECT_EQ(frame.depth,
+                      files::read_depth_png(path.parent_path() / "depth" / "00000.png"));
+            EXPECT_EQ(frame.color.jpeg,
+                      files::read_file(path.parent_path() / "color" / "00000.jpg"));
+            EXPECT_EQ(frame.color.size, (Size{1280, 720}));
+        }
+    }
+}
+
+TEST(MkvCamera, CalibrationIsThatOfTheFolderBesideIt) {
+    THEATRON_REQUIRE_DATA(sample);
+    const fs::path path = theatron::testing::shared_data() / sample;
+    const Calibration mkv = open_camera("mkv:" + path.string())->info().calibration;
+    const Calibration folder =
+        open_camera("folder:" + path.parent_path().string())->info().calibration;
+    EXPECT_EQ(mkv, folder);
+    // 0.49278 * 1024; 0.51297 * 1024 - 192 - 0.5; and so on, by the modes of the camera.
+    EXPECT_NEAR(mkv.depth.fx, 504.608, 0.01);
+    EXPECT_NEAR(mkv.depth.cx, 332.78, 0.01);
+    EXPECT_NEAR(mkv.depth.cy, 348.83, 0.01);
+    EXPECT_NEAR(mkv.color.fx, 611.80, 0.01);
+    EXPECT_NEAR(mkv.color.cy, 365.85, 0.01);
+}
+
+TEST(MkvCamera, EveryTruncationEndsInASentenceOrInWholeFrames) {
+    THEATRON_REQUIRE_DATA(sample);
+    log::set_level(log::Level::error);
+    const Bytes whole = files::read_file(theatron::testing::shared_data() / sample);
+    const theatron::testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "cut.mkv";
+    int played = 0;
+    for (std::size_t n = 0; n < whole.size(); n += n < 16'000 ? 397 : 50'021) {
+        files::write_file(path, ByteView(whole).first(n));
+        for (const char* options : {",preload=1", ",preload=0"}) {
+            try {
+                const auto camera = open_camera("mkv:" + path.string() + options);
+                const Capture first = camera->next(1s);
+                ASSERT_EQ(first.kind, Capture::Kind::frame) << n << " bytes";
+                EXPECT_EQ(first.frame->depth.size, (Size{640, 576}));
+                EXPECT_EQ(camera->next(1s).kind, Capture::Kind::end);
+                ++played;
+            } catch (const Error& error) {
+                EXPECT_THAT(error.what(), HasSubstr("cut.mkv")) << n;
+            }
+        }
+    }
+    EXPECT_GT(played, 0);
+    log::set_level(log::Level::info);
+}
+
+TEST(MkvCamera, DamagedBytesNeverCrash) {
+    THEATRON_REQUIRE_DATA(sample);
+    log::set_level(log::Level::error);
+    const Bytes whole = files::read_file(theatron::testing::shared_data() / sample);
+    const theatron::testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "damaged.mkv";
+    // The header and the calibration come first.
+    for (std::size_t at = 0; at < 9000; at += 241) {
+        Bytes damaged = whole;
+        damaged[at] ^= std::byte{0xff};
+        files::write_file(path, damaged);
+        try {
+            open_camera("mkv:" + path.string())->next(1s);
+        } catch (const Error&) {
+        }
+    }
+    log::set_level(log::Level::info);
+}
+
+TEST(MkvFile, KnowsFromItsBeginningHowLongItShouldBe) {
+    Bytes file;
+    // An empty EBML header, then a segment of 300 bytes with its size in two bytes.
+    for (const int v : {0x1a, 0x45, 0xdf, 0xa3, 0x80, 0x18, 0x53, 0x80, 0x67, 0x41, 0x2c})
+        file.push_back(std::byte(v));
+    EXPECT_FALSE(is_cut_off(file, 311));
+    EXPECT_FALSE(is_cut_off(file, 400));
+    EXPECT_TRUE(is_cut_off(file, 310));
+    EXPECT_TRUE(is_cut_off(file, 3));
+    for (std::size_t n = 0; n < file.size(); ++n)
+        EXPECT_FALSE(is_cut_off(ByteView(file).first(n), 310)) << n;
+    file[9] = std::byte{0xff};  // a size that is not known
+    EXPECT_FALSE(is_cut_off(file, 310));
+    file[4] = std::byte{0};
+    EXPECT_FALSE(is_cut_off(file, 310));
+}
+
+TEST(MkvCamera, SaysWhatIsWrongWithTheFile) {
+    const theatron::testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "x.mkv";
+    EXPECT_EQ(problem_with(path), "There is no file '" + path.string() + "'.");
+    EXPECT_EQ(problem_with(folder.path()), "'" + folder.path().string() + "' is not a file.");
+    files::write_file(path, as_bytes("not a recording"));
+    EXPECT_EQ(problem_with(path), "'" + path.string() +
+                                      "' is not a Matroska recording, or is damaged at its "
+                                      "beginning.");
+    files::write_file(path, {});
+    EXPECT_THAT(problem_with(path), HasSubstr("not a Matroska recording"));
+    EXPECT_THAT(problem_with(path, ",fps=3"), HasSubstr("'fps' is unknown"));
+    EXPECT_THAT(problem_with(""), HasSubstr("needs a file"));
+}
+
+}  // namespace
+}  // namespace theatron::capture

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts the depth and the colour of one moment together, from two tracks that
+// are read one after the other. Pure: it knows times, not what they belong to.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "base/time.h"
+
+namespace theatron::capture {
+
+// Payload: whatever a picture is, movable.
+template <class Payload>
+class TimePairing {
+public:
+    struct Picture {
+        Duration time{};
+        Payload payload;
+    };
+    struct Pair {
+        Picture depth;
+        std::optional<Picture> color;
+    };
+
+    // A colour picture belongs to a depth picture if they are at most
+    // `tolerance` apart: half of the usual time between frames.
+    explicit TimePairing(Duration tolerance) : tolerance_(tolerance) {}
+
+    // Times of one track must not fall; a picture older than the one before is ignored.
+    void add_depth(Picture picture) { add(depth_, std::move(picture)); }
+    void add_color(Picture picture) { add(color_, std::move(picture)); }
+    // No more pictures will come.
+    void finish() { finished_ = true; }
+
+    // The next depth picture with the nearest colour picture, once it is sure
+    // that no nearer one will come. Every colour picture is used once.
+    std::optional<Pair> take() {
+        if (depth_.empty() || !is_decided())
+            return std::nullopt;
+        Pair pair{std::move(depth_.front()), std::nullopt};
+        depth_.pop_front();
+        const Duration time = pair.depth.time;
+        while (!color_.empty() && color_.front().time < time - tolerance_)
+            color_.pop_front();
+        while (color_.size() > 1 &&
+               distance(color_[1].time, time) <= distance(color_[0].time, time))
+            color_.pop_front();
+        if (!color_.empty() && distance(color_.front().time, time) <= tolerance_) {
+            pair.color = std::move(color_.front());
+            color_.pop_front();
+        }
+        return pair;
+    }
+
+private:
+    // A recording whose colour stops must not gather depth for ever.
+    static constexpr std::size_t max_waiting = 30;
+
+    static Duration distance(Duration a, Duration b) { return a < b ? b - a : a - b; }
+
+    void add(std::deque<Picture>& track, Picture picture) {
+        if (!track.empty() && picture.time < track.back().time)
+            return;
+        track.push_back(std::move(picture));
+        if (&track == &color_ && color_.size() > max_waiting)
+            color_.pop_front();
+    }
+    bool is_decided() const {
+        return finished_ || depth_.size() > max_waiting ||
+               (!color_.empty() && color_.back().time >= depth_.front().time + tolerance_);
+    }
+
+    Duration tolerance_;
+    std::deque<Picture> depth_, color_;
+    bool finished_ = false;
+};
+
+}  // namespace theatron::capture
