@@ -12,12 +12,11 @@ namespace {
 
 // Runs of zeros and of other values in turn, the first of zeros; the last may be
 // of either kind. Differences are to the other value before, zigzagged.
-void split(std::span<const std::uint16_t> values, std::vector<std::uint32_t>& runs,
-           std::vector<std::uint32_t>& differences) {
-    runs.resize(values.size() + 1);
-    differences.resize(values.size());
-    std::uint32_t* run = runs.data();
-    std::uint32_t* difference = differences.data();
+void split(std::span<const std::uint16_t> values, DepthWorkspace& work) {
+    work.runs.resize(values.size() + 1);
+    work.differences.resize(values.size());
+    std::uint32_t* run = work.runs.data();
+    std::uint32_t* difference = work.differences.data();
     std::uint16_t previous = 0;
     for (std::size_t at = 0; at < values.size();) {
         const std::size_t begin = at;
@@ -31,8 +30,8 @@ void split(std::span<const std::uint16_t> values, std::vector<std::uint32_t>& ru
             *difference++ = zigzag(std::uint16_t(values[at] - previous));
         *run++ = std::uint32_t(at - first);
     }
-    runs.resize(std::size_t(run - runs.data()));
-    differences.resize(std::size_t(difference - differences.data()));
+    work.run_count = std::size_t(run - work.runs.data());
+    work.difference_count = std::size_t(difference - work.differences.data());
 }
 
 // The number of non-zero values, if the runs cover `count` values.
@@ -88,14 +87,16 @@ std::size_t encode(DepthView depth, DepthView reference, DepthWorkspace& work,
         subtract_rows(depth, reference, coded);
     else
         copy_rows(depth, coded);
-    split(work.values, work.runs, work.differences);
+    split(work.values, work);
+    const std::span runs(work.runs.data(), work.run_count);
+    const std::span differences(work.differences.data(), work.difference_count);
 
     put_header({.codec = DepthCodecId::ans, .delta = delta, .size = depth.size}, out.data());
     std::size_t used = payload_header_size;
-    store_le(out.data() + used, std::uint32_t(work.runs.size()));
+    store_le(out.data() + used, std::uint32_t(runs.size()));
     used += 4;
-    used += encode_runs(work.runs, work.coder, out.subspan(used));
-    used += encode_differences(work.differences, work.coder, out.subspan(used));
+    used += encode_runs(runs, work.coder, out.subspan(used));
+    used += encode_differences(differences, work.coder, out.subspan(used));
     return used;
 }
 
@@ -123,22 +124,22 @@ Status decode(ByteView encoded, DepthView reference, DepthWorkspace& work, Mutab
     in = in.subspan(4);
     if (run_count > area + 1)
         return Status::malformed;
-    work.runs.resize(run_count);
-    if (const Status status = decode_runs(in, work.coder, work.runs); status != Status::ok)
+    work.runs.resize(area + 1);
+    const std::span runs(work.runs.data(), run_count);
+    if (const Status status = decode_runs(in, work.coder, runs); status != Status::ok)
         return status;
-    const auto measured = count_differences(work.runs, area);
+    const auto measured = count_differences(runs, area);
     if (!measured)
         return measured.error();
-    work.differences.resize(*measured);
-    if (const Status status = decode_differences(in, work.coder, work.differences);
-        status != Status::ok)
+    work.differences.resize(area);
+    const std::span differences(work.differences.data(), *measured);
+    if (const Status status = decode_differences(in, work.coder, differences); status != Status::ok)
         return status;
     if (!in.empty())
         return Status::trailing_bytes;
 
     work.values.resize(area);
-    if (const Status status = join(work.runs, work.differences, work.values.data());
-        status != Status::ok)
+    if (const Status status = join(runs, differences, work.values.data()); status != Status::ok)
         return status;
     const MutableDepthView coded{work.values.data(), out.size};
     if (header->delta)

@@ -22,8 +22,11 @@ namespace theatron::codec::ans {
 struct DepthWorkspace {
     Workspace coder;
     std::vector<std::uint16_t> values;
+    // Room for the most there can be, and how many there are.
     std::vector<std::uint32_t> runs;
     std::vector<std::uint32_t> differences;
+    std::size_t run_count = 0;
+    std::size_t difference_count = 0;
 };
 
 // Bytes that always suffice for an image of this size.

@@ -153,12 +153,13 @@ struct Parts {
     std::size_t longer;  // lanes that take one more
 };
 
+// Sixteen bytes, so that the tables of all contexts stay in the first-level cache.
 struct EncodeSymbol {
-    std::uint32_t frequency = 0;
-    std::uint32_t start = 0;
     // (x * reciprocal) >> shift is x / frequency, exactly, for x below 2^31.
-    std::uint64_t reciprocal = 0;
-    std::uint32_t shift = 0;
+    std::uint64_t reciprocal;
+    std::uint16_t frequency;
+    std::uint16_t start;
+    std::uint32_t shift;
 };
 
 template <class Model>
@@ -167,22 +168,33 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
     using Symbols = typename Model::Symbols;
     assert(out.size() >= max_encoded_numbers(numbers.size()));
     const Parts parts(numbers.size());
-    work.symbols.resize(numbers.size());
+    work.symbols.resize(std::max(work.symbols.size(), numbers.size()));
+    std::uint16_t* const work_symbols = work.symbols.data();
 
-    // Symbols and contexts, in order, and how often each occurs.
+    // Symbols and contexts, how often each occurs, and the extra bits.
     std::array<Frequencies, Model::contexts> counts{};
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::size_t begin = parts.begin[lane];
-        const std::size_t end = begin + parts.steps + (lane < parts.longer ? 1 : 0);
-        std::uint32_t state = Model::start(begin);
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t symbol = Symbols::symbol(numbers[i]);
-            const std::uint32_t context = Model::context(state);
-            state = Model::next(state, symbol);
-            work.symbols[i] = std::uint16_t(context << 8 | symbol);
-            ++counts[context][symbol];
-        }
+    work.extra.resize(4 * numbers.size() + 8);
+    BitWriter extra(work.extra.data());
+    std::array<std::uint32_t, lanes> model;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        model[lane] = Model::start(parts.begin[lane]);
+    const auto model_number = [&](std::size_t lane, std::size_t index) {
+        const std::uint32_t number = numbers[index];
+        const std::uint32_t symbol = Symbols::symbol(number);
+        const std::uint32_t context = Model::context(model[lane]);
+        model[lane] = Model::next(model[lane], symbol);
+        work_symbols[index] = std::uint16_t(context << 8 | symbol);
+        ++counts[context][symbol];
+        if (const std::uint32_t bits = Symbols::extra_bits(symbol); bits > 0)
+            extra.put(number - Symbols::base(symbol), bits);
+    };
+    for (std::size_t step = 0; step < parts.steps; ++step) {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            model_number(lane, parts.begin[lane] + step);
     }
+    for (std::size_t lane = 0; lane < parts.longer; ++lane)
+        model_number(lane, parts.begin[lane] + parts.steps);
+    const auto extra_count = std::size_t(extra.finish() - work.extra.data());
 
     std::byte* at = out.data();
     std::array<std::array<EncodeSymbol, Symbols::size>, Model::contexts> table;
@@ -196,26 +208,27 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
                 continue;
             const auto log = std::uint32_t(std::bit_width(f - 1));
             const std::uint64_t power = std::uint64_t{1} << (31 + log);
-            table[context][s] = {f, start, (power + f - 1) / f, 31 + log};
+            table[context][s] = {(power + f - 1) / f, std::uint16_t(f), std::uint16_t(start),
+                                 31 + log};
             start += f;
         }
     }
 
     // Backwards, so that the decoder reads forwards.
-    work.words.resize(numbers.size() + 2 * lanes);
+    work.words.resize(std::max(work.words.size(), numbers.size() + 2 * lanes));
     std::uint16_t* const words_end = work.words.data() + work.words.size();
     std::uint16_t* word = words_end;
     std::array<std::uint32_t, lanes> state;
     state.fill(lowest);
     const auto code = [&](std::size_t lane, std::size_t index) {
-        const std::uint16_t coded = work.symbols[index];
+        const std::uint16_t coded = work_symbols[index];
         const EncodeSymbol& s = table[coded >> 8][coded & 0xff];
         std::uint32_t x = state[lane];
-        // Without a branch: whether a word is due is hard to foretell.
-        const bool due = x >= s.frequency << 20;
+        // Without a branch, as in decode().
+        const std::uint32_t due = x >= std::uint32_t(s.frequency) << 20 ? ~0u : 0u;
         word[-1] = std::uint16_t(x);
-        word -= due;
-        x = due ? x >> 16 : x;
+        word -= due & 1;
+        x >>= due & 16;
         const auto quotient = std::uint32_t(x * s.reciprocal >> s.shift);
         state[lane] = x + s.start + quotient * (scale - s.frequency);
     };
@@ -227,7 +240,8 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
     }
 
     const auto word_count = std::uint32_t(words_end - word);
-    std::byte* const sizes = at;
+    store_le(at, word_count);
+    store_le(at + 4, std::uint32_t(extra_count));
     at += 8;
     for (const std::uint32_t x : state) {
         store_le(at, x);
@@ -235,23 +249,8 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
     }
     std::memcpy(at, word, 2 * std::size_t(word_count));
     at += 2 * std::size_t(word_count);
-
-    BitWriter extra(at);
-    const auto put_extra = [&](std::size_t index) {
-        const std::uint32_t symbol = work.symbols[index] & 0xff;
-        if (const std::uint32_t bits = Symbols::extra_bits(symbol); bits > 0)
-            extra.put(numbers[index] - Symbols::base(symbol), bits);
-    };
-    for (std::size_t step = 0; step < parts.steps; ++step) {
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            put_extra(parts.begin[lane] + step);
-    }
-    for (std::size_t lane = 0; lane < parts.longer; ++lane)
-        put_extra(parts.begin[lane] + parts.steps);
-    std::byte* const end = extra.finish();
-    store_le(sizes, word_count);
-    store_le(sizes + 4, std::uint32_t(end - at));
-    return std::size_t(end - out.data());
+    std::memcpy(at, work.extra.data(), extra_count);
+    return std::size_t(at - out.data()) + extra_count;
 }
 
 template <class Model>
@@ -306,9 +305,10 @@ Status decode(ByteView& bytes, Workspace& work, std::span<std::uint32_t> numbers
             const std::uint32_t symbol = decode_symbol(lane);
             std::uint16_t next;
             std::memcpy(&next, word, 2);
-            const bool due = state[lane] < lowest;
-            state[lane] = due ? state[lane] << 16 | next : state[lane];
-            word += 2 * due;
+            // Without a branch: whether a word is due is hard to foretell.
+            const std::uint32_t due = state[lane] < lowest ? ~0u : 0u;
+            state[lane] = state[lane] << (due & 16) | (next & due);
+            word += due & 2;
             put_number(parts.begin[lane] + step, symbol);
         }
     }

@@ -84,9 +84,10 @@ struct DifferenceModel {
 
 // Memory of one coder, used again from frame to frame.
 struct Workspace {
-    // One symbol, with its context, waiting to be coded from the last to the first.
+    // Symbols with their contexts, to be coded from the last to the first.
     std::vector<std::uint16_t> symbols;
     std::vector<std::uint16_t> words;
+    Bytes extra;
     std::vector<std::uint32_t> decode_tables;
 };
 
