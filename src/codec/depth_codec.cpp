@@ -4,8 +4,9 @@
 #include <cassert>
 
 #include "base/options.h"
+#include "codec/library_codec.h"
+#include "codec/quantise.h"
 #include "codec/simple_codecs.h"
-#include "codec/zstd_codec.h"
 
 namespace theatron::codec {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 struct Parameters {
     bool delta = false;
     int level = 1;
+    int quant_mm = 1;
     int layers = 1;
 };
 
@@ -36,9 +38,26 @@ bool read_nothing_temporal(Options&, Parameters& parameters) {
     return true;
 }
 
+bool read_delta(Options& options, Parameters& parameters) {
+    return parameters.delta = options.take_flag("delta");
+}
+
 bool read_zstd(Options& options, Parameters& parameters) {
     parameters.level = options.take_int("level", 1, 1, 19);
-    return parameters.delta = options.take_flag("delta");
+    return read_delta(options, parameters);
+}
+
+bool read_lz4(Options& options, Parameters& parameters) {
+    parameters.quant_mm = options.take_int("quant_mm", 1, 1, max_quantisation_step);
+    return read_delta(options, parameters);
+}
+
+std::unique_ptr<DepthCodec> make_zstd(const Parameters& p) {
+    return make_library_codec(DepthCodecId::zstd, make_zstd_compressor(p.level), p.delta, 1);
+}
+
+std::unique_ptr<DepthCodec> make_lz4(const Parameters& p) {
+    return make_library_codec(DepthCodecId::lz4, make_lz4_compressor(), p.delta, p.quant_mm);
 }
 
 // In the order in which help texts and benchmarks show them.
@@ -48,8 +67,9 @@ const std::vector<Kind>& kinds() {
         {"raw", DepthCodecId::raw, true, read_nothing, [](P) { return make_raw(); }},
         {"rvl", DepthCodecId::rvl, true, read_nothing, [](P) { return make_rvl(); }},
         {"trvl", DepthCodecId::trvl, true, read_nothing_temporal, [](P) { return make_trvl(); }},
-        {"zstd", DepthCodecId::zstd, has_zstd(), read_zstd,
-         [](P p) { return make_zstd(p.level, p.delta); }},
+        {"zstd", DepthCodecId::zstd, has_zstd(), read_zstd, make_zstd},
+        {"lz4", DepthCodecId::lz4, has_lz4(), read_lz4, make_lz4},
+        {"ans", DepthCodecId::ans, true, read_delta, [](P p) { return make_ans(p.delta); }},
     };
     return all;
 }
@@ -82,6 +102,7 @@ std::string spelling(const Kind& kind, const Parameters& p) {
     add("delta", p.delta, kind.id == DepthCodecId::trvl);
     add("layers", p.layers, 1);
     add("level", p.level, 1);
+    add("quant_mm", p.quant_mm, 1);
     return text;
 }
 

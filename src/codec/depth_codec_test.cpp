@@ -166,7 +166,8 @@ TEST_P(EveryDepthCodec, SurvivesDamagedBytes) {
 
 INSTANTIATE_TEST_SUITE_P(DepthCodecs, EveryDepthCodec,
                          ::testing::Values("raw", "rvl", "trvl", "zstd", "zstd:level=3",
-                                           "zstd:delta=1"),
+                                           "zstd:delta=1", "ans", "ans:delta=1", "lz4",
+                                           "lz4:delta=1"),
                          [](const auto& instance) {
                              std::string name = instance.param;
                              for (char& c : name)
@@ -174,10 +175,41 @@ INSTANTIATE_TEST_SUITE_P(DepthCodecs, EveryDepthCodec,
                              return name;
                          });
 
+// Quantisation is the only loss there is, and it is bounded.
+TEST(QuantisedDepth, KeepsValidityAndItsBound) {
+    DepthImage all({256, 256});
+    for (std::size_t i = 0; i < all.pixels.size(); ++i)
+        all.pixels[i] = std::uint16_t(i);
+    const Reference before = reference_to(noise(all.size, 1));
+    for (const int step : {2, 3, 4, 7, 10, 64, 99, 100}) {
+        for (const char* delta : {"", ",delta=1"}) {
+            const auto codec =
+                make_depth_codec(setting("lz4:quant_mm=" + std::to_string(step) + delta));
+            EXPECT_FALSE(codec->lossless());
+            // The reference is what a decoder holds of an earlier frame.
+            Reference held, next;
+            DepthImage decoded(all.size);
+            const Bytes first = encoded(*codec, before.depth.view(), nullptr, &held);
+            const Reference* reference = codec->temporal() ? &held : nullptr;
+            const Bytes whole = encoded(*codec, all.view(), reference, &next);
+            ASSERT_EQ(codec->decode(whole, reference, decoded.view(), nullptr), Status::ok);
+            for (int v = 0; v < 0x10000; ++v) {
+                const int back = decoded.pixels[std::size_t(v)];
+                ASSERT_EQ(v == 0, back == 0) << v;
+                ASSERT_LE(std::abs(v - back), step / 2) << v << " with step " << step;
+            }
+            if (codec->temporal()) {
+                EXPECT_EQ(next.depth, decoded) << "both sides refer to the same depth";
+            }
+        }
+    }
+}
+
 TEST(DepthSettings, HaveOneSpelling) {
     EXPECT_EQ(setting("trvl").text, "trvl");
     EXPECT_EQ(setting("zstd:level=1,delta=0").text, "zstd");
     EXPECT_EQ(setting("zstd:level=3,delta=1"), setting("zstd:delta=1,level=3"));
+    EXPECT_EQ(setting("lz4:quant_mm=2,delta=1").text, "lz4:delta=1,quant_mm=2");
     EXPECT_EQ(setting("zstd:layers=2,delta=1").text, "zstd:delta=1,layers=2");
     EXPECT_EQ(setting("rvl:delta=1"), setting("trvl"));
     EXPECT_EQ(setting("rvl:delta=1,layers=3").text, "trvl:layers=3");

@@ -57,6 +57,15 @@ public:
         put_bits(bits | std::uint64_t(value) << count, count + 4);
     }
 
+    void put_lengths(std::uint32_t empty, std::uint32_t measured) {
+        if ((empty | measured) < 8) {
+            put_bits(empty | measured << 4, 8);
+            return;
+        }
+        put_number(empty);
+        put_number(measured);
+    }
+
     // The bytes written, the last nibble filled up with zero.
     std::size_t finish() const { return std::size_t(out_ - begin_) + (pending_count_ > 0 ? 1 : 0); }
 
@@ -116,13 +125,17 @@ inline void put_differences(NibbleWriter& out, Lanes codes, unsigned count) {
 // What the next three nibbles mean as zigzagged differences: up to three whole
 // numbers, as running sums, so that one addition decodes them all.
 // Lanes 0 to 2 are the sums after one, two and three numbers; where there are
-// fewer they repeat the last. Lane 3 has how many numbers there are (bits 0-1),
-// and the nibbles of the first one, two and three (bits 4-5, 6-7, 8-9).
+// fewer they repeat the last. Lane 3 has, from bit 48 on: how many numbers there
+// are (2 bits), the nibbles of the first one, of two and of three (2 bits each),
+// four unused bits, and the bits of all numbers together (4 bits).
 constexpr unsigned numbers_in(std::uint64_t entry) {
     return unsigned(entry >> 48) & 3;
 }
 constexpr unsigned nibbles_of(std::uint64_t entry, unsigned numbers) {
-    return unsigned(entry >> (50 + 2 * numbers)) & 3;
+    return unsigned(entry >> (48 + 2 * numbers)) & 3;
+}
+constexpr unsigned bits_of_all(std::uint64_t entry) {
+    return unsigned(entry >> 60);
 }
 
 constexpr auto short_decodes = [] {
@@ -146,9 +159,9 @@ constexpr auto short_decodes = [] {
             for (unsigned l = numbers; l < 3; ++l)
                 sums = (sums & ~(0xffffull << (16 * l))) | std::uint64_t(sum) << (16 * l);
             ++numbers;
-            counts |= std::uint64_t(end) << (2 * numbers + 2);
+            counts |= std::uint64_t(end) << (2 * numbers);
         }
-        entries[bits] = sums | (counts | numbers | std::uint64_t(at) << 12) << 48;
+        entries[bits] = sums | (counts | numbers | std::uint64_t(4 * at) << 12) << 48;
     }
     return entries;
 }();
@@ -165,9 +178,9 @@ public:
             refill();
         return window_;
     }
-    void skip(unsigned nibbles) {
-        window_ >>= 4 * nibbles;
-        count_ -= 4 * nibbles;
+    void skip_bits(unsigned bits) {
+        window_ >>= bits;
+        count_ -= bits;
     }
 
     // One number of up to `max`; false if the next nibbles are no such number.
@@ -178,7 +191,7 @@ public:
             result |= (bits & 7) << (3 * i);
             if ((bits & 8) == 0) {
                 value = std::uint32_t(result);
-                skip(i + 1);
+                skip_bits(4 * (i + 1));
                 return result <= max && ((bits & 7) != 0 || i == 0);
             }
         }
@@ -207,6 +220,130 @@ private:
     unsigned count_ = 0;  // bits of `window_` that count
 };
 
+// Decodes runs into `values`. Every step says whether it could be done.
+class RunDecoder {
+public:
+    RunDecoder(ByteView in, std::span<std::uint16_t> values)
+        : nibbles_(in), nibble_count_(2 * in.size()), v_(values.data()), count_(values.size()) {}
+
+    bool done() const { return at_ == count_; }
+
+    // One run of empty pixels and one of measured ones.
+    bool decode_pair() {
+        std::uint32_t empty = 0, measured = 0;
+        if (!get_lengths(empty, measured))
+            return false;
+        // Also what follows a truncation: zeros without end.
+        if ((empty == 0 && at_ > 0) || (measured == 0 && at_ + empty < count_))
+            return false;
+        put_empty(empty);
+        const std::size_t end = at_ + measured;
+        // The very first pixel has no measured one before it.
+        if (previous_ == 0 && measured > 0 && !decode_one())
+            return false;
+        // Twelve, and one that is no short number; each store takes four pixels.
+        while (end - at_ >= 13 && count_ - at_ >= 16) {
+            if (!decode_up_to_13())
+                return false;
+        }
+        while (at_ < end) {
+            if (!decode_up_to_3(end))
+                return false;
+        }
+        return true;
+    }
+
+    // After a failed step: why.
+    Status problem() const {
+        return nibbles_.consumed() > nibble_count_ ? Status::truncated : Status::malformed;
+    }
+
+    Status finish() {
+        if (nibbles_.consumed() > nibble_count_)
+            return Status::truncated;
+        const std::size_t left = nibble_count_ - nibbles_.consumed();
+        if (left > 1)
+            return Status::trailing_bytes;
+        const bool clean = left == 0 || (nibbles_.peek() & 15) == 0;
+        return clean && zero_seen_ == 0 ? Status::ok : Status::malformed;
+    }
+
+private:
+    bool get_lengths(std::uint32_t& empty, std::uint32_t& measured) {
+        const std::uint64_t window = nibbles_.peek();
+        if ((window & 0x88) == 0) {
+            empty = window & 7;
+            measured = window >> 4 & 7;
+            nibbles_.skip_bits(8);
+            return empty + measured <= count_ - at_;
+        }
+        return nibbles_.get_number(std::uint32_t(count_ - at_), empty) &&
+               nibbles_.get_number(std::uint32_t(count_ - at_ - empty), measured);
+    }
+
+    void put_empty(std::size_t count) {
+        if (count <= 8 && count_ - at_ >= 8) {
+            store_lanes(v_ + at_, 0);
+            store_lanes(v_ + at_ + 4, 0);
+        } else {
+            std::memset(v_ + at_, 0, 2 * count);
+        }
+        at_ += count;
+    }
+
+    // As many pixels as one window holds, without asking for the end of the run.
+    // A number that no look-up knows makes the rest of them do nothing.
+    bool decode_up_to_13() {
+        std::uint64_t window = nibbles_.peek();
+        std::uint16_t* to = v_ + at_;
+        unsigned used = 0;
+        for (int i = 0; i < 4; ++i) {
+            const std::uint64_t entry = short_decodes[window & 0xfff];
+            const Lanes decoded = add_lanes(previous_ * every_lane, entry);
+            store_lanes(to, decoded);
+            zero_seen_ |= lowest_zero_lane(decoded | Lanes{1} << 48);
+            to += numbers_in(entry);
+            previous_ = std::uint16_t(previous_ + lane(entry, 2));
+            used += bits_of_all(entry);
+            window >>= bits_of_all(entry);
+        }
+        at_ = std::size_t(to - v_);
+        nibbles_.skip_bits(used);
+        return numbers_in(short_decodes[window & 0xfff]) > 0 || decode_one();
+    }
+
+    bool decode_up_to_3(std::size_t end) {
+        const std::uint64_t entry = short_decodes[nibbles_.peek() & 0xfff];
+        const auto some = unsigned(std::min<std::size_t>(numbers_in(entry), end - at_));
+        if (some == 0 || count_ - at_ < 4)
+            return decode_one();
+        const Lanes decoded = add_lanes(previous_ * every_lane, entry);
+        store_lanes(v_ + at_, decoded);
+        zero_seen_ |= lowest_zero_lane(decoded | ~lowest_lanes(some));
+        at_ += some;
+        previous_ = lane(decoded, some - 1);
+        nibbles_.skip_bits(4 * nibbles_of(entry, some));
+        return true;
+    }
+
+    bool decode_one() {
+        std::uint32_t code = 0;
+        if (!nibbles_.get_number(0xffff, code))
+            return false;
+        previous_ = std::uint16_t(previous_ + unzigzag(std::uint16_t(code)));
+        v_[at_++] = previous_;
+        return previous_ != 0;
+    }
+
+    NibbleReader nibbles_;
+    std::size_t nibble_count_;
+    std::uint16_t* v_;
+    std::size_t count_;
+    std::size_t at_ = 0;
+    std::uint16_t previous_ = 0;  // the last measured pixel, 0 before the first
+    Lanes zero_seen_ = 0;         // not zero once a measured pixel was
+};
+
 }  // namespace
 
 std::size_t max_encoded_runs(std::size_t count) {
@@ -224,8 +361,7 @@ std::size_t encode_runs(std::span<const std::uint16_t> values, std::span<std::by
     for (std::size_t at = 0; at < count;) {
         const std::size_t begin = end_of_zeros(v, at, count);
         const std::size_t end = end_of_nonzeros(v, begin, count);
-        nibbles.put_number(std::uint32_t(begin - at));
-        nibbles.put_number(std::uint32_t(end - begin));
+        nibbles.put_lengths(std::uint32_t(begin - at), std::uint32_t(end - begin));
         at = end;
         if (begin == end)
             break;
@@ -256,67 +392,12 @@ std::size_t encode_runs(std::span<const std::uint16_t> values, std::span<std::by
 }
 
 Status decode_runs(ByteView encoded, std::span<std::uint16_t> values) {
-    std::uint16_t* v = values.data();
-    const std::size_t count = values.size();
-    const std::size_t nibble_count = 2 * encoded.size();
-    NibbleReader nibbles(encoded);
-    std::uint16_t previous = 0;
-    Lanes zero_seen = 0;
-    for (std::size_t at = 0; at < count;) {
-        std::uint32_t zeros = 0, measured = 0;
-        if (!nibbles.get_number(std::uint32_t(count - at), zeros) ||
-            !nibbles.get_number(std::uint32_t(count - at - zeros), measured))
-            return nibbles.consumed() > nibble_count ? Status::truncated : Status::malformed;
-        // Also what follows a truncation: zeros without end.
-        if ((zeros == 0 && at > 0) || (measured == 0 && at + zeros < count))
-            return nibbles.consumed() > nibble_count ? Status::truncated : Status::malformed;
-        std::memset(v + at, 0, 2 * zeros);
-        at += zeros;
-
-        const std::size_t end = at + measured;
-        while (at < end) {
-            std::uint64_t window = nibbles.peek();
-            unsigned used = 0;
-            // Four look-ups of three nibbles fit into one window.
-            for (int i = 0; i < 4; ++i) {
-                const std::uint64_t entry = short_decodes[window & 0xfff];
-                unsigned some = numbers_in(entry);
-                if (at + 4 > count || some == 0)
-                    break;
-                const Lanes decoded = add_lanes(previous * every_lane, entry);
-                store_lanes(v + at, decoded);
-                if (end - at <= some) {
-                    some = unsigned(end - at);
-                    zero_seen |= lowest_zero_lane(decoded | ~lowest_lanes(some));
-                    used += nibbles_of(entry, some);
-                    previous = lane(decoded, some - 1);
-                    at = end;
-                    break;
-                }
-                zero_seen |= lowest_zero_lane(decoded | Lanes{1} << 48);
-                at += some;
-                previous = std::uint16_t(previous + lane(entry, 2));
-                used += unsigned(entry >> 60);
-                window >>= 4 * (entry >> 60);
-            }
-            nibbles.skip(used);
-            if (used == 0) {
-                std::uint32_t code;
-                if (!nibbles.get_number(0xffff, code))
-                    return nibbles.consumed() > nibble_count ? Status::truncated
-                                                             : Status::malformed;
-                previous = std::uint16_t(previous + unzigzag(std::uint16_t(code)));
-                zero_seen |= previous == 0 ? 1 : 0;
-                v[at++] = previous;
-            }
-        }
+    RunDecoder decoder(encoded, values);
+    while (!decoder.done()) {
+        if (!decoder.decode_pair())
+            return decoder.problem();
     }
-    if (nibbles.consumed() > nibble_count)
-        return Status::truncated;
-    if (nibble_count - nibbles.consumed() > 1)
-        return Status::trailing_bytes;
-    const bool clean_end = nibble_count == nibbles.consumed() || (nibbles.peek() & 15) == 0;
-    return clean_end && zero_seen == 0 ? Status::ok : Status::malformed;
+    return decoder.finish();
 }
 
 std::size_t max_encoded_size(Size size) {

@@ -70,6 +70,23 @@ TEST(Rvl, CodesEveryMixOfLengths) {
     }
 }
 
+// What follows a run must not be taken for a part of it, whatever it looks like.
+TEST(Rvl, EndsRunsWhereTheyEnd) {
+    for (std::size_t measured = 1; measured < 40; ++measured) {
+        for (const std::size_t empty : {1u, 7u, 8u, 9u, 511u, 512u, 5000u}) {
+            std::vector<std::uint16_t> values;
+            for (int repeat = 0; repeat < 3; ++repeat) {
+                values.insert(values.end(), measured, std::uint16_t(1));
+                values.insert(values.end(), empty, std::uint16_t(0));
+            }
+            const Bytes encoded = encoded_runs(values);
+            std::vector<std::uint16_t> decoded(values.size());
+            ASSERT_EQ(decode_runs(encoded, decoded), Status::ok) << measured << ", " << empty;
+            ASSERT_EQ(decoded, values);
+        }
+    }
+}
+
 TEST(Rvl, StaysWithinItsBoundOnTheWorstImage) {
     std::vector<std::uint16_t> values(1001);
     for (std::size_t i = 0; i < values.size(); i += 2)

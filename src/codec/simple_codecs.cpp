@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simple_codecs.h"
 
+#include "codec/ans.h"
 #include "codec/raw.h"
 #include "codec/remember.h"
 #include "codec/rvl.h"
@@ -78,6 +79,34 @@ private:
     std::vector<std::uint16_t> scratch_;
 };
 
+class AnsCodec final : public DepthCodec {
+public:
+    explicit AnsCodec(bool delta) : delta_(delta) {}
+    bool lossless() const override { return true; }
+    bool temporal() const override { return delta_; }
+    std::size_t max_encoded_size(Size size) const override { return ans::max_encoded_size(size); }
+    std::size_t encode(DepthView depth, const Reference* reference, std::span<std::byte> out,
+                       Reference* next) override {
+        const DepthView before = delta_ ? view_of(reference) : DepthView{};
+        const std::size_t used = ans::encode(depth, before, work_, out);
+        if (delta_)
+            remember(depth, next);
+        return used;
+    }
+    Result<Size> read_size(ByteView encoded) const override { return ans::read_size(encoded); }
+    Status decode(ByteView encoded, const Reference* reference, MutableDepthView out,
+                  Reference* next) override {
+        const Status status = ans::decode(encoded, view_of(reference), work_, out);
+        if (status == Status::ok && delta_)
+            remember(out, next);
+        return status;
+    }
+
+private:
+    ans::DepthWorkspace work_;
+    bool delta_;
+};
+
 }  // namespace
 
 std::unique_ptr<DepthCodec> make_raw() {
@@ -88,6 +117,9 @@ std::unique_ptr<DepthCodec> make_rvl() {
 }
 std::unique_ptr<DepthCodec> make_trvl() {
     return std::make_unique<TrvlCodec>();
+}
+std::unique_ptr<DepthCodec> make_ans(bool delta) {
+    return std::make_unique<AnsCodec>(delta);
 }
 
 }  // namespace theatron::codec

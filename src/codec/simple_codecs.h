@@ -11,5 +11,6 @@ namespace theatron::codec {
 std::unique_ptr<DepthCodec> make_raw();
 std::unique_ptr<DepthCodec> make_rvl();
 std::unique_ptr<DepthCodec> make_trvl();
+std::unique_ptr<DepthCodec> make_ans(bool delta);
 
 }  // namespace theatron::codec

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test vectors of docs/formats for raw, trvl and zstd, and what the planes
+// The test vectors of docs/formats for raw, trvl, ans, zstd and lz4, and what the planes
 // of zstd and lz4 hold.
 #include <gtest/gtest.h>
 
+#include "codec/ans.h"
 #include "codec/depth_codec.h"
+#include "codec/library_codec.h"
 #include "codec/planes.h"
 #include "codec/raw.h"
 #include "codec/test_images.h"
 #include "codec/trvl.h"
-#include "codec/zstd_codec.h"
 
 namespace theatron::codec {
 namespace {
@@ -45,6 +46,81 @@ TEST(Trvl, BytesAreAsSpecified) {
     EXPECT_EQ(out, expected);
 }
 
+TEST(Ans, BytesAreAsSpecified) {
+    const Bytes expected = bytes({
+        6,    1, 1,    0, 4,    0, 2,    0,  // header: a delta frame
+        4,    0, 0,    0,                    // four runs: 1 3 3 1
+        0,    0, 0x84, 0, 0,    0, 0x84, 0,  // frequencies of 1 and 3
+        0,    0, 0x84, 0, 0,    0, 0x84, 0,  // the same
+        0,    0, 0,    0, 0,    0, 0,    0,  // no words, no extra bits
+        0,    0, 1,    0, 0,    4, 1,    0, 0,    4, 1, 0, 0,    0, 1, 0,  // states
+        0,    4, 0x82, 0, 0x82, 0, 0,    1, 0x82, 0, 0, 3, 0x82, 0,  // frequencies of 5, 6, 9, 14
+        0x88, 0, 0x88, 0, 0x88, 0, 0x88, 0, 0x88, 0,                 // unused contexts
+        0,    0, 0,    0, 0,    0, 0,    0,                          // no words, no extra bits
+        0,    4, 2,    0, 0,    6, 2,    0, 0,    0, 2, 0, 0,    2, 2, 0,  // states
+    });
+    ans::DepthWorkspace work;
+    Bytes out(ans::max_encoded_size(after.size));
+    out.resize(ans::encode(after.view(), before.view(), work, out));
+    EXPECT_EQ(out, expected);
+}
+
+// Numbers of every size, with every remainder of the four parts.
+TEST(Ans, CodesAnyNumbers) {
+    std::mt19937 random(9);
+    ans::Workspace work;
+    for (std::size_t count = 0; count < 300; ++count) {
+        std::vector<std::uint32_t> numbers(count);
+        const unsigned shift = random() % 16;
+        for (auto& number : numbers)
+            number = (random() & 0xffff) >> (random() % 3 ? shift : 0);
+        Bytes out(ans::max_encoded_numbers(count));
+        out.resize(ans::encode_differences(numbers, work, out));
+        ByteView in(out);
+        std::vector<std::uint32_t> decoded(count);
+        ASSERT_EQ(ans::decode_differences(in, work, decoded), Status::ok);
+        ASSERT_EQ(decoded, numbers);
+        EXPECT_TRUE(in.empty());
+    }
+}
+
+TEST(Ans, CodesTheLongestRuns) {
+    const std::vector<std::uint32_t> runs = {0, 1, 67108864, 67108863, 15, 16, 17, 1000};
+    ans::Workspace work;
+    Bytes out(ans::max_encoded_numbers(runs.size()));
+    out.resize(ans::encode_runs(runs, work, out));
+    ByteView in(out);
+    std::vector<std::uint32_t> decoded(runs.size());
+    ASSERT_EQ(ans::decode_runs(in, work, decoded), Status::ok);
+    EXPECT_EQ(decoded, runs);
+}
+
+TEST(Ans, SymbolsPartitionTheNumbers) {
+    using Symbols = ans::DifferenceModel::Symbols;
+    std::uint32_t last = 0;
+    for (std::uint32_t number = 1; number < 0x10000; ++number) {
+        const std::uint32_t symbol = Symbols::symbol(number);
+        ASSERT_TRUE(symbol == last || symbol == last + 1) << number;
+        ASSERT_GE(number, Symbols::base(symbol));
+        ASSERT_LT(number - Symbols::base(symbol), 1u << Symbols::extra_bits(symbol));
+        last = symbol;
+    }
+    EXPECT_EQ(last + 1, Symbols::size);
+}
+
+// Decoding only: the same pixels may be compressed in more than one way.
+TEST(Lz4, DecodesTheSpecifiedBytes) {
+    if (!has_lz4())
+        GTEST_SKIP() << "built without LZ4";
+    const Bytes vector = bytes({5,    1,    0, 2, 4,    0, 2,    0,  // header: pixels, step 2
+                                0xf0, 0x01,                          // 16 literal bytes
+                                0,    0,    0, 0, 0xf5, 1, 0xf4, 1, 0xf5, 1, 0xf4, 1, 4, 0, 1, 0});
+    DepthImage decoded(after.size);
+    const auto codec = make_depth_codec(parse_depth_setting("lz4:quant_mm=2").setting);
+    ASSERT_EQ(codec->decode(vector, nullptr, decoded.view(), nullptr), Status::ok);
+    EXPECT_EQ(decoded, four_by_two({0, 0, 1001, 999, 1001, 999, 7, 1}));
+}
+
 // Decoding only: the same pixels may be compressed in more than one way.
 TEST(Zstd, DecodesTheSpecifiedBytes) {
     if (!has_zstd())
@@ -56,7 +132,9 @@ TEST(Zstd, DecodesTheSpecifiedBytes) {
                                 0,    0,    0,    0,    0,    0,    0, 0});  // high bytes
     const Reference reference{before, {}};
     DepthImage decoded(after.size);
-    ASSERT_EQ(make_zstd(1, true)->decode(vector, &reference, decoded.view(), nullptr), Status::ok);
+    ASSERT_EQ(make_depth_codec(parse_depth_setting("zstd:delta=1").setting)
+                  ->decode(vector, &reference, decoded.view(), nullptr),
+              Status::ok);
     EXPECT_EQ(decoded, after);
 }
 

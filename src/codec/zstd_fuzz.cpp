@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/decode_fuzz.h"
-#include "codec/zstd_codec.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto codec = theatron::codec::make_zstd(1, true);
-    theatron::codec::fuzz_depth_codec(*codec, std::as_bytes(std::span(data, size)), false);
+    using namespace theatron::codec;
+    static const auto codec = make_depth_codec(parse_depth_setting("zstd:delta=1").setting);
+    fuzz_depth_codec(*codec, std::as_bytes(std::span(data, size)), false);
     return 0;
 }
