@@ -12,11 +12,14 @@ namespace theatron::render {
 namespace {
 
 struct NamedPass {
-    const char* name;
+    std::string_view name;
     std::unique_ptr<CloudPass> (*make)();
 };
 
-constexpr NamedPass passes[] = {{"splat", make_splat_pass}, {"mesh", make_mesh_pass}};
+constexpr NamedPass passes[] = {{"splat", make_splat_pass},
+                                {"disc", make_disc_pass},
+                                {"mesh", make_mesh_pass},
+                                {yardstick_renderer, make_bare_grid_pass}};
 
 constexpr Rgb background{32, 34, 38};
 
@@ -26,13 +29,16 @@ const std::vector<std::string>& renderer_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
         for (const NamedPass& pass : passes)
-            all.push_back(pass.name);
+            if (pass.name != yardstick_renderer)
+                all.emplace_back(pass.name);
         return all;
     }();
     return names;
 }
 
 void check_renderer_name(std::string_view name) {
+    if (name == yardstick_renderer)
+        return;
     std::string choices;
     for (const std::string& known : renderer_names()) {
         if (known == name)

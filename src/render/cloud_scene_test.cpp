@@ -210,6 +210,27 @@ TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
     EXPECT_EQ(between, 0);
 }
 
+TEST_P(CloudSceneTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
+    // The camera looks along the wall at 30 degrees: its points are two pixels apart
+    // across the wall when one looks at it straight.
+    const Calibration calibration = simple_calibration();
+    DepthImage depth(calibration.depth.size);
+    for (int y = 0; y < depth.size.height; ++y)
+        for (int x = 0; x < depth.size.width; ++x) {
+            const Vec2 ray = unproject(calibration.depth, {double(x), double(y)}).value();
+            // Through (0, 0, 2), with its normal at 60 degrees to the axis.
+            depth.view().row(y)[x] =
+                std::uint16_t(std::lround(2000 / (1 + std::tan(1.0472) * ray.x * 0.99)));
+        }
+    scene->set_camera(first_camera, calibration);
+    ASSERT_EQ(scene->upload(first_camera, depth.view(), {}), Status::ok);
+    const Vec3 middle = room_from_camera(calibration) * Vec3{0, 0, 2};
+    const Picture drawn = render(orbited(own_view(calibration), middle, -60, 0), {192, 144});
+    for (int y = 52; y < 92; ++y)
+        for (int x = 76; x < 116; ++x)
+            ASSERT_NEAR(drawn.depth_mm.view().row(y)[x], 2000, 60) << "at " << x << ", " << y;
+}
+
 TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
     const Calibration calibration = simple_calibration();
     show(calibration);
