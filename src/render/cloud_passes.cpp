@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_passes.h"
 
+#include "render/color_visibility.h"
 #include "render/matrix.h"
 
 namespace theatron::render {
@@ -42,7 +43,8 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
         put(u.color_pinhole, color.fx, color.fy, color.cx, color.cy);
         put(u.color_radial, color.k[0], color.k[1], color.k[2], color.k[3]);
         put(u.color_more, color.k[4], color.k[5], color.p1, color.p2);
-        put(u.color_image, color.size.width, color.size.height, color.max_radius, 0);
+        put(u.color_image, color.size.width, color.size.height, color.max_radius,
+            may_be_hidden(calibration) ? 1 : 0);
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
     put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
@@ -124,20 +126,20 @@ private:
 }  // namespace
 
 std::unique_ptr<CloudPass> make_splat_pass() {
-    return std::make_unique<PointPass>(
-        make_cloud_program({"cloud.glsl", "neighbours.glsl", "splat_steps.glsl", "splat.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
+    return std::make_unique<PointPass>(make_cloud_program(
+        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "splat.vert"},
+        {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_disc_pass() {
-    return std::make_unique<PointPass>(
-        make_cloud_program({"cloud.glsl", "neighbours.glsl", "splat_steps.glsl", "disc.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
+    return std::make_unique<PointPass>(make_cloud_program(
+        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "disc.vert"},
+        {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
     return std::make_unique<GridPass>(
-        make_cloud_program({"cloud.glsl", "neighbours.glsl", "mesh.vert"},
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "mesh.vert"},
                            {"cloud.glsl", "color.glsl", "output.glsl", "mesh.frag"}));
 }
 
@@ -164,6 +166,7 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("depth_images", 0);
     program.set_sampler("ray_tables", 1);
     program.set_sampler("color_images", 2);
+    program.set_sampler("nearest_in_color", ColorVisibility::texture_unit);
     program.bind_block("Cameras", CameraBlock::binding);
     return program;
 }

@@ -45,7 +45,7 @@ private:
 };
 
 // A program with cloud.glsl in it: its samplers and block bound as
-// CloudTextures::bind and CameraBlock::bind do.
+// CloudTextures::bind, ColorVisibility::update and CameraBlock::bind do.
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
 }  // namespace theatron::render

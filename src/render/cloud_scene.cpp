@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "render/cloud_passes.h"
 #include "render/cloud_textures.h"
+#include "render/color_visibility.h"
 #include "render/render_target.h"
 
 namespace theatron::render {
@@ -52,6 +53,7 @@ void check_renderer_name(std::string_view name) {
 struct CloudScene::Parts {
     CloudTextures textures;
     CameraBlock cameras;
+    ColorVisibility visibility;
     // Core profiles draw nothing without one, though no attributes are used.
     VertexArray no_attributes;
     std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
@@ -89,21 +91,23 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     CloudPass& pass = parts_->pass(renderer);
     if (parts_->textures.sources().empty())
         return;
+#ifndef __EMSCRIPTEN__
+    if (epoxy_is_desktop_gl())
+        glEnable(GL_PROGRAM_POINT_SIZE);  // always on in ES
+#endif
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
+    glBindVertexArray(parts_->no_attributes.name());
+    const CloudFrame frame{parts_->textures, view, target};
+    parts_->cameras.bind(frame);
+    parts_->visibility.update(parts_->textures);
+
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(target.x, target.y, target.size.width, target.size.height);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
-#ifndef __EMSCRIPTEN__
-    if (epoxy_is_desktop_gl())
-        glEnable(GL_PROGRAM_POINT_SIZE);  // always on in ES
-#endif
-    glBindVertexArray(parts_->no_attributes.name());
-    const CloudFrame frame{parts_->textures, view, target};
-    parts_->cameras.bind(frame);
     pass.draw(frame);
     glBindVertexArray(0);
 }

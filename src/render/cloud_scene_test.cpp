@@ -173,6 +173,35 @@ TEST_P(CloudSceneTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
     EXPECT_NEAR(sum_y / compared, 0, 0.5);
 }
 
+TEST_P(CloudSceneTest, WhatTheColorCameraDoesNotSeeIsNotPaintedWithTheForeground) {
+    Calibration calibration = simple_calibration();
+    calibration.color = pinhole({384, 288}, 60);
+    calibration.color_from_depth.translation = {-0.1, 0, 0};
+    constexpr Rgb red{255, 0, 0}, blue{0, 0, 255};
+    ColorImage color(calibration.color.size);
+    for (int y = 0; y < color.size.height; ++y)
+        for (int x = 0; x < color.size.width; ++x) {
+            const Vec2 ray = unproject(calibration.color, {double(x), double(y)}).value();
+            const Vec3 on_near_plane{ray.x * 1.2 + 0.1, ray.y * 1.2, 1.2};
+            const Vec2 pixel = project(calibration.depth, on_near_plane).value();
+            const bool board = on_board(int(std::lround(pixel.x)), int(std::lround(pixel.y)));
+            color.view().row(y)[x] = board ? red : blue;
+        }
+    scene->set_camera(first_camera, calibration);
+    ASSERT_EQ(scene->upload(first_camera, wall_and_board({96, 72}).view(), color.view()),
+              Status::ok);
+    const Picture drawn = render(own_view(calibration));
+    int wrong = 0;
+    for (int y = 2; y < 70; ++y)
+        for (int x = 10; x < 94; ++x)
+            if (!near_an_edge(x, y) && !in_hole(x, y)) {
+                const Rgb got = drawn.color.view().row(y)[x];
+                wrong += std::abs(got.r - (on_board(x, y) ? 255 : 0)) > 60;
+            }
+    // The shadow covers some 240 pixels; its corner may keep a few.
+    EXPECT_LE(wrong, 5);
+}
+
 TEST_P(CloudSceneTest, HolesStayHoles) {
     const Calibration calibration = simple_calibration();
     show(calibration);

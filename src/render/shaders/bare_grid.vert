@@ -11,5 +11,5 @@ void main() {
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
     vec3 point = point_at(camera, pixel, depth_m(camera, pixel));
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
-    v_place = vec3(color_pixel(camera, point), float(camera));
+    v_place = vec3(color_pixel(camera, point).xy, float(camera));
 }

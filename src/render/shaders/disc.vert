@@ -37,5 +37,5 @@ void main() {
     vec2 slope = abs(determinant_j) > 0.1 ? inverse(transpose(j)) * change : vec2(0.0);
     v_plane = vec3(clip.w, slope);
     gl_Position = clip;
-    v_place = vec4(color_pixel(camera, point), float(camera), gl_PointSize);
+    v_place = vec4(color_place(camera, point).xy, float(camera), gl_PointSize);
 }

@@ -63,6 +63,6 @@ void main() {
     }
     vec3 point = point_at(camera, pixel, z);
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
-    v_place = vec4(color_pixel(camera, point), vec2(pixel));
+    v_place = vec4(color_place(camera, point).xy, vec2(pixel));
     v_cell = ivec4(pixel, camera, kept);
 }

@@ -27,5 +27,5 @@ void main() {
     float gap = min(max(length(steps[0]), length(steps[1])), 3.0 * upright);
     gl_Position = clip;
     gl_PointSize = clamp(gap * overlap, 1.0, 64.0);
-    v_place = vec4(color_pixel(camera, point), float(camera), gl_PointSize);
+    v_place = vec4(color_place(camera, point).xy, float(camera), gl_PointSize);
 }
