@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_passes.h"
 
+#include "render/color_visibility.h"
 #include "render/matrix.h"
 
 namespace theatron::render {
@@ -42,32 +43,37 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
         put(u.color_pinhole, color.fx, color.fy, color.cx, color.cy);
         put(u.color_radial, color.k[0], color.k[1], color.k[2], color.k[3]);
         put(u.color_more, color.k[4], color.k[5], color.p1, color.p2);
-        put(u.color_image, color.size.width, color.size.height, color.max_radius, 0);
+        put(u.color_image, color.size.width, color.size.height, color.max_radius,
+            may_be_hidden(calibration) ? 1 : 0);
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
     put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
     return u;
 }
 
-class SplatPass final : public CloudPass {
+// Draws a point for every depth pixel.
+class PointPass final : public CloudPass {
 public:
+    explicit PointPass(Program program) : program_(std::move(program)) {}
+
     void draw(const CloudFrame& frame) override {
-        const Size size = frame.textures.depth_size();
+        const Size size = frame.textures.depth_size(), picture = frame.target.size;
+        const double n = frame.view.near_m, f = frame.view.far_m;
         program_.use();
         glUniform1i(columns_, size.width);
-        glUniform1f(pixels_per_tan_, float(pixels_per_tan(frame)));
-        // Below 2, a point covers no neighbour's pixel in the camera's own picture.
-        glUniform1f(point_scale_, 1.5f);
+        glUniform2f(half_picture_, float(picture.width / 2.0), float(picture.height / 2.0));
+        glUniform1f(pixels_per_tan_, float(picture.width / (frame.view.right - frame.view.left)));
+        glUniform2f(depth_from_w_, float(f / (f - n)), float(-f * n / (f - n)));
         glDrawArraysInstanced(GL_POINTS, 0, GLsizei(size.area()),
                               GLsizei(frame.textures.sources().size()));
     }
 
 private:
-    Program program_ = make_cloud_program(
-        {"cloud.glsl", "splat.vert"}, {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"});
+    Program program_;
     GLint columns_ = program_.uniform("columns");
+    GLint half_picture_ = program_.uniform("half_picture");
     GLint pixels_per_tan_ = program_.uniform("pixels_per_tan");
-    GLint point_scale_ = program_.uniform("point_scale");
+    GLint depth_from_w_ = program_.uniform("depth_from_w");
 };
 
 // Two triangles for each cell of the image. The last corner of both is the
@@ -88,8 +94,11 @@ std::vector<GLuint> grid_indices(Size size) {
     return indices;
 }
 
-class MeshPass final : public CloudPass {
+// Draws every camera's depth image as a grid.
+class GridPass final : public CloudPass {
 public:
+    explicit GridPass(Program program) : program_(std::move(program)) {}
+
     void draw(const CloudFrame& frame) override {
         const Size size = frame.textures.depth_size();
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, grid_.name());
@@ -107,8 +116,7 @@ public:
     }
 
 private:
-    Program program_ = make_cloud_program({"cloud.glsl", "mesh.vert"},
-                                          {"cloud.glsl", "color.glsl", "output.glsl", "mesh.frag"});
+    Program program_;
     GLint columns_ = program_.uniform("columns");
     Buffer grid_;
     Size grid_size_;
@@ -118,11 +126,27 @@ private:
 }  // namespace
 
 std::unique_ptr<CloudPass> make_splat_pass() {
-    return std::make_unique<SplatPass>();
+    return std::make_unique<PointPass>(make_cloud_program(
+        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "splat.vert"},
+        {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
+}
+
+std::unique_ptr<CloudPass> make_disc_pass() {
+    return std::make_unique<PointPass>(make_cloud_program(
+        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "disc.vert"},
+        {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
-    return std::make_unique<MeshPass>();
+    return std::make_unique<GridPass>(
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "mesh.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "mesh.frag"}));
+}
+
+std::unique_ptr<CloudPass> make_bare_grid_pass() {
+    return std::make_unique<GridPass>(
+        make_cloud_program({"cloud.glsl", "bare_grid.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "bare_grid.frag"}));
 }
 
 void CameraBlock::bind(const CloudFrame& frame) const {
@@ -142,12 +166,9 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("depth_images", 0);
     program.set_sampler("ray_tables", 1);
     program.set_sampler("color_images", 2);
+    program.set_sampler("nearest_in_color", ColorVisibility::texture_unit);
     program.bind_block("Cameras", CameraBlock::binding);
     return program;
-}
-
-double pixels_per_tan(const CloudFrame& frame) {
-    return frame.target.size.width / (frame.view.right - frame.view.left);
 }
 
 }  // namespace theatron::render

@@ -28,7 +28,9 @@ public:
 };
 
 std::unique_ptr<CloudPass> make_splat_pass();
+std::unique_ptr<CloudPass> make_disc_pass();
 std::unique_ptr<CloudPass> make_mesh_pass();
+std::unique_ptr<CloudPass> make_bare_grid_pass();
 
 // The calibrations of a frame's cameras as the shaders read them (cloud.glsl).
 class CameraBlock {
@@ -43,10 +45,7 @@ private:
 };
 
 // A program with cloud.glsl in it: its samplers and block bound as
-// CloudTextures::bind and CameraBlock::bind do.
+// CloudTextures::bind, ColorVisibility::update and CameraBlock::bind do.
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
-
-// Picture pixels per unit of the tangent, at the middle of the view.
-double pixels_per_tan(const CloudFrame& frame);
 
 }  // namespace theatron::render

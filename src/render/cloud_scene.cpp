@@ -6,17 +6,21 @@
 #include "base/error.h"
 #include "render/cloud_passes.h"
 #include "render/cloud_textures.h"
+#include "render/color_visibility.h"
 #include "render/render_target.h"
 
 namespace theatron::render {
 namespace {
 
 struct NamedPass {
-    const char* name;
+    std::string_view name;
     std::unique_ptr<CloudPass> (*make)();
 };
 
-constexpr NamedPass passes[] = {{"splat", make_splat_pass}, {"mesh", make_mesh_pass}};
+constexpr NamedPass passes[] = {{"splat", make_splat_pass},
+                                {"disc", make_disc_pass},
+                                {"mesh", make_mesh_pass},
+                                {yardstick_renderer, make_bare_grid_pass}};
 
 constexpr Rgb background{32, 34, 38};
 
@@ -26,13 +30,16 @@ const std::vector<std::string>& renderer_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
         for (const NamedPass& pass : passes)
-            all.push_back(pass.name);
+            if (pass.name != yardstick_renderer)
+                all.emplace_back(pass.name);
         return all;
     }();
     return names;
 }
 
 void check_renderer_name(std::string_view name) {
+    if (name == yardstick_renderer)
+        return;
     std::string choices;
     for (const std::string& known : renderer_names()) {
         if (known == name)
@@ -46,6 +53,7 @@ void check_renderer_name(std::string_view name) {
 struct CloudScene::Parts {
     CloudTextures textures;
     CameraBlock cameras;
+    ColorVisibility visibility;
     // Core profiles draw nothing without one, though no attributes are used.
     VertexArray no_attributes;
     std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
@@ -83,21 +91,23 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     CloudPass& pass = parts_->pass(renderer);
     if (parts_->textures.sources().empty())
         return;
+#ifndef __EMSCRIPTEN__
+    if (epoxy_is_desktop_gl())
+        glEnable(GL_PROGRAM_POINT_SIZE);  // always on in ES
+#endif
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
+    glBindVertexArray(parts_->no_attributes.name());
+    const CloudFrame frame{parts_->textures, view, target};
+    parts_->cameras.bind(frame);
+    parts_->visibility.update(parts_->textures);
+
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(target.x, target.y, target.size.width, target.size.height);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
-#ifndef __EMSCRIPTEN__
-    if (epoxy_is_desktop_gl())
-        glEnable(GL_PROGRAM_POINT_SIZE);  // always on in ES
-#endif
-    glBindVertexArray(parts_->no_attributes.name());
-    const CloudFrame frame{parts_->textures, view, target};
-    parts_->cameras.bind(frame);
     pass.draw(frame);
     glBindVertexArray(0);
 }

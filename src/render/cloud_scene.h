@@ -40,9 +40,14 @@ struct Picture {
     DepthImage depth_mm;
 };
 
-// The ways to draw, simplest first: "splat" (a point for each depth pixel, sized by
-// its distance), "mesh" (the depth image as a grid, torn where it jumps).
+// The ways to draw, simplest first: "splat" (a round point for each depth pixel, sized by
+// the gaps to its neighbours), "disc" (the same, lying in the surface, with its depth),
+// "mesh" (the depth image as a grid, torn where it jumps).
 const std::vector<std::string>& renderer_names();
+
+// A grid that is neither torn nor blended, for comparing times: it is accepted as a
+// renderer, but not among renderer_names().
+inline constexpr std::string_view yardstick_renderer = "bare_grid";
 
 // Throws an Error that names the choices if there is no such renderer.
 void check_renderer_name(std::string_view name);

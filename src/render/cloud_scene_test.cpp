@@ -173,6 +173,35 @@ TEST_P(CloudSceneTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
     EXPECT_NEAR(sum_y / compared, 0, 0.5);
 }
 
+TEST_P(CloudSceneTest, WhatTheColorCameraDoesNotSeeIsNotPaintedWithTheForeground) {
+    Calibration calibration = simple_calibration();
+    calibration.color = pinhole({384, 288}, 60);
+    calibration.color_from_depth.translation = {-0.1, 0, 0};
+    constexpr Rgb red{255, 0, 0}, blue{0, 0, 255};
+    ColorImage color(calibration.color.size);
+    for (int y = 0; y < color.size.height; ++y)
+        for (int x = 0; x < color.size.width; ++x) {
+            const Vec2 ray = unproject(calibration.color, {double(x), double(y)}).value();
+            const Vec3 on_near_plane{ray.x * 1.2 + 0.1, ray.y * 1.2, 1.2};
+            const Vec2 pixel = project(calibration.depth, on_near_plane).value();
+            const bool board = on_board(int(std::lround(pixel.x)), int(std::lround(pixel.y)));
+            color.view().row(y)[x] = board ? red : blue;
+        }
+    scene->set_camera(first_camera, calibration);
+    ASSERT_EQ(scene->upload(first_camera, wall_and_board({96, 72}).view(), color.view()),
+              Status::ok);
+    const Picture drawn = render(own_view(calibration));
+    int wrong = 0;
+    for (int y = 2; y < 70; ++y)
+        for (int x = 10; x < 94; ++x)
+            if (!near_an_edge(x, y) && !in_hole(x, y)) {
+                const Rgb got = drawn.color.view().row(y)[x];
+                wrong += std::abs(got.r - (on_board(x, y) ? 255 : 0)) > 60;
+            }
+    // The shadow covers some 240 pixels; its corner may keep a few.
+    EXPECT_LE(wrong, 5);
+}
+
 TEST_P(CloudSceneTest, HolesStayHoles) {
     const Calibration calibration = simple_calibration();
     show(calibration);
@@ -208,6 +237,27 @@ TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
         }
     EXPECT_GT(on_planes, 5000);
     EXPECT_EQ(between, 0);
+}
+
+TEST_P(CloudSceneTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
+    // The camera looks along the wall at 30 degrees: its points are two pixels apart
+    // across the wall when one looks at it straight.
+    const Calibration calibration = simple_calibration();
+    DepthImage depth(calibration.depth.size);
+    for (int y = 0; y < depth.size.height; ++y)
+        for (int x = 0; x < depth.size.width; ++x) {
+            const Vec2 ray = unproject(calibration.depth, {double(x), double(y)}).value();
+            // Through (0, 0, 2), with its normal at 60 degrees to the axis.
+            depth.view().row(y)[x] =
+                std::uint16_t(std::lround(2000 / (1 + std::tan(1.0472) * ray.x * 0.99)));
+        }
+    scene->set_camera(first_camera, calibration);
+    ASSERT_EQ(scene->upload(first_camera, depth.view(), {}), Status::ok);
+    const Vec3 middle = room_from_camera(calibration) * Vec3{0, 0, 2};
+    const Picture drawn = render(orbited(own_view(calibration), middle, -60, 0), {192, 144});
+    for (int y = 52; y < 92; ++y)
+        for (int x = 76; x < 116; ++x)
+            ASSERT_NEAR(drawn.depth_mm.view().row(y)[x], 2000, 60) << "at " << x << ", " << y;
 }
 
 TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {

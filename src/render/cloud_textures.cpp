@@ -45,6 +45,7 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
     const auto known = sources_.find(camera);
     if (known != sources_.end() && known->second.calibration.depth == calibration.depth) {
         known->second.calibration = calibration;
+        known->second.revision = ++revision_;
         return;
     }
     if (known == sources_.end() && sources_.size() == std::size_t(max_cameras))
@@ -52,6 +53,7 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
 
     CloudSource source;
     source.calibration = calibration;
+    source.revision = ++revision_;
     source.rays = make_ray_table(calibration.depth);
     source.layer = known != sources_.end() ? known->second.layer : free_layer();
     make_room(source.layer + 1, calibration.depth.size, calibration.color.size);
@@ -69,6 +71,7 @@ Status CloudTextures::upload(CameraId camera, DepthView depth, ColorView color) 
     if (known == sources_.end() || depth.size != known->second.calibration.depth.size)
         return Status::size_mismatch;
     CloudSource& source = known->second;
+    source.revision = ++revision_;
     upload_layer(*depth_, source.layer, depth, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
     if (color.pixels) {
         make_room(0, {}, color.size);

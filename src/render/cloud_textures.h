@@ -22,8 +22,9 @@ namespace theatron::render {
 struct CloudSource {
     Calibration calibration;
     int layer = 0;
-    Size color_size;  // of the newest picture; 0 x 0: none yet
-    Image<Ray> rays;  // kept for moving to larger textures
+    Size color_size;        // of the newest picture; 0 x 0: none yet
+    unsigned revision = 0;  // other than before whenever images or calibration changed
+    Image<Ray> rays;        // kept for moving to larger textures
 };
 
 class CloudTextures {
@@ -36,6 +37,7 @@ public:
     const std::map<CameraId, CloudSource>& sources() const { return sources_; }
     // The size that all layers of depth share; 0 x 0 without cameras.
     Size depth_size() const { return depth_size_; }
+    int layers() const { return layers_; }
 
     // Binds depth, rays and colour to the texture units 0, 1 and 2.
     void bind() const;
@@ -47,6 +49,7 @@ private:
 
     std::map<CameraId, CloudSource> sources_;
     int layers_ = 0;
+    unsigned revision_ = 0;
     Size depth_size_, color_size_;
     std::optional<Texture> depth_, rays_, color_;
     Framebuffer copy_source_;

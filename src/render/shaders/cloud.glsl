@@ -8,7 +8,8 @@ struct Camera {
     vec4 color_pinhole;      // fx, fy, cx, cy in pixels of the newest colour picture
     vec4 color_radial;       // k1, k2, k3, k4
     vec4 color_more;         // k5, k6, p1, p2
-    vec4 color_image;        // width, height, largest radius (0: no limit), 0
+    vec4 color_image;        // width, height, largest radius (0: no limit), 1 if it needs
+                             // the map of color_place.glsl
     vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
 };
 
@@ -36,10 +37,12 @@ vec3 point_at(int camera, ivec2 pixel, float z) {
     return vec3(ray * z, z);
 }
 
-// Where the colour camera sees a point of the depth camera's frame, in pixels; far
-// outside its picture where it cannot.
-vec2 color_pixel(int camera, vec3 point) {
-    const vec2 unseen = vec2(-1e4);
+// Beyond this nothing is expected to hide anything.
+const float farthest_m = 20.0;
+
+// Where the colour camera sees a point of the depth camera's frame: the pixel, far
+// outside its picture where it cannot, and the distance along its axis.
+vec3 color_pixel(int camera, vec3 point) {
     vec3 p = (cameras[camera].color_from_camera * vec4(point, 1.0)).xyz;
     vec4 k = cameras[camera].color_radial;
     vec4 more = cameras[camera].color_more;
@@ -49,10 +52,10 @@ vec2 color_pixel(int camera, vec3 point) {
     vec2 d = p.xy / p.z;
     float r2 = dot(d, d);
     if (p.z <= 0.0 || (limit > 0.0 && r2 > limit * limit))
-        return unseen;
+        return vec3(-1e4, -1e4, p.z);
     float radial = (1.0 + r2 * (k.x + r2 * (k.y + r2 * k.z))) /
                    (1.0 + r2 * (k.w + r2 * (more.x + r2 * more.y)));
     vec2 tangential = vec2(more.z, more.w) * (2.0 * d.x * d.y) +
                       vec2(more.w, more.z) * (r2 + 2.0 * d * d);
-    return (d * radial + tangential) * pinhole.xy + pinhole.zw;
+    return vec3((d * radial + tangential) * pinhole.xy + pinhole.zw, p.z);
 }

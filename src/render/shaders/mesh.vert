@@ -9,23 +9,12 @@
 
 uniform int columns;  // of the depth images
 
-out vec4 v_place;     // colour pixel, place in the depth image
+out vec4 v_place;       // colour pixel, place in the depth image
+out float v_support;    // how many neighbours are connected, 1: all
 flat out ivec4 v_cell;  // corner of the cell, camera, kept triangles: 1 upper, 2 lower
 
-// Depth beside the image is that of its border: cells there do not exist.
-float depth_near(int camera, ivec2 pixel, ivec2 offset) {
-    ivec2 last = textureSize(depth_images, 0).xy - 1;
-    return depth_m(camera, clamp(pixel + offset, ivec2(0), last));
-}
-
-// Whether two neighbouring pixels, `apart` pixels from each other, lie on one surface.
-// The limit grows with the distance as the pixels' footprint does: it stands for an
-// angle at which the surface is seen, about 5 degrees, beyond some sensor noise.
-bool connected(int camera, float z1, float z2, float apart) {
-    const float noise_m = 0.012;
-    const float slope = 12.0;
-    float footprint = min(z1, z2) * cameras[camera].depth_image.z * apart;
-    return z1 > 0.0 && z2 > 0.0 && abs(z1 - z2) < noise_m + slope * footprint;
+bool connected(float z1, float z2, float limit) {
+    return z1 > 0.0 && z2 > 0.0 && abs(z1 - z2) < limit;
 }
 
 // For a pixel without depth: that of any neighbour. Triangles at a hole's border are
@@ -46,21 +35,34 @@ void main() {
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
     float z = depth_m(camera, pixel);
     int kept = 0;
+    v_support = 0.0;
     if (z > 0.0) {
         float right = depth_near(camera, pixel, ivec2(1, 0));
         float below = depth_near(camera, pixel, ivec2(0, 1));
         float diagonal = depth_near(camera, pixel, ivec2(1, 1));
-        if (connected(camera, z, diagonal, 1.4142)) {
-            if (connected(camera, z, right, 1.0) && connected(camera, right, diagonal, 1.0))
-                kept = 1;
-            if (connected(camera, z, below, 1.0) && connected(camera, below, diagonal, 1.0))
-                kept += 2;
-        }
+        float left = depth_near(camera, pixel, ivec2(-1, 0));
+        float above = depth_near(camera, pixel, ivec2(0, -1));
+        float straight = largest_step(footprint_m(camera, z));
+        float oblique = 1.4142 * straight;
+        bool to_right = connected(z, right, straight);
+        bool to_below = connected(z, below, straight);
+        bool to_diagonal = connected(z, diagonal, oblique);
+        if (to_diagonal && to_right && connected(right, diagonal, straight))
+            kept = 1;
+        if (to_diagonal && to_below && connected(below, diagonal, straight))
+            kept += 2;
+        float other_diagonals =
+            float(connected(z, depth_near(camera, pixel, ivec2(-1, -1)), oblique)) +
+            float(connected(z, depth_near(camera, pixel, ivec2(1, -1)), oblique)) +
+            float(connected(z, depth_near(camera, pixel, ivec2(-1, 1)), oblique));
+        float straights = float(to_right) + float(to_below) + float(connected(z, left, straight)) +
+                          float(connected(z, above, straight));
+        v_support = (2.0 * straights + float(to_diagonal) + other_diagonals) / 12.0;
     } else {
         z = borrowed_depth(camera, pixel);
     }
     vec3 point = point_at(camera, pixel, z);
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
-    v_place = vec4(color_pixel(camera, point), vec2(pixel));
+    v_place = vec4(color_place(camera, point).xy, vec2(pixel));
     v_cell = ivec4(pixel, camera, kept);
 }
