@@ -2,6 +2,7 @@
 #include "capture/folder_camera.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -9,6 +10,7 @@
 #include "base/log.h"
 #include "capture/folder_calibration.h"
 #include "capture/playback.h"
+#include "capture/tiled_recording.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "video/jpeg_header.h"
@@ -190,11 +192,21 @@ Calibration read_calibration(const fs::path& folder, Size depth, Size color) {
     return default_calibration(depth, color);
 }
 
+Size parse_tile_size(const std::string& text) {
+    Size size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+        !is_valid(size))
+        throw Error("tile=" + text + " is not WIDTHxHEIGHT, for example tile=640x576.");
+    return size;
+}
+
 }  // namespace
 
 std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& progress) {
     const double fps = options.take_number("fps", 30, 0.1, 240);
     const int invalid = options.take_int("invalid", 0, 0, 65535);
+    const std::string tile = options.take("tile");
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
@@ -214,11 +226,18 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     info.name = fs::absolute(folder).filename().string();
     info.calibration = read_calibration(folder, frames->depth_size(), frames->color_size());
     info.frames_per_second = fps;
-    std::unique_ptr<Recording> recording;
-    if (playback.preload.value_or(frames->bytes() <= usual_preload_bytes))
-        recording = std::make_unique<MemoryRecording>(*frames, frames->frames(), progress);
-    else
-        recording = std::move(frames);
+    const std::size_t count = frames->frames();
+    std::size_t bytes = frames->bytes();
+    std::unique_ptr<Recording> recording = std::move(frames);
+    if (!tile.empty()) {
+        const Size size = parse_tile_size(tile);
+        recording = std::make_unique<TiledRecording>(std::move(recording), size);
+        info.calibration.depth = tiled(info.calibration.depth, size);
+        info.calibration.color = tiled(info.calibration.color, size);
+        bytes = count * size.area() * (sizeof(std::uint16_t) + sizeof(Rgb));
+    }
+    if (playback.preload.value_or(bytes <= usual_preload_bytes))
+        recording = std::make_unique<MemoryRecording>(*recording, count, progress);
     return make_recorded_camera(std::move(info), std::move(recording), playback);
 }
 

@@ -10,7 +10,8 @@ namespace theatron::capture {
 inline constexpr const char* folder_camera_help =
     "folder:DIR  pictures DIR/depth/*.png (16-bit grey) and DIR/color/*.jpg or *.png; "
     "fps=30, loop=0, start=0 (first frame), preload=1 (read all at start; usual below 1 GiB), "
-    "invalid=65535 (a depth value that means no reading)";
+    "invalid=65535 (a depth value that means no reading), tile=640x576 (repeated in space to this "
+    "size, for benchmarks)";
 
 std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& progress);
 

@@ -244,5 +244,18 @@ TEST(FolderCameraOnRealData, EverySequenceOpens) {
     EXPECT_GT(sequences, 0);
 }
 
+TEST_F(FolderCamera, TilesRepeatThePicturesInSpace) {
+    add_frames(2);
+    const auto camera = open_camera("folder:" + path().string() + ",tile=20x9");
+    EXPECT_EQ(camera->info().calibration.depth.size, (Size{20, 9}));
+    EXPECT_EQ(camera->info().calibration.color.size, (Size{20, 9}));
+    const Capture got = camera->next(1s);
+    ASSERT_EQ(got.kind, Capture::Kind::frame);
+    EXPECT_EQ(got.frame->depth, flat_depth({20, 9}, 1000));
+    EXPECT_EQ(got.frame->color.pixels.size, (Size{20, 9}));
+    EXPECT_FALSE(got.frame->color.is_jpeg());
+    EXPECT_THROW(open_camera("folder:" + path().string() + ",tile=20"), Error);
+}
+
 }  // namespace
 }  // namespace theatron::capture
