@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "receive/receiver.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/error.h"
+
+namespace theatron::receive {
+namespace {
+
+constexpr CameraId camera{0};
+
+// One camera's encoders, as a host has them.
+class Source {
+public:
+    explicit Source(const std::string& depth = "trvl", SettingId setting = SettingId{1})
+        : setting_(setting),
+          depth_setting_(codec::parse_depth_setting(depth).setting),
+          depth_(depth_setting_),
+          color_(video::make_color_encoder(video::parse_color_setting("raw").setting)) {}
+
+    static DepthImage scene(FrameNumber n) {
+        DepthImage image({32, 24});
+        std::mt19937 rng(n);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            image.pixels[i] = std::uint16_t(1000 + i + rng() % 4);
+        return image;
+    }
+
+    Bytes depth(FrameNumber n, bool key = false) {
+        Bytes payload(depth_.max_encoded_size({32, 24}));
+        const auto encoded = depth_.encode(scene(n).view(), n, key, payload);
+        payload.resize(encoded.bytes);
+        wire::MediaHeader h;
+        h.codec = std::uint8_t(depth_setting_.id);
+        h.stream = depth_stream(camera);
+        h.setting = setting_;
+        h.reference = encoded.reference_frame;
+        h.temporal_layer = std::uint8_t(encoded.layer);
+        h.key = encoded.key;
+        return message(h, n, payload);
+    }
+    Bytes color(FrameNumber n) {
+        ColorData data;
+        data.size = {32, 24};
+        data.pixels = ColorImage(data.size);
+        data.pixels.pixels[0] = {std::uint8_t(n), 2, 3};
+        const auto encoded = color_->encode(data, true);
+        wire::MediaHeader h;
+        h.codec = std::uint8_t(video::ColorCodecId::raw);
+        h.stream = color_stream(camera);
+        h.setting = SettingId{0x8001};
+        h.reference = n;
+        h.key = true;
+        return message(h, n, *encoded);
+    }
+
+private:
+    static Bytes message(wire::MediaHeader h, FrameNumber n, ByteView payload) {
+        h.frame = n;
+        h.captured = h.moment = from_us(n * 33'333);
+        h.payload_size = std::uint32_t(payload.size());
+        Bytes bytes(wire::media_header_size);
+        wire::write_media_header(h, bytes.data());
+        bytes.insert(bytes.end(), payload.begin(), payload.end());
+        return bytes;
+    }
+    SettingId setting_;
+    codec::DepthSetting depth_setting_;
+    codec::DepthStreamEncoder depth_;
+    std::unique_ptr<video::ColorEncoder> color_;
+};
+
+class ReceiverTest : public ::testing::Test {
+protected:
+    explicit ReceiverTest(bool has_color = true)
+        : receiver({[this](CameraFramePtr f) { frames.push_back(std::move(f)); },
+                    [this](StreamId stream, SettingId) { keys_wanted.push_back(stream); }}) {
+        wire::Camera description;
+        description.id = camera;
+        description.depth_stream = depth_stream(camera);
+        description.color_stream = color_stream(camera);
+        description.has_color = has_color;
+        receiver.set_cameras({description});
+        set_depth("trvl", SettingId{1});
+    }
+    void set_depth(const std::string& codec, SettingId id) {
+        receiver.set_settings(
+            {{depth_stream(camera), id, codec}, {color_stream(camera), SettingId{0x8001}, "raw"}});
+    }
+    TimePoint at(FrameNumber n) { return from_us(n * 33'333 + 5'000); }
+
+    std::vector<CameraFramePtr> frames;
+    std::vector<StreamId> keys_wanted;
+    Receiver receiver;
+};
+
+TEST_F(ReceiverTest, PairsDepthAndColorOfAFrame) {
+    Source source;
+    for (FrameNumber n = 0; n < 3; ++n) {
+        ASSERT_EQ(receiver.on_media(source.depth(n), at(n)), Status::ok);
+        EXPECT_EQ(frames.size(), n);
+        ASSERT_EQ(receiver.on_media(source.color(n), at(n)), Status::ok);
+        ASSERT_EQ(frames.size(), n + 1);
+        EXPECT_EQ(frames[n]->number, n);
+        EXPECT_EQ(frames[n]->depth, Source::scene(n));
+        EXPECT_EQ(frames[n]->color->pixels[0].r, n);
+        EXPECT_EQ(frames[n]->times.captured, from_us(n * 33'333));
+    }
+    EXPECT_TRUE(keys_wanted.empty());
+}
+
+TEST_F(ReceiverTest, LateColorDoesNotHoldDepthBack) {
+    Source source;
+    (void)receiver.on_media(source.depth(0), at(0));
+    (void)receiver.on_media(source.color(0), at(0));
+    (void)receiver.on_media(source.depth(1), at(1));
+    (void)receiver.on_media(source.depth(2), at(2));  // the colour of frame 1 was lost
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[1]->number, 1u);
+    EXPECT_EQ(frames[1]->color->pixels[0].r, 0);  // the older one
+    (void)receiver.on_media(source.color(2), at(2));
+    EXPECT_EQ(frames.back()->number, 2u);
+    EXPECT_EQ(frames.back()->color->pixels[0].r, 2);
+}
+
+class DepthOnly : public ReceiverTest {
+protected:
+    DepthOnly() : ReceiverTest(false) {}
+};
+
+TEST_F(DepthOnly, NeedsNoColor) {
+    Source source;
+    (void)receiver.on_media(source.depth(0), at(0));
+    EXPECT_EQ(frames.size(), 1u);
+}
+
+TEST_F(DepthOnly, ALostFrameIsCountedAndAKeyFrameAskedForOnce) {
+    Source source;
+    (void)receiver.on_media(source.depth(0), at(0));
+    (void)source.depth(1);
+    EXPECT_EQ(receiver.on_media(source.depth(2), at(2)), Status::missing_reference);
+    EXPECT_EQ(receiver.on_media(source.depth(3), at(3)), Status::missing_reference);
+    EXPECT_EQ(keys_wanted, std::vector{depth_stream(camera)});
+    EXPECT_EQ(frames.size(), 1u);
+    // Asked again if none comes.
+    (void)receiver.on_media(source.depth(40), at(40));
+    EXPECT_EQ(keys_wanted.size(), 2u);
+    EXPECT_EQ(receiver.on_media(source.depth(41, true), at(41)), Status::ok);
+    EXPECT_EQ(frames.back()->depth, Source::scene(41));
+    EXPECT_EQ(receiver.figures(at(41))[0].dropped, 40u);
+}
+
+TEST_F(DepthOnly, AMissingUpperLayerIsSkippedWithoutAKeyFrame) {
+    set_depth("trvl:layers=2", SettingId{2});
+    Source source("trvl:layers=2", SettingId{2});
+    std::vector<Bytes> messages;
+    for (FrameNumber n = 0; n < 7; ++n)
+        messages.push_back(source.depth(n));
+    for (const FrameNumber n : {0u, 2u, 3u, 4u, 6u})
+        EXPECT_EQ(receiver.on_media(messages[n], at(n)), Status::ok) << n;
+    EXPECT_TRUE(keys_wanted.empty());
+    EXPECT_EQ(frames.size(), 5u);
+}
+
+TEST_F(DepthOnly, FramesOfAnotherSettingAreLeftAlone) {
+    Source old_source("trvl", SettingId{1}), new_source("rvl", SettingId{2});
+    (void)receiver.on_media(old_source.depth(0), at(0));
+    set_depth("rvl", SettingId{2});
+    EXPECT_EQ(receiver.on_media(old_source.depth(1), at(1)), Status::ok);
+    EXPECT_EQ(frames.size(), 1u);
+    (void)receiver.on_media(new_source.depth(2), at(2));
+    EXPECT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[1]->depth, Source::scene(2));
+}
+
+TEST_F(DepthOnly, DamageIsCountedAndAnsweredWithAKeyFrame) {
+    Source source;
+    Bytes message = source.depth(0);
+    message[wire::media_header_size] = std::byte{0xee};
+    EXPECT_NE(receiver.on_media(message, at(0)), Status::ok);
+    EXPECT_EQ(receiver.refused(), 1u);
+    EXPECT_EQ(keys_wanted.size(), 1u);
+    EXPECT_NE(receiver.on_media(ByteView(message).first(10), at(0)), Status::ok);
+    EXPECT_EQ(receiver.refused(), 2u);
+}
+
+TEST_F(DepthOnly, FiguresTellRateAndAge) {
+    Source source("rvl", SettingId{2});
+    set_depth("rvl", SettingId{2});
+    for (FrameNumber n = 0; n < 60; ++n)
+        (void)receiver.on_media(source.depth(n), at(n));
+    const StreamFigures figures = receiver.figures(at(59))[0];
+    EXPECT_NEAR(figures.frames_per_second, 30, 1);
+    EXPECT_NEAR(figures.age_p50_ms, 5, 0.01);
+    EXPECT_EQ(figures.frames, 60u);
+    EXPECT_EQ(figures.dropped, 0u);
+    EXPECT_GT(figures.mbit_per_second, 0);
+    receiver.reset_figures();
+    EXPECT_EQ(receiver.figures(at(59))[0].frames, 0u);
+}
+
+TEST_F(DepthOnly, ACodecFromTheFutureIsNamed) {
+    EXPECT_THROW(set_depth("holograms", SettingId{9}), Error);
+}
+
+}  // namespace
+}  // namespace theatron::receive

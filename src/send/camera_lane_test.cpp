@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "send/camera_lane.h"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <deque>
+
+#include "base/steady_clock.h"
+#include "codec/depth_stream.h"
+
+namespace theatron::send {
+namespace {
+
+constexpr Size size{16, 12};
+
+// Hands over frames when the test says so.
+class ManualCamera final : public capture::Camera {
+public:
+    struct Script {
+        std::mutex mutex;
+        std::condition_variable changed;
+        std::deque<capture::Capture> waiting;
+
+        void give(capture::Capture capture) {
+            {
+                const std::lock_guard lock(mutex);
+                waiting.push_back(std::move(capture));
+            }
+            changed.notify_all();
+        }
+        void give_frame(std::uint16_t value) {
+            auto frame = std::make_shared<Frame>();
+            frame->depth = DepthImage(size);
+            frame->depth.pixels.assign(size.area(), value);
+            frame->times.captured = frame->times.delivered = steady_now();
+            give({capture::Capture::Kind::frame, frame, ""});
+        }
+    };
+
+    explicit ManualCamera(std::shared_ptr<Script> script) : script_(std::move(script)) {
+        info_.name = "manual";
+        info_.calibration.depth = pinhole(size, 60);
+    }
+    const capture::CameraInfo& info() const override { return info_; }
+    capture::Capture next(Duration timeout) override {
+        std::unique_lock lock(script_->mutex);
+        script_->changed.wait_for(lock, timeout, [&] { return !script_->waiting.empty(); });
+        if (script_->waiting.empty())
+            return {};
+        capture::Capture capture = script_->waiting.front();
+        if (capture.kind == capture::Capture::Kind::frame)
+            script_->waiting.pop_front();
+        return capture;
+    }
+
+private:
+    std::shared_ptr<Script> script_;
+    capture::CameraInfo info_;
+};
+
+// A lane with everything that it published.
+class Lane : public ::testing::Test {
+protected:
+    Lane() {
+        CameraLane::Events events;
+        events.media = [this](EncodedMedia media) {
+            const std::lock_guard lock(mutex);
+            published.push_back(std::move(media));
+            changed.notify_all();
+        };
+        events.state = [this](wire::CameraState state) {
+            const std::lock_guard lock(mutex);
+            states.push_back(std::move(state));
+            changed.notify_all();
+        };
+        lane = std::make_unique<CameraLane>(CameraId{3}, std::make_unique<ManualCamera>(script),
+                                            events);
+    }
+    // True once there are `count` messages; generous, so that slow machines pass.
+    bool wait_for(std::size_t count) {
+        std::unique_lock lock(mutex);
+        return changed.wait_for(lock, std::chrono::seconds(20),
+                                [&] { return published.size() >= count; });
+    }
+
+    std::shared_ptr<ManualCamera::Script> script = std::make_shared<ManualCamera::Script>();
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<EncodedMedia> published;
+    std::vector<wire::CameraState> states;
+    std::unique_ptr<CameraLane> lane;  // last: its threads use what is above
+};
+
+TEST_F(Lane, EncodesOncePerSettingBeginningWithKeyFrames) {
+    lane->set_settings({{SettingId{1}, "trvl"}, {SettingId{2}, "rvl"}}, {});
+    script->give_frame(1000);
+    ASSERT_TRUE(wait_for(2));
+    script->give_frame(1001);
+    ASSERT_TRUE(wait_for(4));
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(published.size(), 4u);
+    EXPECT_EQ(published[0].header.setting, SettingId{1});
+    EXPECT_TRUE(published[0].header.key);
+    EXPECT_EQ(published[1].header.setting, SettingId{2});
+    EXPECT_FALSE(published[2].header.key);
+    EXPECT_EQ(published[2].header.reference, published[0].header.frame);
+    EXPECT_EQ(published[2].header.stream, depth_stream(CameraId{3}));
+    EXPECT_GE(published[2].header.encoded, published[2].header.captured);
+
+    // What was published is what the camera gave.
+    codec::DepthStreamDecoder decoder(codec::parse_depth_setting("trvl").setting);
+    DepthImage image(size);
+    for (const int i : {0, 2}) {
+        const wire::MediaHeader& h = published[i].header;
+        EXPECT_EQ(*wire::parse_media_header(*published[i].message), h);
+        ASSERT_EQ(decoder.decode({h.frame, h.reference, h.temporal_layer, h.key},
+                                 wire::media_payload(*published[i].message), image.view()),
+                  Status::ok);
+    }
+    EXPECT_EQ(image.pixels[5], 1001);
+}
+
+TEST_F(Lane, AStandingCameraAnswersARequestWithItsLastFrame) {
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    script->give_frame(1000);
+    ASSERT_TRUE(wait_for(1));
+    lane->request_key(depth_stream(CameraId{3}), SettingId{1});
+    ASSERT_TRUE(wait_for(2));
+    const std::lock_guard lock(mutex);
+    EXPECT_TRUE(published[1].header.key);
+    EXPECT_NE(published[1].header.frame, published[0].header.frame);
+    EXPECT_EQ(published[1].header.captured, published[0].header.captured);
+}
+
+TEST_F(Lane, ANewSettingLeavesTheOthersReferencesAlone) {
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    script->give_frame(1000);
+    ASSERT_TRUE(wait_for(1));
+    lane->set_settings({{SettingId{1}, "trvl"}, {SettingId{2}, "zstd"}}, {});
+    ASSERT_TRUE(wait_for(3));
+    const std::lock_guard lock(mutex);
+    EXPECT_FALSE(published[1].header.key);
+    EXPECT_EQ(published[2].header.setting, SettingId{2});
+    EXPECT_TRUE(published[2].header.key);
+}
+
+TEST_F(Lane, NothingIsEncodedForNobody) {
+    script->give_frame(1000);
+    script->give_frame(1001);
+    script->give({capture::Capture::Kind::end, nullptr, ""});
+    std::unique_lock lock(mutex);
+    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return !states.empty(); }));
+    EXPECT_EQ(states[0].condition, wire::CameraCondition::ended);
+    EXPECT_TRUE(published.empty());
+}
+
+TEST_F(Lane, AFailureIsToldWithItsSentence) {
+    script->give({capture::Capture::Kind::failed, nullptr, "The cable is out."});
+    std::unique_lock lock(mutex);
+    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return !states.empty(); }));
+    EXPECT_EQ(states[0].condition, wire::CameraCondition::failed);
+    EXPECT_EQ(states[0].problem, "The cable is out.");
+    EXPECT_EQ(states[0].camera, CameraId{3});
+}
+
+}  // namespace
+}  // namespace theatron::send
