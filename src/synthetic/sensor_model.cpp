@@ -8,18 +8,11 @@
 namespace theatron::synthetic {
 namespace {
 
-// What each family of random numbers is for: see noise_key().
-enum Use : std::uint32_t {
-    frame_noise,
-    dropout,
-    mixing,
-    camera_errors,
-    camera_field,
-    camera_fixed
-};
-
 constexpr float pi = 3.14159265f;
-constexpr int multipath_cell = 8;    // pixels a side
+constexpr int multipath_cell = 8;  // pixels a side
+// The relative change of 1/z from one cell to the next that can still be a wall, of
+// some 57 degrees; more is an occlusion.
+constexpr float steepest_wall = 0.025f;
 constexpr float table_step_mm = 10;  // of distance_error_
 constexpr int table_size = 1024;     // to 10 m
 constexpr float max_phase_mm = 300;  // a surface further away adds no further error
@@ -60,26 +53,10 @@ private:
     std::uint32_t key_;
 };
 
-// The hexagon as measured on the infrared image of an unbinned 640x576 frame, to
-// within two pixels; the edges of binned frames lie at half of it.
-bool inside_hexagon(float px, float py) {
-    return px > 152 - py / 1.8f && px < 514 + py / 1.8f && px > 0.6f * (py - 333) &&
-           px < 628 - 0.6f * (py - 396);
-}
-
-std::vector<float> illumination(const DepthSensorParams& params, Size size) {
-    std::vector<float> share(size.area());
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x)
-            share[std::size_t(y * size.width + x)] = illumination_at(params, size, x, y);
-    }
-    return share;
-}
-
-std::vector<float> distance_errors(const DepthSensorParams& params, std::uint32_t seed) {
-    const std::uint32_t key = noise_key(seed, 0, camera_errors);
+std::vector<float> distance_table(const DepthSensorParams& params, std::uint32_t seed) {
+    const std::uint32_t key = noise_key(seed, 0, distance_errors);
     const float offset = params.offset_mm * normal_at(key, 0);
-    const float scale = 0.0005f * normal_at(key, 1);
+    const float scale = params.scale * normal_at(key, 1);
     const float phase1 = 2 * pi * uniform_at(key, 2), phase2 = 2 * pi * uniform_at(key, 3);
     std::vector<float> table(table_size);
     for (int i = 0; i < table_size; ++i) {
@@ -92,9 +69,9 @@ std::vector<float> distance_errors(const DepthSensorParams& params, std::uint32_
 }
 
 std::vector<float> pixel_errors(const DepthSensorParams& params, Size size, std::uint32_t seed) {
-    const SlowField slow(noise_key(seed, 0, camera_field));
+    const SlowField slow(noise_key(seed, 0, slow_errors));
     NoiseField noise(size, 1, 0.5f);
-    const View<const float> fixed = noise.draw(noise_key(seed, 0, camera_fixed));
+    const View<const float> fixed = noise.draw(noise_key(seed, 0, fixed_errors));
     std::vector<float> errors(size.area());
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x)
@@ -115,18 +92,23 @@ DepthSensorParams nfov_unbinned() {
 DepthSensorParams nfov_binned() {
     DepthSensorParams params;
     params.counts_at_1m *= 4;
-    params.min_counts *= 4;
     params.max_counts *= 4;
     params.read_mm2 *= 4;  // four pixels are read for one
     return params;
 }
 
+// Measured on the infrared image of an unbinned 640x576 frame, to within two pixels;
+// the edges of binned frames lie at half of it.
+bool inside_mask(Size size, int x, int y) {
+    const float px = (float(x) + 0.5f) * 640 / float(size.width);
+    const float py = (float(y) + 0.5f) * 576 / float(size.height);
+    return px > 152 - py / 1.8f && px < 514 + py / 1.8f && px > 0.6f * (py - 333) &&
+           px < 628 - 0.6f * (py - 396);
+}
+
 float illumination_at(const DepthSensorParams& params, Size size, int x, int y) {
-    const float u = (float(x) + 0.5f) / float(size.width);
-    const float v = (float(y) + 0.5f) / float(size.height);
-    if (!inside_hexagon(640 * u, 576 * v))
-        return 0;
-    const float dx = 2 * u - 1, dy = (2 * v - 1) * 576 / 640;
+    const float dx = (2 * float(x) + 1) / float(size.width) - 1;
+    const float dy = (2 * float(y) + 1 - float(size.height)) / float(size.width);
     return std::max(1 - params.corner_falloff * (dx * dx + dy * dy), 0.05f);
 }
 
@@ -134,15 +116,23 @@ DepthSensor::DepthSensor(const DepthSensorParams& params, Size size, std::uint32
     : params_(params),
       size_(size),
       seed_(seed),
-      illumination_(illumination(params, size)),
+      mask_(size.area()),
+      illumination_(size.area()),
       pixel_error_mm_(pixel_errors(params, size, seed)),
-      distance_error_(distance_errors(params, seed)),
+      distance_error_(distance_table(params, seed)),
       noise_(size, params.noise_radius_px, params.noise_white_share),
       counts_(size.area()),
       depth_mm_(size.area()),
       seen_counts_(size.area()),
       seen_mm_(size.area()) {
     assert(is_valid(size));
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t at = std::size_t(y * size.width + x);
+            mask_[at] = inside_mask(size, x, y);
+            illumination_[at] = illumination_at(params, size, x, y);
+        }
+    }
 }
 
 float DepthSensor::distance_error_mm(float depth_mm) const {
@@ -202,18 +192,19 @@ void DepthSensor::add_multipath() {
             const float own = inverse_at(column, row);
             if (own == 0)
                 continue;
-            float depth_of_corner = 0;
+            float inside = 0;
             static constexpr int directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
             for (const auto& [dx, dy] : directions) {
-                const float a = inverse_at(column + 2 * dx, row + 2 * dy);
-                const float b = inverse_at(column - 2 * dx, row - 2 * dy);
-                // Across an occlusion edge there is no corner.
-                const float most = 0.08f * own;
-                if (a == 0 || b == 0 || std::abs(a - own) > most || std::abs(b - own) > most)
-                    continue;
-                depth_of_corner = std::max(depth_of_corner, ((a + b) / 2 - own) / (own * own));
+                float line[5];
+                for (int k = -2; k <= 2; ++k)
+                    line[k + 2] = inverse_at(column + k * dx, row + k * dy);
+                float steepest = 0;
+                for (int k = 0; k < 4; ++k)
+                    steepest = std::max(steepest, std::abs(line[k + 1] - line[k]));
+                if (steepest <= steepest_wall * own)
+                    inside = std::max(inside, ((line[0] + line[4]) / 2 - own) / (own * own));
             }
-            corner_mm_[std::size_t(row * columns + column)] = params_.multipath * depth_of_corner;
+            corner_mm_[std::size_t(row * columns + column)] = params_.multipath * inside;
         }
     }
 
@@ -240,7 +231,7 @@ void DepthSensor::add_multipath() {
 void DepthSensor::mix_at_edges(std::uint32_t frame) {
     seen_counts_ = counts_;
     seen_mm_ = depth_mm_;
-    const std::uint32_t key = noise_key(seed_, frame, mixing);
+    const std::uint32_t key = noise_key(seed_, frame, mixing_noise);
     const int width = size_.width;
     near_edge_.assign(std::size_t(width), 0);
     for (int y = 2; y + 2 < size_.height; ++y) {
@@ -309,24 +300,26 @@ void DepthSensor::mix_pixel(int x, int y, float jitter) {
 }
 
 void DepthSensor::capture(const DepthTruth& truth, std::uint32_t frame, MutableDepthView out) {
+    assert(truth.specular.pixels == nullptr || truth.specular.size == size_);
     assert(truth.depth_m.size == size_ && truth.reflectivity.size == size_ &&
            truth.cos_incidence.size == size_ && out.size == size_);
     receive_light(truth);
     add_multipath();
     mix_at_edges(frame);
 
-    const View<const float> noise = noise_.draw(noise_key(seed_, frame, frame_noise));
-    const std::uint32_t dropout_key = noise_key(seed_, frame, dropout);
+    const View<const float> noise = noise_.draw(noise_key(seed_, frame, depth_noise));
     for (int y = 0; y < size_.height; ++y) {
         const std::size_t row = std::size_t(y) * std::size_t(size_.width);
         const float* random = noise.row(y);
+        // Phase and amplitude have independent noise of one kind: the same field upside
+        // down saves drawing another.
+        const float* amplitude_noise = noise.row(size_.height - 1 - y);
         std::uint16_t* depth = out.row(y);
         for (int x = 0; x < size_.width; ++x) {
             const std::size_t at = row + std::size_t(x);
             const float counts = seen_counts_[at];
             depth[x] = 0;
-            if (seen_mm_[at] == 0 || illumination_[at] == 0 ||
-                !strong_enough(counts, dropout_key + std::uint32_t(at)))
+            if (seen_mm_[at] == 0 || !mask_[at] || !measurable(counts, amplitude_noise[x]))
                 continue;
             const float per_count = 1 / counts;
             const float sigma =
@@ -338,13 +331,12 @@ void DepthSensor::capture(const DepthTruth& truth, std::uint32_t frame, MutableD
     }
 }
 
-// Whether this amplitude is measured at all. Decided with noise, so that dark
-// surfaces flicker.
-bool DepthSensor::strong_enough(float counts, std::uint32_t key) const {
-    if (counts > 2 * params_.min_counts && counts < params_.max_counts / 2)
-        return true;
-    const float read = counts * (1 + params_.counts_jitter * normal_at(key, 0));
-    return read >= params_.min_counts && read <= params_.max_counts;
+// Whether this amplitude is measured at all, for one drawn value of `noise`: dark and
+// dazzling surfaces flicker.
+bool DepthSensor::measurable(float counts, float noise) const {
+    const float jitter = params_.counts_jitter * noise;
+    return counts + jitter * params_.min_counts >= params_.min_counts &&
+           counts * (1 + jitter) <= params_.max_counts;
 }
 
 }  // namespace theatron::synthetic

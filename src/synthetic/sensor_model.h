@@ -32,27 +32,28 @@ struct DepthSensorParams {
     // one metre in front of the lens. Falls with the distance squared.
     float counts_at_1m = 2000;
     float corner_falloff = 0.6f;  // share of the light missing at half a width from the middle
-    float min_counts = 45;        // less is not measured
+    float min_counts = 40;        // less is not measured
     float max_counts = 45000;     // more saturates and is not measured
-    float counts_jitter = 0.2f;   // relative noise of the amplitude in that decision
+    float counts_jitter = 0.49f;  // noise of these decisions, relative to the limit
 
     // Variance of one measurement: shot_mm2 / counts + read_mm2 / counts^2.
     float shot_mm2 = 150;
     float read_mm2 = 36000;
-    float noise_radius_px = 1.5f;    // the sensor's own smoothing
-    float noise_white_share = 0.2f;  // of the variance, without neighbours in common
+    float noise_radius_px = 1.5f;     // the sensor's own smoothing
+    float noise_white_share = 0.35f;  // of the variance, without neighbours in common
 
     // Where two surfaces share a pixel: beyond this error it is declared invalid.
-    float max_mixed_mm = 35;
-    float mixed_jitter = 0.3f;   // relative noise of that decision
-    float blur_next = 0.17f;     // weight of the light from the next pixel
+    float max_mixed_mm = 32;
+    float mixed_jitter = 0.22f;  // relative noise of that decision
+    float blur_next = 0.20f;     // weight of the light from the next pixel
     float blur_second = 0.012f;  // and from the one after
 
     // Errors that stay the same from frame to frame, drawn from the camera's seed.
     float offset_mm = 2;      // deviation, same for all distances
+    float scale = 0.0005f;    // deviation, share of the distance
     float wiggle_mm = 1.5f;   // amplitude of the error that swings with distance
     float field_mm = 1.5f;    // deviation of the slow error over the image
-    float fixed_mm = 0.25f;   // deviation of the pattern from pixel to pixel
+    float fixed_mm = 0.15f;   // deviation of the pattern from pixel to pixel
     float multipath = 0.15f;  // longer by this share of how far a corner lies inside
 
     bool operator==(const DepthSensorParams&) const = default;
@@ -81,12 +82,13 @@ private:
     void add_multipath();
     void mix_at_edges(std::uint32_t frame);
     void mix_pixel(int x, int y, float jitter);
-    bool strong_enough(float counts, std::uint32_t key) const;
+    bool measurable(float counts, float noise) const;
 
     DepthSensorParams params_;
     Size size_;
     std::uint32_t seed_;
-    std::vector<float> illumination_;  // share of the light per pixel; 0 outside the hexagon
+    std::vector<std::uint8_t> mask_;  // 1 inside the hexagon
+    std::vector<float> illumination_;
     std::vector<float> pixel_error_mm_;
     std::vector<float> distance_error_;  // per centimetre
     NoiseField noise_;
@@ -99,8 +101,10 @@ private:
     std::vector<std::uint8_t> near_edge_;       // one row
 };
 
-// Share of the camera's light that reaches this pixel: 1 in the middle, 0 outside the
-// hexagon of the narrow field of view.
+// Whether this pixel is ever measured: the hexagon of the narrow field of view.
+bool inside_mask(Size size, int x, int y);
+
+// Share of the camera's light that falls there: 1 in the middle, less towards the corners.
 float illumination_at(const DepthSensorParams& params, Size size, int x, int y);
 
 struct ColorSensorParams {

@@ -21,8 +21,19 @@ constexpr std::uint32_t mix_bits(std::uint32_t x) {
     return x;
 }
 
+// What a family of random numbers is for.
+enum NoiseUse : std::uint32_t {
+    depth_noise,
+    mixing_noise,
+    distance_errors,
+    slow_errors,
+    fixed_errors,
+    color_gains,
+    color_noise,
+};
+
 // A key for one use of one camera's noise in one frame.
-constexpr std::uint32_t noise_key(std::uint32_t seed, std::uint32_t frame, std::uint32_t use) {
+constexpr std::uint32_t noise_key(std::uint32_t seed, std::uint32_t frame, NoiseUse use) {
     return mix_bits(mix_bits(mix_bits(seed + 0x9e3779b9u) + frame) + use * 0x85ebca6bu);
 }
 

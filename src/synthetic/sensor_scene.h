@@ -2,14 +2,10 @@
 // For tests: turns recorded frames into exact scenes that a model can be run on.
 #pragma once
 
-#include <filesystem>
-
 #include "image/image.h"
 #include "synthetic/sensor_model.h"
 
 namespace theatron::synthetic {
-
-DepthImage read_png16(const std::filesystem::path& path);
 
 struct Scene {
     Image<float> depth_m, reflectivity, cos_incidence;

@@ -2,39 +2,19 @@
 #include "synthetic/sensor_scene.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <memory>
-#include <stdexcept>
 
 namespace theatron::synthetic {
-
-DepthImage read_png16(const std::filesystem::path& path) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                               std::fclose);
-    if (!file)
-        throw std::runtime_error("cannot open " + path.string());
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png_create_info_struct(png);
-    png_init_io(png, file.get());
-    png_read_info(png, info);
-    if (png_get_bit_depth(png, info) != 16 || png_get_channels(png, info) != 1)
-        throw std::runtime_error("not a 16-bit grey picture: " + path.string());
-    png_set_swap(png);
-    DepthImage image({int(png_get_image_width(png, info)), int(png_get_image_height(png, info))});
-    for (int y = 0; y < image.size.height; ++y)
-        png_read_row(png, reinterpret_cast<png_bytep>(image.view().row(y)), nullptr);
-    png_destroy_read_struct(&png, &info, nullptr);
-    return image;
-}
 
 namespace {
 
 constexpr float mm_per_m = 1000;
+// A hole in a surface that sends back so many times the least amplitude is dazzling,
+// not dark.
+constexpr float bright = 9;
 
 // Solves the normal equations m p = r of six parameters; false if they are singular.
 bool solve(std::array<std::array<double, 7>, 6>& m) {
@@ -167,10 +147,25 @@ bool at_step(const Image<float>& depth_mm, int x, int y) {
     return farthest - nearest > 60 + 0.03f * nearest;
 }
 
+// Beyond the hexagon nothing is known; that is no reason to call its rim dark.
+void trust_rim(Estimate& e) {
+    Image<float> lit(e.valid.size);
+    for (int y = 0; y < lit.size.height; ++y) {
+        for (int x = 0; x < lit.size.width; ++x)
+            lit.view().row(y)[x] = inside_mask(lit.size, x, y);
+    }
+    const Image<float> inner = neighbourhood_mean(neighbourhood_mean(lit));
+    for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+        if (inner.pixels[i] < 0.99f)
+            e.valid.pixels[i] = 1;
+    }
+}
+
 Scene scene_from(Estimate e, const DepthSensorParams& params) {
     const Size size = e.depth_mm.size;
+    trust_rim(e);
     const Mask dark = wide_holes(e.valid);
-    const Image<float> validity = neighbourhood_mean(e.valid);
+    const Image<float> around = neighbourhood_mean(e.valid);
     const Image<float> measured = e.depth_mm;
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
@@ -188,15 +183,18 @@ Scene scene_from(Estimate e, const DepthSensorParams& params) {
             const std::size_t i = std::size_t(y * size.width + x);
             const float z = e.depth_mm.pixels[i] / mm_per_m;
             float counts = e.counts.pixels[i];
-            if (dark.pixels[i])
+            const float validity = (around.pixels[i] + e.valid.pixels[i]) / 2;
+            const bool step = at_step(e.depth_mm, x, y);
+            if (dark.pixels[i] && step)
                 counts = 0;
-            else if (validity.pixels[i] < 1 && !at_step(e.depth_mm, x, y))
-                counts = std::min(counts, 2 * params.min_counts * validity.pixels[i]);
+            else if (validity < 1 && !step)
+                counts = counts > bright * params.min_counts
+                             ? params.max_counts / (2 * validity + 0.01f)
+                             : 2 * params.min_counts * validity;
             const float light = illumination_at(params, size, x, y);
             scene.depth_m.pixels[i] = z;
             scene.cos_incidence.pixels[i] = 1;
-            scene.reflectivity.pixels[i] =
-                light > 0 ? counts * z * z / (params.counts_at_1m * light) : 0;
+            scene.reflectivity.pixels[i] = counts * z * z / (params.counts_at_1m * light);
         }
     }
     return scene;
@@ -243,7 +241,7 @@ Scene scene_from_pair(const DepthImage& first, const DepthImage& second,
             const float root =
                 std::sqrt(params.shot_mm2 * params.shot_mm2 + 4 * v * params.read_mm2);
             e.counts.pixels[i] =
-                std::max((params.shot_mm2 + root) / (2 * v), 1.5f * params.min_counts);
+                std::max((params.shot_mm2 + root) / (2 * v), 2.2f * params.min_counts);
         }
     }
     return scene_from(std::move(e), params);

@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/bytes.h"
+#include "codec/rvl.h"
+#include "codec/trvl.h"
 #include "image/image.h"
 
 namespace theatron::synthetic {
@@ -28,36 +31,16 @@ struct PairStatistics {
     double trvl_bits = 0;  // per pixel, second frame with the first as reference
 };
 
-// Bits of Wilson's run length and variable length code, as published: runs of zeros and
-// non-zeros alternate, non-zeros are coded as difference to the one before.
-template <class Values>
-double rvl_bits(const Values& values) {
-    const auto nibbles = [](std::uint32_t v) {
-        int n = 1;
-        for (; v >= 8; v >>= 3)
-            ++n;
-        return n;
-    };
-    const std::size_t count = values.size();
-    std::size_t at = 0, total = 0;
-    std::int32_t previous = 0;
-    while (at < count) {
-        const std::size_t zeros_from = at;
-        while (at < count && values[at] == 0)
-            ++at;
-        const std::size_t from = at;
-        while (at < count && values[at] != 0)
-            ++at;
-        total += std::size_t(nibbles(std::uint32_t(from - zeros_from)));
-        total += std::size_t(nibbles(std::uint32_t(at - from)));
-        for (std::size_t i = from; i < at; ++i) {
-            const std::int32_t delta = values[i] - previous;
-            total +=
-                std::size_t(nibbles(std::uint32_t(delta) << 1 ^ std::uint32_t(delta < 0 ? -1 : 0)));
-            previous = values[i];
-        }
-    }
-    return 4.0 * double(total);
+// Size in bits as Wilson's RVL, or as the change since a reference.
+inline double rvl_bits(const DepthImage& depth) {
+    Bytes bytes(codec::rvl::max_encoded_size(depth.size));
+    return 8.0 * double(codec::rvl::encode(depth.view(), bytes));
+}
+
+inline double trvl_bits(const DepthImage& depth, const DepthImage& reference) {
+    Bytes bytes(codec::trvl::max_encoded_size(depth.size));
+    std::vector<std::uint16_t> scratch(depth.size.area());
+    return 8.0 * double(codec::trvl::encode(depth.view(), reference.view(), scratch, bytes));
 }
 
 // Differences beyond this are movement or another surface, not noise.
@@ -116,8 +99,8 @@ inline PairStatistics measure_pair(const DepthImage& first, const DepthImage& se
     };
     s.correlation = correlation(1);
     s.correlation_2 = correlation(2);
-    s.rvl_bits = rvl_bits(second.pixels) / double(size.area());
-    s.trvl_bits = rvl_bits(change) / double(size.area());
+    s.rvl_bits = rvl_bits(second) / double(size.area());
+    s.trvl_bits = trvl_bits(second, first) / double(size.area());
     return s;
 }
 
