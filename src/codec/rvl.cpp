@@ -230,6 +230,8 @@ public:
 
     // One run of empty pixels and one of measured ones.
     bool decode_pair() {
+        if (decode_short_pair())
+            return true;
         std::uint32_t empty = 0, measured = 0;
         if (!get_lengths(empty, measured))
             return false;
@@ -269,6 +271,30 @@ public:
     }
 
 private:
+    // A pair of few pixels with small differences, as most are where pixels seldom
+    // change: everything from one window, without loops. False, and nothing done,
+    // if it is another kind of pair.
+    bool decode_short_pair() {
+        const std::uint64_t window = nibbles_.peek();
+        const unsigned empty = window & 15;
+        const unsigned measured = window >> 4 & 15;
+        const std::uint64_t entry = short_decodes[window >> 8 & 0xfff];
+        // One less than zero is a large number, so this also asks for at least one.
+        if (empty - 1 >= 7 || measured - 1 >= numbers_in(entry) || previous_ == 0 ||
+            count_ - at_ < 12)
+            return false;
+        std::uint16_t* to = v_ + at_;
+        store_lanes(to, 0);
+        store_lanes(to + 4, 0);
+        const Lanes decoded = add_lanes(previous_ * every_lane, entry);
+        store_lanes(to + empty, decoded);
+        zero_seen_ |= lowest_zero_lane(decoded | ~lowest_lanes(measured));
+        previous_ = lane(decoded, measured - 1);
+        at_ += empty + measured;
+        nibbles_.skip_bits(8 + 4 * nibbles_of(entry, measured));
+        return true;
+    }
+
     bool get_lengths(std::uint32_t& empty, std::uint32_t& measured) {
         const std::uint64_t window = nibbles_.peek();
         if ((window & 0x88) == 0) {
