@@ -253,7 +253,7 @@ TEST_P(CloudSceneTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
         }
     scene->set_camera(first_camera, calibration);
     ASSERT_EQ(scene->upload(first_camera, depth.view(), {}), Status::ok);
-    const Vec3 middle = room_from_camera(calibration) * Vec3{0, 0, 2};
+    const Vec3 middle = calibration.room_from_camera * Vec3{0, 0, 2};
     const Picture drawn = render(orbited(own_view(calibration), middle, -60, 0), {192, 144});
     for (int y = 52; y < 92; ++y)
         for (int x = 76; x < 116; ++x)
