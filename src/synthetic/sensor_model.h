@@ -37,7 +37,7 @@ struct DepthSensorParams {
     float counts_jitter = 0.49f;  // noise of these decisions, relative to the limit
 
     // Variance of one measurement: shot_mm2 / counts + read_mm2 / counts^2.
-    float shot_mm2 = 150;
+    float shot_mm2 = 130;
     float read_mm2 = 36000;
     float noise_radius_px = 1.5f;     // the sensor's own smoothing
     float noise_white_share = 0.35f;  // of the variance, without neighbours in common
