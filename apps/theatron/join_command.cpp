@@ -69,13 +69,29 @@ struct OffscreenPicture {
 };
 
 // Lines on standard input change the codecs: "depth rvl", "color raw".
-// Returns false at the end of the input or at "quit".
-bool obey_input(Participant& participant) {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    while (poll(&input, 1, 0) > 0 && (input.revents & (POLLIN | POLLHUP))) {
-        std::string line;
-        if (!std::getline(std::cin, line))
-            return false;
+class InputCommands {
+public:
+    // Obeys what has been typed so far. False at the end of the input or after "quit".
+    bool obey(Participant& participant) {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        while (poll(&input, 1, 0) > 0) {
+            char bytes[512];
+            const ssize_t count = read(STDIN_FILENO, bytes, sizeof(bytes));
+            if (count <= 0)
+                return false;
+            typed_.append(bytes, std::size_t(count));
+            for (auto end = typed_.find('\n'); end != std::string::npos; end = typed_.find('\n')) {
+                const std::string line = typed_.substr(0, end);
+                typed_.erase(0, end + 1);
+                if (!obey(participant, line))
+                    return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    static bool obey(Participant& participant, const std::string& line) {
         std::istringstream words(line);
         std::string what, codec;
         words >> what >> codec;
@@ -87,9 +103,11 @@ bool obey_input(Participant& participant) {
             participant.choose_codecs("", codec);
         else if (!what.empty())
             std::fprintf(stderr, "Say 'depth CODEC', 'color CODEC' or 'quit'.\n");
+        return true;
     }
-    return true;
-}
+
+    std::string typed_;
+};
 
 void run(const Flags& flags) {
     Participant::Options options;
@@ -117,6 +135,7 @@ void run(const Flags& flags) {
     const TimePoint started = steady_now();
     TimePoint first_frame{}, next_line{};
     bool warm = flags.warmup <= 0;
+    InputCommands commands;
     bool listening = true;  // to standard input
 
     while (!stop_requested()) {
@@ -130,7 +149,7 @@ void run(const Flags& flags) {
         const auto status = participant.status();
         if (status.phase == Participant::Phase::refused)
             throw Error(status.problem);
-        if (listening && !obey_input(participant)) {
+        if (listening && !commands.obey(participant)) {
             listening = false;
             if (!has_end && isatty(STDIN_FILENO))
                 break;

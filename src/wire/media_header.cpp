@@ -31,15 +31,17 @@ enum : std::size_t {
 
 constexpr std::uint8_t flag_key = 1;
 
-// 0 means "not known"; a point before `captured` cannot be expressed either.
+// What stands for a time that is not known, or that lies before `captured`.
+constexpr std::uint32_t unknown_offset = UINT32_MAX;
+
 std::uint32_t after_captured(TimePoint t, TimePoint captured) {
     if (t == TimePoint{} || t < captured)
-        return 0;
-    return std::uint32_t(std::min<std::int64_t>((t - captured).count(), UINT32_MAX));
+        return unknown_offset;
+    return std::uint32_t(std::min<std::int64_t>((t - captured).count(), unknown_offset - 1));
 }
 
 TimePoint from_offset(std::uint32_t offset, TimePoint captured) {
-    return offset == 0 ? TimePoint{} : captured + Duration(offset);
+    return offset == unknown_offset ? TimePoint{} : captured + Duration(offset);
 }
 
 }  // namespace

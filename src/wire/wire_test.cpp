@@ -43,15 +43,16 @@ TEST(MediaHeader, RoundTrips) {
 
 // The test vector of docs/formats/media_header.md.
 TEST(MediaHeader, BytesAreAsSpecified) {
-    const int expected[64] = {1,    3,    0, 2,                 // version, codec, flags, layer
-                              5,    0,    2, 0,                 // stream, setting
-                              4,    3,    2, 1, 3,    3, 2, 1,  // frame, reference
-                              1,    0,    2, 0, 0,    0, 0, 0,  // slice, slices, payload size
-                              0x35, 0x82, 0, 0, 0,    0, 0, 0,  // moment 33333
-                              0xe8, 0x80, 0, 0, 0,    0, 0, 0,  // captured 33000
-                              100,  0,    0, 0, 0,    0, 0, 0,  // delivered +100, filtered unknown
-                              0xd0, 7,    0, 0, 0xc4, 9, 0, 0,  // encoded +2000, sent +2500
-                              0,    0,    0, 0, 0,    0, 0, 0};
+    const int expected[64] = {
+        1,    3,    0, 2,                          // version, codec, flags, layer
+        5,    0,    2, 0,                          // stream, setting
+        4,    3,    2, 1, 3,    3,    2,    1,     // frame, reference
+        1,    0,    2, 0, 0,    0,    0,    0,     // slice, slices, payload size
+        0x35, 0x82, 0, 0, 0,    0,    0,    0,     // moment 33333
+        0xe8, 0x80, 0, 0, 0,    0,    0,    0,     // captured 33000
+        100,  0,    0, 0, 0xff, 0xff, 0xff, 0xff,  // delivered +100, filtered unknown
+        0xd0, 7,    0, 0, 0xc4, 9,    0,    0,     // encoded +2000, sent +2500
+        0,    0,    0, 0, 0,    0,    0,    0};
     const Bytes bytes = message(sample_header(0));
     for (std::size_t i = 0; i < 64; ++i)
         EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << "byte " << i;

@@ -24,7 +24,8 @@ class Process:
             stderr=subprocess.PIPE, text=True, **options)
         self.lines = queue.Queue()
         self.errors = []
-        threading.Thread(target=self._read_output, daemon=True).start()
+        self.output_thread = threading.Thread(target=self._read_output, daemon=True)
+        self.output_thread.start()
         self.error_thread = threading.Thread(target=self._read_errors, daemon=True)
         self.error_thread.start()
 
@@ -88,6 +89,10 @@ class Process:
             self.process.send_signal(signal.SIGCONT)
             self.process.kill()
         self.process.wait()
+        self.error_thread.join(5)
+        self.output_thread.join(5)
+        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+            pipe.close()
 
 
 def host(state, *cameras, listen="127.0.0.1:0", options=()):
