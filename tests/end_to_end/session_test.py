@@ -152,7 +152,7 @@ class Session(unittest.TestCase):
             self.refused("token is wrong", "join", link.replace("join=", "join=x"), "--seconds", "1")
             self.refused("another certificate", "join", link[:-4] + "0000", "--seconds", "1")
             self.refused("'banana' does not exist", "join", link, "--depth-codec", "banana", "--seconds", "1")
-            self.refused("'banana'", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
+            self.refused("no renderer", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
             self.refused("link", "join", "nonsense", "--seconds", "1")
             self.refused("is in use", "host", "--state", self.state, "--camera", self.camera, "--listen",
                          f"127.0.0.1:{h.greeting['port']}")
