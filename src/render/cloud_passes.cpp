@@ -2,6 +2,7 @@
 #include "render/cloud_passes.h"
 
 #include "render/color_visibility.h"
+#include "render/edge_maps.h"
 #include "render/matrix.h"
 
 namespace theatron::render {
@@ -16,8 +17,9 @@ struct CameraUniforms {
     float color_more[4];
     float color_image[4];
     float depth_image[4];
+    float viewer[4];
 };
-static_assert(sizeof(CameraUniforms) == 208);
+static_assert(sizeof(CameraUniforms) == 224);
 
 void put(float (&out)[16], const Mat4& matrix) {
     for (std::size_t i = 0; i < 16; ++i)
@@ -48,6 +50,8 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
     put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
+    const Vec3 viewer = inverse(eye_from_camera).translation;
+    put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
     return u;
 }
 
@@ -76,51 +80,20 @@ private:
     GLint depth_from_w_ = program_.uniform("depth_from_w");
 };
 
-// Two triangles for each cell of the image. The last corner of both is the
-// cell's upper left one: it is the provoking vertex, see mesh.vert.
-std::vector<GLuint> grid_indices(Size size) {
-    std::vector<GLuint> indices;
-    indices.reserve(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
-    const auto at = [&](int x, int y) { return GLuint(y * size.width + x); };
-    // In upright strips, so that a row's vertices are still at hand for the next row.
-    constexpr int strip = 16;
-    for (int first = 0; first + 1 < size.width; first += strip)
-        for (int y = 0; y + 1 < size.height; ++y)
-            for (int x = first; x < first + strip && x + 1 < size.width; ++x) {
-                const GLuint cell[] = {at(x + 1, y),     at(x + 1, y + 1), at(x, y),
-                                       at(x + 1, y + 1), at(x, y + 1),     at(x, y)};
-                indices.insert(indices.end(), std::begin(cell), std::end(cell));
-            }
-    return indices;
-}
-
 // Draws every camera's depth image as a grid.
 class GridPass final : public CloudPass {
 public:
     explicit GridPass(Program program) : program_(std::move(program)) {}
 
     void draw(const CloudFrame& frame) override {
-        const Size size = frame.textures.depth_size();
-        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, grid_.name());
-        if (size != grid_size_) {
-            const std::vector<GLuint> indices = grid_indices(size);
-            glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLuint)),
-                         indices.data(), GL_STATIC_DRAW);
-            grid_size_ = size;
-            count_ = GLsizei(indices.size());
-        }
         program_.use();
-        glUniform1i(columns_, size.width);
-        glDrawElementsInstanced(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr,
-                                GLsizei(frame.textures.sources().size()));
+        glUniform1i(columns_, frame.textures.depth_size().width);
+        frame.grid.draw(frame.textures.depth_size(), int(frame.textures.sources().size()));
     }
 
 private:
     Program program_;
     GLint columns_ = program_.uniform("columns");
-    Buffer grid_;
-    Size grid_size_;
-    GLsizei count_ = 0;
 };
 
 }  // namespace
@@ -138,9 +111,9 @@ std::unique_ptr<CloudPass> make_disc_pass() {
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
-    return std::make_unique<GridPass>(
-        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "mesh.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "mesh.frag"}));
+    return std::make_unique<GridPass>(make_cloud_program(
+        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "quality.glsl", "mesh.vert"},
+        {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_bare_grid_pass() {
@@ -167,6 +140,7 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("ray_tables", 1);
     program.set_sampler("color_images", 2);
     program.set_sampler("nearest_in_color", ColorVisibility::texture_unit);
+    program.set_sampler("edge_distances", EdgeMaps::texture_unit);
     program.bind_block("Cameras", CameraBlock::binding);
     return program;
 }

@@ -10,6 +10,7 @@
 #include "render/cloud_scene.h"
 #include "render/cloud_textures.h"
 #include "render/gl.h"
+#include "render/grid_mesh.h"
 
 namespace theatron::render {
 
@@ -18,6 +19,7 @@ struct CloudFrame {
     const CloudTextures& textures;
     const CameraView& view;
     DrawTarget target;
+    GridMesh& grid;
 };
 
 class CloudPass {
@@ -30,6 +32,7 @@ public:
 std::unique_ptr<CloudPass> make_splat_pass();
 std::unique_ptr<CloudPass> make_disc_pass();
 std::unique_ptr<CloudPass> make_mesh_pass();
+std::unique_ptr<CloudPass> make_blend_pass();
 std::unique_ptr<CloudPass> make_bare_grid_pass();
 
 // The calibrations of a frame's cameras as the shaders read them (cloud.glsl).
@@ -44,8 +47,9 @@ private:
     Buffer buffer_;
 };
 
-// A program with cloud.glsl in it: its samplers and block bound as
-// CloudTextures::bind, ColorVisibility::update and CameraBlock::bind do.
+// A program with cloud.glsl and its companions in it: samplers and block are bound as
+// CloudTextures::bind, ColorVisibility::update, EdgeMaps::update and
+// CameraBlock::bind do.
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
 }  // namespace theatron::render

@@ -20,6 +20,7 @@ struct NamedPass {
 constexpr NamedPass passes[] = {{"splat", make_splat_pass},
                                 {"disc", make_disc_pass},
                                 {"mesh", make_mesh_pass},
+                                {"blend", make_blend_pass},
                                 {yardstick_renderer, make_bare_grid_pass}};
 
 constexpr Rgb background{32, 34, 38};
@@ -54,6 +55,7 @@ struct CloudScene::Parts {
     CloudTextures textures;
     CameraBlock cameras;
     ColorVisibility visibility;
+    GridMesh grid;
     // Core profiles draw nothing without one, though no attributes are used.
     VertexArray no_attributes;
     std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
@@ -79,6 +81,10 @@ void CloudScene::set_camera(CameraId camera, const Calibration& calibration) {
     parts_->textures.set_camera(camera, calibration);
 }
 
+void CloudScene::set_presence(CameraId camera, double presence) {
+    parts_->textures.set_presence(camera, presence);
+}
+
 void CloudScene::remove_camera(CameraId camera) {
     parts_->textures.remove_camera(camera);
 }
@@ -98,7 +104,7 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
     glBindVertexArray(parts_->no_attributes.name());
-    const CloudFrame frame{parts_->textures, view, target};
+    const CloudFrame frame{parts_->textures, view, target, parts_->grid};
     parts_->cameras.bind(frame);
     parts_->visibility.update(parts_->textures);
 

@@ -42,7 +42,8 @@ struct Picture {
 
 // The ways to draw, simplest first: "splat" (a round point for each depth pixel, sized by
 // the gaps to its neighbours), "disc" (the same, lying in the surface, with its depth),
-// "mesh" (the depth image as a grid, torn where it jumps).
+// "mesh" (the depth image as a grid, torn where it jumps), "blend" (the meshes of all
+// cameras as one surface).
 const std::vector<std::string>& renderer_names();
 
 // A grid that is neither torn nor blended, for comparing times: it is accepted as a
@@ -65,6 +66,10 @@ public:
     // also the camera's picture. Throws Error beyond max_cameras.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
+    // How much a camera shows in "blend", from 0 to 1, so that new ones fade in and stale
+    // ones fade out: where others see the same surface they take over, elsewhere
+    // it becomes transparent. 1 when added. The other renderers ignore it.
+    void set_presence(CameraId camera, double presence);
 
     // Takes a camera's newest images; both may be freed afterwards. `color` may
     // be empty (no pixels: the last one stays, grey if there was none) and of any size:

@@ -13,17 +13,6 @@ Size larger(Size a, Size b) {
     return {std::max(a.width, b.width), std::max(a.height, b.height)};
 }
 
-Texture make_array(GLenum format, Size size, int layers, GLint filter) {
-    Texture texture;
-    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, format, size.width, size.height, layers);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
 template <class Image>
 void upload_layer(const Texture& texture, int layer, Image image, GLenum format, GLenum type) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
@@ -52,6 +41,8 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
         throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
 
     CloudSource source;
+    if (known != sources_.end())
+        source.presence = known->second.presence;
     source.calibration = calibration;
     source.revision = ++revision_;
     source.rays = make_ray_table(calibration.depth);
@@ -60,6 +51,11 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
     upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
     clear_depth(*depth_, depth_size_, source.layer);
     sources_[camera] = std::move(source);
+}
+
+void CloudTextures::set_presence(CameraId camera, double presence) {
+    if (const auto known = sources_.find(camera); known != sources_.end())
+        known->second.presence = std::clamp(presence, 0.0, 1.0);
 }
 
 void CloudTextures::remove_camera(CameraId camera) {
@@ -96,7 +92,7 @@ void CloudTextures::make_room(int layers, Size depth, Size color) {
     const Size new_depth = larger(depth, depth_size_);
     const Size new_color = larger(color, larger(color_size_, {1, 1}));
     if (new_layers != layers_ || new_depth != depth_size_) {
-        Texture moved = make_array(GL_R16UI, new_depth, new_layers, GL_NEAREST);
+        Texture moved = make_texture_array(GL_R16UI, new_depth, new_layers, GL_NEAREST);
         for (int layer = 0; layer < new_layers; ++layer)
             clear_depth(moved, new_depth, layer);
         for (const auto& [id, source] : sources_)
@@ -105,12 +101,12 @@ void CloudTextures::make_room(int layers, Size depth, Size color) {
         depth_size_ = new_depth;
 
         // Not every driver can copy float textures.
-        rays_ = make_array(GL_RG32F, new_depth, new_layers, GL_NEAREST);
+        rays_ = make_texture_array(GL_RG32F, new_depth, new_layers, GL_NEAREST);
         for (const auto& [id, source] : sources_)
             upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
     }
     if (new_layers != layers_ || new_color != color_size_) {
-        Texture moved = make_array(GL_RGB8, new_color, new_layers, GL_LINEAR);
+        Texture moved = make_texture_array(GL_RGB8, new_color, new_layers, GL_LINEAR);
         for (const auto& [id, source] : sources_)
             if (source.color_size != Size{})
                 copy_layer(*color_, moved, source.layer, source.color_size);

@@ -22,6 +22,7 @@ namespace theatron::render {
 struct CloudSource {
     Calibration calibration;
     int layer = 0;
+    double presence = 1;    // see CloudScene
     Size color_size;        // of the newest picture; 0 x 0: none yet
     unsigned revision = 0;  // other than before whenever images or calibration changed
     Image<Ray> rays;        // kept for moving to larger textures
@@ -31,6 +32,7 @@ class CloudTextures {
 public:
     // See CloudScene for what these do.
     void set_camera(CameraId camera, const Calibration& calibration);
+    void set_presence(CameraId camera, double presence);
     void remove_camera(CameraId camera);
     Status upload(CameraId camera, DepthView depth, ColorView color);
 

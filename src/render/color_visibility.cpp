@@ -19,14 +19,7 @@ void ColorVisibility::update(const CloudTextures& textures) {
         size_ = size;
         layers_ = textures.layers();
         drawn_ = {};
-        maps_.emplace();
-        glBindTexture(GL_TEXTURE_2D_ARRAY, maps_->name());
-        glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT24, size.width, size.height,
-                       layers_);
-        glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        maps_ = make_texture_array(GL_DEPTH_COMPONENT24, size, layers_, GL_NEAREST);
     }
     int camera = 0;
     for (const auto& [id, source] : textures.sources()) {

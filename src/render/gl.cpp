@@ -132,4 +132,19 @@ void Program::bind_block(const char* block_name, unsigned binding) const {
         glUniformBlockBinding(name(), index, binding);
 }
 
+Texture make_texture_array(GLenum format, Size size, int layers, GLint filter) {
+    Texture texture;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, format, size.width, size.height, layers);
+    set_sampling(GL_TEXTURE_2D_ARRAY, filter);
+    return texture;
+}
+
+void set_sampling(GLenum target, GLint filter) {
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 }  // namespace theatron::render

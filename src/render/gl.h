@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "image/view.h"
+
 namespace theatron::render {
 
 // Owns one GL name. Empty (0) only after being moved from.
@@ -111,5 +113,10 @@ struct ShaderPart {
     std::string_view text;
 };
 GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts);
+
+// An array of equal pictures, left bound to the active texture unit.
+Texture make_texture_array(GLenum format, Size size, int layers, GLint filter);
+// Sets how the bound texture is sampled: at its edge the last pixel goes on.
+void set_sampling(GLenum target, GLint filter);
 
 }  // namespace theatron::render

@@ -11,6 +11,7 @@ struct Camera {
     vec4 color_image;        // width, height, largest radius (0: no limit), 1 if it needs
                              // the map of color_place.glsl
     vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
+    vec4 viewer;             // the eye in the depth camera's frame
 };
 
 layout(std140) uniform Cameras {

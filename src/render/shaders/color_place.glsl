@@ -16,23 +16,30 @@ bool shows_background(int camera, vec2 pixel, float background) {
     return nearest > background && nearest < 0.99 * farthest_m;
 }
 
-// The pixel of the colour picture to take for a point, and 1 where the colour camera
-// sees the point, 0 where it does not. From its place beside the depth camera it
+// 1 inside the colour picture, falling to 0 at its border.
+float inside_picture(vec2 pixel, vec2 size) {
+    vec2 to_border = min(pixel + 0.5, size - 0.5 - pixel);
+    return clamp(min(to_border.x, to_border.y) / (0.05 * size.y), 0.0, 1.0);
+}
+
+// The pixel of the colour picture to take for a point, and how well the colour camera
+// sees the point: 1, less towards the border of its picture, 0 where it does not. From its place beside the depth camera it
 // cannot see all that has depth: there the pixel is that of the nearest part of the
 // background that it does see, so that silhouettes are not painted on what is behind.
 vec3 color_place(int camera, vec3 point) {
     vec3 seen_at = color_pixel(camera, point);
     vec2 size = cameras[camera].color_image.xy;
     vec2 pixel = seen_at.xy;
-    if (any(lessThan(pixel, vec2(-0.5))) || any(greaterThan(pixel, size - 0.5)))
+    float inside = inside_picture(pixel, size);
+    if (inside == 0.0)
         return vec3(pixel, 0.0);
     // The map is coarse: a slanted surface must not hide itself.
     float behind = seen_at.z - (0.03 + 0.03 * seen_at.z);
     if (cameras[camera].color_image.w == 0.0)
-        return vec3(pixel, 1.0);
+        return vec3(pixel, inside);
     float hiding = nearest_at(camera, pixel);
     if (hiding > behind)
-        return vec3(pixel, 1.0);
+        return vec3(pixel, inside);
     // What hides the point lies, for the depth camera, on the side of the colour camera
     // from it; away from there the background comes into the colour camera's view.
     // Beside the line between the two, only the map's coarseness can hide anything.

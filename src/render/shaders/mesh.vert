@@ -7,10 +7,12 @@
 // fragment shader throws the torn ones away. GLES 3.0 has no other place for
 // it: vertices are shared, and there are no geometry shaders.
 
-uniform int columns;  // of the depth images
+uniform int columns;       // of the depth images
+uniform int first_camera;  // of those drawn by this call
 
 out vec4 v_place;       // colour pixel, place in the depth image
 out float v_support;    // how many neighbours are connected, 1: all
+out float v_quality;    // for blending; see quality.glsl
 flat out ivec4 v_cell;  // corner of the cell, camera, kept triangles: 1 upper, 2 lower
 
 bool connected(float z1, float z2, float limit) {
@@ -31,10 +33,11 @@ float borrowed_depth(int camera, ivec2 pixel) {
 }
 
 void main() {
-    int camera = gl_InstanceID;
+    int camera = first_camera + gl_InstanceID;
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
     float z = depth_m(camera, pixel);
     int kept = 0;
+    vec2 steepness = vec2(0.0);
     v_support = 0.0;
     if (z > 0.0) {
         float right = depth_near(camera, pixel, ivec2(1, 0));
@@ -58,11 +61,16 @@ void main() {
         float straights = float(to_right) + float(to_below) + float(connected(z, left, straight)) +
                           float(connected(z, above, straight));
         v_support = (2.0 * straights + float(to_diagonal) + other_diagonals) / 12.0;
+        float footprint = footprint_m(camera, z);
+        steepness.x = (to_right ? right - z : z - left) / footprint;
+        steepness.y = (to_below ? below - z : z - above) / footprint;
     } else {
         z = borrowed_depth(camera, pixel);
     }
     vec3 point = point_at(camera, pixel, z);
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
-    v_place = vec4(color_place(camera, point).xy, vec2(pixel));
+    vec3 color = color_place(camera, point);
+    v_place = vec4(color.xy, vec2(pixel));
+    v_quality = quality_at(camera, pixel, point, steepness, color.z);
     v_cell = ivec4(pixel, camera, kept);
 }

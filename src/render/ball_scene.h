@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small scene that is known exactly, for measuring and testing renderers: a ball
+// above a table on a floor, in colours that vary with the place. Cameras see it with
+// as much noise as asked for, a viewer sees it as it is.
+#pragma once
+
+#include "geometry/calibration.h"
+#include "image/image.h"
+#include "render/cloud_scene.h"
+
+namespace theatron::render {
+
+// What one RGB-D camera gives.
+struct BallSceneImages {
+    DepthImage depth;
+    ColorImage color;
+};
+
+// Camera `i` of `count` that stand around the table at the same angle from each other,
+// `spread_degrees` from the first to the last, two metres away. Colour has `color` pixels, its
+// camera stands 3 cm beside the depth camera.
+Calibration ball_scene_camera(int i, int count, double spread_degrees, Size depth, Size color);
+
+// What the camera measures: depth with noise of this standard deviation that depends on
+// `seed` alone, colour without noise. Pixels at a depth edge are measured as
+// one of the two surfaces.
+BallSceneImages ball_scene_images(const Calibration& calibration, double noise_mm, unsigned seed);
+
+// The exact picture. Where the scene ends, depth is 0 and colour black.
+Picture ball_scene_picture(const CameraView& view, Size size);
+
+// Where the cameras look.
+inline constexpr Vec3 ball_scene_middle{0, 0.9, 0};
+
+}  // namespace theatron::render

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// One surface from the layers of all cameras: what lies near the foremost one is
+// averaged by weight, what is further behind is hidden. As neither depends on which
+// camera is drawn first, overlapping surfaces do not fight.
+
+uniform sampler2DArray layer_colors;  // colour, square root of the weight
+uniform sampler2DArray layer_depths;
+uniform int layer_count;
+uniform vec2 depth_from_w;    // window depth of distance w: x + y / w
+uniform ivec2 picture_corner;  // of the target in its framebuffer
+uniform float presence[16];
+
+void main() {
+    ivec2 place = ivec2(gl_FragCoord.xy) - picture_corner;
+    float distances[16];
+    float front = 1e6;
+    for (int i = 0; i < layer_count; ++i) {
+        float depth = texelFetch(layer_depths, ivec3(place, i), 0).r;
+        // An empty layer is at the far plane; without presence a camera shows nothing.
+        bool empty = depth == 1.0 || presence[i] == 0.0;
+        distances[i] = empty ? 1e6 : depth_from_w.y / (depth - depth_from_w.x);
+        front = min(front, distances[i]);
+    }
+    if (front == 1e6)
+        discard;
+
+    // Sensors and their registration agree on a surface to within some centimetres.
+    float agreement = 0.04 + 0.01 * front;
+    vec4 color = vec4(0.0);
+    float distance = 0.0;
+    float coverage = 0.0;
+    for (int i = 0; i < layer_count; ++i) {
+        float behind = distances[i] - front;
+        if (behind > agreement)
+            continue;
+        vec4 layer = texelFetch(layer_colors, ivec3(place, i), 0);
+        float weight = layer.a * layer.a * presence[i] *
+                       (1.0 - smoothstep(0.5 * agreement, agreement, behind)) + 1e-6;
+        color += vec4(layer.rgb, 1.0) * weight;
+        distance += distances[i] * weight;
+        coverage = max(coverage, presence[i]);
+    }
+    distance /= color.a;
+    write_surface(color.rgb / color.a, distance);
+    out_color.a = coverage;
+    gl_FragDepth = depth_from_w.x + depth_from_w.y / distance;
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far each block is from the next edge of the surface: 0 at it, 1 from about ten
+// depth pixels on. What edges.frag drew is the input.
+
+uniform sampler2D whole;
+
+layout(location = 0) out vec4 out_distance;
+
+void main() {
+    const float reach = 2.5;  // blocks
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(whole, 0) - 1;
+    float nearest = reach;
+    for (int y = -2; y <= 2; ++y)
+        for (int x = -2; x <= 2; ++x) {
+            ivec2 place = here + ivec2(x, y);
+            bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThanEqual(place, last));
+            if (!inside || texelFetch(whole, place, 0).r < 0.5)
+                nearest = min(nearest, length(vec2(x, y)));
+        }
+    out_distance = vec4(nearest / reach);
+}
