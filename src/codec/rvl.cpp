@@ -126,13 +126,13 @@ inline void put_differences(NibbleWriter& out, Lanes codes, unsigned count) {
 // numbers, as running sums, so that one addition decodes them all.
 // Lanes 0 to 2 are the sums after one, two and three numbers; where there are
 // fewer they repeat the last. Lane 3 has, from bit 48 on: how many numbers there
-// are (2 bits), the nibbles of the first one, of two and of three (2 bits each),
-// four unused bits, and the bits of all numbers together (4 bits).
+// are (2 bits), the nibbles of none, one, two and three of them (2 bits each), two
+// unused bits, and the bits of all together (4 bits).
 constexpr unsigned numbers_in(std::uint64_t entry) {
     return unsigned(entry >> 48) & 3;
 }
 constexpr unsigned nibbles_of(std::uint64_t entry, unsigned numbers) {
-    return unsigned(entry >> (48 + 2 * numbers)) & 3;
+    return unsigned(entry >> (50 + 2 * numbers)) & 3;
 }
 constexpr unsigned bits_of_all(std::uint64_t entry) {
     return unsigned(entry >> 60);
@@ -159,7 +159,7 @@ constexpr auto short_decodes = [] {
             for (unsigned l = numbers; l < 3; ++l)
                 sums = (sums & ~(0xffffull << (16 * l))) | std::uint64_t(sum) << (16 * l);
             ++numbers;
-            counts |= std::uint64_t(end) << (2 * numbers);
+            counts |= std::uint64_t(end) << (2 + 2 * numbers);
         }
         entries[bits] = sums | (counts | numbers | std::uint64_t(4 * at) << 12) << 48;
     }
@@ -230,10 +230,11 @@ public:
 
     // One run of empty pixels and one of measured ones.
     bool decode_pair() {
-        if (decode_short_pair())
-            return true;
+        if (const std::uint64_t window = nibbles_.peek(); is_short_pair(window))
+            return decode_short_pair(window);
         std::uint32_t empty = 0, measured = 0;
-        if (!get_lengths(empty, measured))
+        if (!nibbles_.get_number(std::uint32_t(count_ - at_), empty) ||
+            !nibbles_.get_number(std::uint32_t(count_ - at_ - empty), measured))
             return false;
         // Also what follows a truncation: zeros without end.
         if ((empty == 0 && at_ > 0) || (measured == 0 && at_ + empty < count_))
@@ -271,40 +272,35 @@ public:
     }
 
 private:
-    // A pair of few pixels with small differences, as most are where pixels seldom
-    // change: everything from one window, without loops. False, and nothing done,
-    // if it is another kind of pair.
-    bool decode_short_pair() {
-        const std::uint64_t window = nibbles_.peek();
-        const unsigned empty = window & 15;
-        const unsigned measured = window >> 4 & 15;
-        const std::uint64_t entry = short_decodes[window >> 8 & 0xfff];
-        // One less than zero is a large number, so this also asks for at least one.
-        if (empty - 1 >= 7 || measured - 1 >= numbers_in(entry) || previous_ == 0 ||
-            count_ - at_ < 12)
-            return false;
+    // A pair of few pixels, as most are where pixels seldom change.
+    bool is_short_pair(std::uint64_t window) const {
+        const bool single_nibbles = (window & 0x88) == 0;
+        const bool both = (window & 0x07) != 0 && (window & 0x70) != 0;
+        return single_nibbles && both && previous_ != 0 && count_ - at_ >= 16;
+    }
+
+    // Its lengths and first measured pixels come from one window, without asking
+    // how many they are: a wrong guess would cost more than the work.
+    bool decode_short_pair(std::uint64_t window) {
+        const unsigned empty = window & 7;
+        const unsigned measured = window >> 4 & 7;
         std::uint16_t* to = v_ + at_;
         store_lanes(to, 0);
         store_lanes(to + 4, 0);
+        const std::uint64_t entry = short_decodes[window >> 8 & 0xfff];
+        const unsigned some = std::min(numbers_in(entry), measured);
         const Lanes decoded = add_lanes(previous_ * every_lane, entry);
         store_lanes(to + empty, decoded);
-        zero_seen_ |= lowest_zero_lane(decoded | ~lowest_lanes(measured));
-        previous_ = lane(decoded, measured - 1);
-        at_ += empty + measured;
-        nibbles_.skip_bits(8 + 4 * nibbles_of(entry, measured));
-        return true;
-    }
-
-    bool get_lengths(std::uint32_t& empty, std::uint32_t& measured) {
-        const std::uint64_t window = nibbles_.peek();
-        if ((window & 0x88) == 0) {
-            empty = window & 7;
-            measured = window >> 4 & 7;
-            nibbles_.skip_bits(8);
-            return empty + measured <= count_ - at_;
+        zero_seen_ |= lowest_zero_lane(decoded | ~((Lanes{1} << (16 * some)) - 1));
+        previous_ = std::uint16_t(previous_ + lane(entry << 16, some));
+        nibbles_.skip_bits(8 + 4 * nibbles_of(entry, some));
+        const std::size_t end = at_ + empty + measured;
+        at_ += empty + some;
+        while (at_ < end) {
+            if (!decode_up_to_3(end))
+                return false;
         }
-        return nibbles_.get_number(std::uint32_t(count_ - at_), empty) &&
-               nibbles_.get_number(std::uint32_t(count_ - at_ - empty), measured);
+        return true;
     }
 
     void put_empty(std::size_t count) {
