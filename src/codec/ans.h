@@ -3,8 +3,8 @@
 //
 // The same numbers as in rvl.h, or in trvl.h where there is a reference, in two
 // sequences: the lengths of runs, and the differences. Each goes through
-// ans_coder.h. About a third smaller than rvl, for about twice its time. The
-// bytes are specified in docs/formats/depth_ans.md.
+// ans_coder.h. An eighth to three fifths smaller than rvl, for two to three times its
+// time. The bytes are specified in docs/formats/depth_ans.md.
 //
 // All functions are pure but for the memory in `work`, which they use again.
 // Safe to call from any thread with a Workspace of its own.
