@@ -141,6 +141,16 @@ TEST(DepthStream, AReceiverJoinsAtAKeyFrame) {
         all_ok(receive("trvl:layers=3", sent, [](unsigned i, const Sent&) { return i >= 9; })));
 }
 
+TEST(DepthStream, AKeyFrameEndsWhatWasBefore) {
+    const auto sent = stream("trvl:layers=3", 8, {7});
+    DepthStreamDecoder decoder(setting("trvl:layers=3"));
+    DepthImage out(size);
+    for (const unsigned i : {0u, 2u, 4u, 7u})
+        ASSERT_EQ(decoder.decode(sent[i].link, sent[i].bytes, out.view()), Status::ok);
+    // Frame 3 refers to frame 2, which was held until the key frame.
+    EXPECT_EQ(decoder.decode(sent[3].link, sent[3].bytes, out.view()), Status::missing_reference);
+}
+
 // A late joiner is given the last key frame and the layer-0 frames since.
 TEST(DepthStream, AReceiverJoinsWithTheKeyAndTheBaseLayerSince) {
     const auto sent = stream("trvl:layers=3", 40, {10});

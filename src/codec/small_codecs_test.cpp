@@ -95,6 +95,18 @@ TEST(Ans, CodesTheLongestRuns) {
     EXPECT_EQ(decoded, runs);
 }
 
+TEST(Ans, ContextsAreAsSpecified) {
+    using Model = ans::DifferenceModel;
+    std::vector<std::uint32_t> first_of_each;
+    for (std::uint32_t mean = 0; mean < 512; ++mean) {
+        if (Model::context(mean) == first_of_each.size())
+            first_of_each.push_back(mean);
+    }
+    EXPECT_EQ(first_of_each, (std::vector<std::uint32_t>{0, 4, 8, 15, 29, 81}));
+    EXPECT_EQ(Model::next(7, 10), 14u);
+    EXPECT_LT(Model::next(511, Model::Symbols::size - 1), 512u);
+}
+
 TEST(Ans, SymbolsPartitionTheNumbers) {
     using Symbols = ans::DifferenceModel::Symbols;
     std::uint32_t last = 0;
