@@ -127,7 +127,7 @@ LitPoint light_point(const Appearance& look, F3 p, F3 toward_eye, float openness
     const F3 n = look.normal;
     // From above, the sides, and back from the floor.
     const float up = 0.5f + 0.5f * n.y;
-    const F3 ambient = mix(F3{0.105f, 0.115f, 0.115f}, F3{0.43f, 0.455f, 0.46f}, up);
+    const F3 ambient = mix(F3{0.3f, 0.315f, 0.31f}, F3{0.66f, 0.69f, 0.69f}, up);
     const float shade = openness * openness * 0.5f + openness * 0.5f;
     lit.base = look.color * ambient * shade + look.glow;
     const float facing_eye = clamp01(dot(n, toward_eye));
@@ -146,7 +146,7 @@ LitPoint light_point(const Appearance& look, F3 p, F3 toward_eye, float openness
         const F3 axis = normalized(lamp.target - lamp.position);
         const float off = std::acos(std::clamp(-dot(l, axis), -1.0f, 1.0f));
         const float pool =
-            0.9f * smoothstep(0.36f, 0.09f, off) + 0.3f * smoothstep(0.95f, 0.2f, off);
+            0.5f * smoothstep(0.36f, 0.09f, off) + 0.3f * smoothstep(0.95f, 0.2f, off);
         const float strength = 1.0f * pool / std::max(distance * distance, 0.04f) *
                                smoothstep(-0.02f, 0.2f, -dot(l, axis));
         const F3 color{1.05f, 1.0f, 0.93f};

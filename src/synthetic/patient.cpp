@@ -27,7 +27,7 @@ float cover_height(float x, float z) {
 
 F3 cover_point(float u, float v) {
     // Along: from behind the frame to beyond the feet; across: both sides to the floor.
-    const float along = mix(-0.672f, 1.42f, u);
+    const float along = mix(-0.672f, 1.72f, u);
     const float across = (v - 0.5f) * 2 * 0.98f;
     float drop_x = 0, drop_z = 0;
     float x = along, z = across;
@@ -44,7 +44,7 @@ F3 cover_point(float u, float v) {
         return std::copysign(edge + radius, s);
     };
     if (along > 0)
-        x = leave(along, 1.04f, 0.05f, drop_x);
+        x = leave(along, 1.11f, 0.05f, drop_x);
     // Where the sheet rises to the frame it hangs from farther out.
     const float raised = smoothstep(-0.5f, -0.66f, x);
     z = leave(across, mix(half_width, 0.4f, raised), 0.045f, drop_z);
@@ -91,7 +91,10 @@ float body_height(float x, float z) {
 void add_patient(Mesh& still, MovingMesh& moving, double detail) {
     const int nu = int(420 * std::sqrt(detail)), nv = int(400 * std::sqrt(detail));
     // Finer towards the window.
-    const auto warp_u = [](float u) { return u - 0.055f * std::sin(2 * pi * (u - 0.32f)); };
+    const auto warp_u = [](float u) {
+        constexpr float c = 0.32f;  // the window's place
+        return u - 0.05f * (std::sin(2 * pi * (u - c)) + std::sin(2 * pi * c));
+    };
     const auto warp_v = [](float v) { return v - 0.05f * std::sin(2 * pi * (v - 0.5f)); };
     Mesh sheet = make_sheet(
         nu, nv,
@@ -144,8 +147,8 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
         return out;
     };
     still.append(drop_unused(low));
-    for (F3& p : back.positions)
-        p = p - back.normals[std::size_t(&p - back.positions.data())] * -0.002f;
+    for (std::size_t i = 0; i < back.positions.size(); ++i)
+        back.positions[i] += back.normals[i] * 0.002f;
     std::erase_if(back.triangles, [&](const Triangle& t) {
         const F3 p = back.positions[t.a];
         return p.x > -0.6f && p.y > 0.9f;  // lies on the body: never seen from below

@@ -165,11 +165,28 @@ void rasterise(const SampleGrid& grid, std::span<const F3> points,
             bounds[i] = {bound_projection(grid.camera, points[i], pulled), pulled * 4};
     }
     Raster raster{grid, seen};
+    // Everything seen lies within this pyramid.
+    float side_x = 0, side_y = 0;
+    for (const Ray& r : grid.rays.pixels)
+        if (r.x != no_ray) {
+            side_x = std::max(side_x, std::abs(r.x));
+            side_y = std::max(side_y, std::abs(r.y));
+        }
+    const auto outside = [&](F3 a, F3 b, F3 c) {
+        const auto right = [&](F3 p) { return p.x > side_x * p.z; };
+        const auto left = [&](F3 p) { return -p.x > side_x * p.z; };
+        const auto below = [&](F3 p) { return p.y > side_y * p.z; };
+        const auto above = [&](F3 p) { return -p.y > side_y * p.z; };
+        return (right(a) && right(b) && right(c)) || (left(a) && left(b) && left(c)) ||
+               (below(a) && below(b) && below(c)) || (above(a) && above(b) && above(c));
+    };
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         const F3 a = points[t.a], b = points[t.b], c = points[t.c];
         if (dot(cross(b - a, c - a), a) >= 0)
             continue;  // faces away
+        if (outside(a, b, c))
+            continue;
         const Bound &ba = bounds[t.a], &bb = bounds[t.b], &bc = bounds[t.c];
         const auto id = first + std::uint32_t(i);
         const int behind = (ba.margin < 0) + (bb.margin < 0) + (bc.margin < 0);

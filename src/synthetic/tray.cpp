@@ -73,8 +73,8 @@ void add_tray(Mesh& still, std::uint32_t seed) {
     float x = 0.43f;
     for (int i = 0; i < 8; ++i, x += 0.036f) {
         const float turn = wobble + 0.05f * (hash01(seed + std::uint32_t(i) * 7) - 0.5f);
-        if (i == 3)
-            continue;  // the place of the clamp that wanders
+        if (i == 3 || i == 4)
+            continue;  // the places of the tools that wander
         switch (i % 4) {
             case 0:
                 lay(make_scalpel(), x, 0.1f, turn);

@@ -155,7 +155,10 @@ void View::draw_still_color() {
         rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
-                LitPoint& sum = still_light_.view().row(y)[x];
+                // Samples of one look and direction are lit once, for all of them.
+                std::array<Hit, n * n> hits;
+                std::array<float, n * n> shares{};
+                int known = 0;
                 for (int s = 0; s < n * n; ++s) {
                     const int sx = x * n + s % n, sy = y * n + s / n;
                     const std::uint32_t id = eye.still.triangles.view().row(sy)[sx];
@@ -163,18 +166,28 @@ void View::draw_still_color() {
                         continue;
                     const float z = eye.still.depth.view().row(sy)[sx];
                     const Hit hit = hit_of(drawn, id, eye.grid.rays.view().row(sy)[sx], z,
-                                           eye.pixel_angle * 0.5f);
-                    const LitPoint lit = shade(hit, eye);
+                                           eye.pixel_angle * 0.7f);
+                    int k = 0;
+                    while (k < known && !(hits[std::size_t(k)].look == hit.look &&
+                                          dot(hits[std::size_t(k)].normal, hit.normal) > 0.97f))
+                        ++k;
+                    if (k == known)
+                        hits[std::size_t(known++)] = hit;
+                    shares[std::size_t(k)] += 1.0f / (n * n * still_passes);
+                    if (pass == still_passes - 1 && s == 0)
+                        still_points_.view().row(y)[x] = hit.room;
+                }
+                LitPoint& sum = still_light_.view().row(y)[x];
+                for (std::size_t k = 0; k < std::size_t(known); ++k) {
+                    const LitPoint lit = shade(hits[k], eye);
                     // A single glint must not outshine its pixel.
-                    const auto tame = [](F3 v) {
+                    const auto tame = [&](F3 v) {
                         return F3{std::min(v.x, 4.0f), std::min(v.y, 4.0f), std::min(v.z, 4.0f)} *
-                               (1.0f / (n * n * still_passes));
+                               shares[k];
                     };
                     sum.base += tame(lit.base);
                     for (std::size_t l = 0; l < lamp_count; ++l)
                         sum.lamp[l] += tame(lit.lamp[l]);
-                    if (pass == still_passes - 1 && s == 0)
-                        still_points_.view().row(y)[x] = hit.room;
                 }
             }
     }
