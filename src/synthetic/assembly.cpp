@@ -54,9 +54,13 @@ void bake_openness(Mesh& mesh, int directions) {
                 seen_weight[v] += facing;
         }
     }
+    // Walls are too coarse for this, and bare: they stay as they are.
+    for (const Triangle& t : mesh.triangles)
+        if (t.look == Look::wall || t.look == Look::wall_panel || t.look == Look::ceiling)
+            weight[t.a] = weight[t.b] = weight[t.c] = 0;
     for (std::size_t v = 0; v < weight.size(); ++v)
         if (weight[v] > 0)
-            mesh.openness[v] *= 0.15f + 0.85f * seen_weight[v] / weight[v];
+            mesh.openness[v] *= 0.25f + 0.75f * seen_weight[v] / weight[v];
 }
 
 }  // namespace theatron::synthetic

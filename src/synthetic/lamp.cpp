@@ -52,7 +52,7 @@ void add_lamps(Mesh& still) {
     still.append(make_cylinder(0.22f, 0.06f, 36, Look::white_plastic),
                  translation(column + F3{0, -0.06f, 0}));
     still.append(make_tube({column, column + F3{0, -0.32f, 0}}, {0.05f}, 20, Look::painted_metal));
-    float joint = 2.72f;
+    float joint = 2.8f;
     for (const Lamp& lamp : lamps()) {
         const F3 up = normalized(lamp.position - lamp.target);
         const F3 side = normalized(cross(up, {0, 0, 1}));

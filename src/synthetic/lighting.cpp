@@ -46,8 +46,8 @@ F3 room_reflection(F3 d) {
         const float panel = smoothstep(0.62f, 0.5f, std::abs(std::abs(x) - 0.9f)) *
                             smoothstep(1.5f, 1.3f, std::abs(z));
         const float lamp = smoothstep(0.5f, 0.3f, std::hypot(x, z));
-        return mix(F3{0.42f, 0.45f, 0.45f}, F3{1.9f, 2.0f, 2.0f}, panel) +
-               F3{2.2f, 2.1f, 1.9f} * lamp;
+        return mix(F3{0.42f, 0.45f, 0.45f}, F3{1.5f, 1.55f, 1.55f}, panel) +
+               F3{0.9f, 0.88f, 0.8f} * lamp;
     }
     return mix(F3{0.42f, 0.46f, 0.46f}, F3{0.13f, 0.15f, 0.16f}, smoothstep(0.0f, -0.5f, d.y));
 }
@@ -56,8 +56,8 @@ F3 room_reflection(F3 d) {
 
 const std::array<Lamp, lamp_count>& lamps() {
     static const std::array<Lamp, lamp_count> all{
-        Lamp{{-0.46f, 2.16f, 0.12f}, {-0.02f, 1.08f, 0.0f}},
-        Lamp{{0.48f, 2.2f, -0.1f}, {0.04f, 1.08f, 0.0f}}};
+        Lamp{{-0.5f, 2.3f, 0.14f}, {-0.02f, 1.08f, 0.0f}},
+        Lamp{{0.46f, 2.36f, 0.05f}, {0.04f, 1.08f, 0.0f}}};
     return all;
 }
 
@@ -127,7 +127,7 @@ LitPoint light_point(const Appearance& look, F3 p, F3 toward_eye, float openness
     const F3 n = look.normal;
     // From above, the sides, and back from the floor.
     const float up = 0.5f + 0.5f * n.y;
-    const F3 ambient = mix(F3{0.3f, 0.315f, 0.31f}, F3{0.66f, 0.69f, 0.69f}, up);
+    const F3 ambient = mix(F3{0.36f, 0.375f, 0.37f}, F3{0.74f, 0.77f, 0.77f}, up);
     const float shade = openness * openness * 0.5f + openness * 0.5f;
     lit.base = look.color * ambient * shade + look.glow;
     const float facing_eye = clamp01(dot(n, toward_eye));

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "synthetic/noise.h"
+#include "synthetic/patient.h"
 
 namespace theatron::synthetic {
 namespace {
@@ -22,7 +23,7 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::wall, {wall, srgb(196, 208, 204), 0.62f, 0.03f, 12});
     set(Look::wall_panel, {wall, srgb(150, 184, 178), 0.55f, 0.06f, 20});
     set(Look::ceiling, {wall, srgb(226, 228, 226), 0.7f});
-    set(Look::floor, {floor, srgb(126, 146, 150), 0.38f, 0.16f, 30, 0.05f});
+    set(Look::floor, {floor, srgb(150, 166, 168), 0.38f, 0.16f, 30, 0.05f});
     set(Look::door, {door, srgb(172, 178, 176), 0.5f, 0.12f, 30, 0.03f});
     set(Look::window, {glass, srgb(50, 66, 74), 0.08f, 0.6f, 90, 0.25f});
     set(Look::white_plastic, {plastic, srgb(224, 224, 218), 0.68f, 0.2f, 36, 0.03f});
@@ -31,16 +32,15 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::blue_plastic, {plastic, srgb(44, 96, 160), 0.4f, 0.2f, 36, 0.02f});
     set(Look::painted_metal, {metal, srgb(206, 208, 206), 0.5f, 0.25f, 50, 0.06f});
     set(Look::steel, {metal, srgb(150, 154, 158), 0.3f, 0.7f, 60, 0.4f});
-    set(Look::instrument, {polished, srgb(168, 172, 176), 0.25f, 1.3f, 90, 0.55f});
+    set(Look::instrument, {polished, srgb(118, 122, 126), 0.25f, 0.7f, 90, 0.42f});
     set(Look::gold, {polished, srgb(206, 168, 84), 0.35f, 0.8f, 60, 0.4f});
     set(Look::rubber, {rubber, srgb(28, 28, 30), 0.07f, 0.08f, 14});
     set(Look::mattress, {rubber, srgb(38, 40, 44), 0.09f, 0.15f, 20, 0.01f});
     set(Look::lamp_glass, {glass, srgb(240, 240, 235), 0.2f, 0.4f, 80, 0.1f});
-    set(Look::drape, {drape, srgb(64, 128, 158), 0.58f, 0.05f, 8});
-    set(Look::drape_hem, {drape, srgb(122, 176, 196), 0.62f, 0.05f, 8});
-    set(Look::tray_cloth, {drape, srgb(52, 122, 108), 0.56f, 0.05f, 8});
-    set(Look::gown, {gown, srgb(58, 112, 134), 0.55f, 0.04f, 8});
-    set(Look::gown_assistant, {gown, srgb(66, 128, 128), 0.55f, 0.04f, 8});
+    set(Look::drape, {drape, srgb(70, 136, 170), 0.58f, 0.05f, 8});
+    set(Look::tray_cloth, {drape, srgb(62, 132, 116), 0.56f, 0.05f, 8});
+    set(Look::gown, {gown, srgb(74, 136, 160), 0.55f, 0.04f, 8});
+    set(Look::gown_assistant, {gown, srgb(104, 164, 158), 0.55f, 0.04f, 8});
     set(Look::cuff, {gown, srgb(222, 224, 220), 0.68f});
     set(Look::cap, {cap, srgb(44, 104, 122), 0.5f, 0.03f, 8});
     set(Look::cap_assistant, {cap, srgb(70, 132, 150), 0.52f, 0.03f, 8});
@@ -50,7 +50,7 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::glove_assistant, {glove, srgb(230, 216, 188), 0.6f, 0.3f, 22, 0.02f});
     set(Look::face, {skin, srgb(214, 164, 138), 0.56f, 0.16f, 18});
     set(Look::face_assistant, {skin, srgb(172, 118, 88), 0.52f, 0.18f, 18});
-    set(Look::patient_skin, {skin, srgb(206, 150, 104), 0.55f, 0.22f, 22});
+    set(Look::patient_skin, {skin, srgb(204, 138, 88), 0.55f, 0.16f, 22});
     set(Look::eye, {eye, srgb(232, 228, 224), 0.25f, 0.9f, 120, 0.06f});
     set(Look::hair, {hair, srgb(40, 28, 20), 0.18f, 0.15f, 12});
     set(Look::muscle, {tissue, srgb(158, 42, 38), 0.42f, 0.7f, 46, 0.05f});
@@ -58,7 +58,7 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::bowel, {tissue, srgb(216, 132, 118), 0.5f, 0.9f, 60, 0.06f});
     set(Look::artery, {tissue, srgb(170, 30, 30), 0.4f, 0.8f, 60, 0.05f});
     set(Look::vein, {tissue, srgb(78, 44, 78), 0.3f, 0.8f, 60, 0.05f});
-    set(Look::liver, {liver, srgb(110, 34, 26), 0.3f, 1.0f, 70, 0.07f});
+    set(Look::liver, {liver, srgb(116, 34, 26), 0.3f, 0.55f, 60, 0.04f});
     set(Look::gallbladder, {tissue, srgb(92, 116, 66), 0.36f, 0.9f, 64, 0.06f});
     set(Look::fat, {fat, srgb(230, 186, 96), 0.66f, 0.6f, 40, 0.04f});
     set(Look::gauze, {gauze, srgb(236, 232, 224), 0.72f});
@@ -89,10 +89,11 @@ F3 bumped(F3 normal, F3 p, float step, const Height& height) {
 void weave(Appearance& a, F3 p, float footprint, float crease) {
     // Soft creases, a slight unevenness of the dye, the weave where it is seen.
     a.normal = bumped(a.normal, p, 0.006f, [&](F3 q) {
-        return crease * (0.006f * fractal(q * 22.0f, 2) + 0.0012f * noise(q * 95.0f));
+        return crease * (0.0035f * fractal(F3{q.x * 14 + q.y * 5, q.y * 6, q.z * 14}, 2) +
+                         0.0004f * noise(q * 95.0f));
     });
     const float fine = smoothstep(0.004f, 0.001f, footprint);
-    a.color = a.color * (1 + 0.07f * fractal(p * 9.0f, 2) + 0.08f * fine * noise(p * 900.0f));
+    a.color = a.color * (1 + 0.035f * fractal(p * 7.0f, 2) + 0.08f * fine * noise(p * 900.0f));
 }
 
 void wet(Appearance& a, F3 p, float relief, float scale) {
@@ -117,7 +118,7 @@ void tissue_appearance(Look look, Appearance& a, F3 p) {
             a.color = a.color * (1 + 0.28f * blotch);
             a.color = mix(a.color, srgb(150, 66, 48),
                           0.35f * smoothstep(0.25f, 0.02f, cells(p * 420.0f)));
-            wet(a, p, 0.12f, 260);
+            wet(a, p, 0.035f, 170);
             break;
         case Look::fat: {
             // Globules with darker seams between them.
@@ -199,7 +200,13 @@ Appearance appearance(Look look, F3 p, F3 normal, float footprint,
     Appearance a{t.color, normal, t.specular, t.gloss, t.mirror, {}, 0};
     switch (look) {
         case Look::drape:
-        case Look::drape_hem:
+            // A paler, stuck-down border around the window.
+            if (p.y > 1 && std::abs(p.z) < 0.3f) {
+                const float d = window_distance(p.x, p.z);
+                a.color = mix(a.color, srgb(132, 182, 202), smoothstep(1.235f, 1.22f, d));
+            }
+            weave(a, p, footprint, 1);
+            break;
         case Look::tray_cloth:
             weave(a, p, footprint, 1);
             break;

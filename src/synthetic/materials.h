@@ -28,7 +28,6 @@ enum class Look : std::uint8_t {
     mattress,
     lamp_glass,
     drape,
-    drape_hem,
     tray_cloth,
     gown,
     gown_assistant,

@@ -128,8 +128,6 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
         const float d = window_distance(middle.x, middle.z);
         if (over_body && d < 0.995f)
             continue;
-        if (over_body && d < 1.22f)
-            t.look = Look::drape_hem;
         const bool moves = breath_lift(a) + breath_lift(b) + breath_lift(c) > 0;
         (moves ? high : low).triangles.push_back(t);
     }

@@ -23,6 +23,8 @@ enum PersonBone : std::uint16_t {
     hand_right = hand_left + 16,
     eye_left = hand_right + 16,
     eye_right,
+    cuff_left,  // the glove's end over the sleeve
+    cuff_right,
     person_bones_used
 };
 static_assert(person_bones_used <= person_bone_count);

@@ -96,6 +96,14 @@ Mesh right_hand(float cell, Look look, std::vector<Influence>& influences, std::
     return m;
 }
 
+// The cuff's vertices turn with the forearm.
+Influence with_cuff(const Influence& in, F3 p, std::uint16_t cuff) {
+    const float share = smoothstep(0.002f, -0.045f, p.z);
+    if (share <= 0)
+        return in;
+    return {{cuff, in.bone[0], 0, 0}, {share + 1e-6f, 1 - share, 0, 0}};
+}
+
 }  // namespace
 
 const Finger& finger(int number) {
@@ -107,13 +115,18 @@ void add_hands(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, d
     const float cell = 0.0031f / float(std::sqrt(detail));
     std::vector<Influence> influences;
     const Mesh right = right_hand(cell, looks.glove, influences, std::uint16_t(first + hand_right));
-    out.append(right, influences);
+    std::vector<Influence> cuffed = influences;
+    for (std::size_t i = 0; i < cuffed.size(); ++i)
+        cuffed[i] = with_cuff(influences[i], right.positions[i], std::uint16_t(first + cuff_right));
+    out.append(right, cuffed);
     Mesh left;
     left.append(right, scaling({-1, 1, 1}));
     for (Influence& in : influences)
         for (auto& b : in.bone)
             b = std::uint16_t(b - hand_right + hand_left);
-    out.append(left, influences);
+    for (std::size_t i = 0; i < cuffed.size(); ++i)
+        cuffed[i] = with_cuff(influences[i], right.positions[i], std::uint16_t(first + cuff_left));
+    out.append(left, cuffed);
 }
 
 void pose_hand(const Affine& palm, float side, const Grip& grip, Affine* bones) {

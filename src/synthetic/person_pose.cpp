@@ -90,6 +90,9 @@ void pose_person(const PersonPose& pose, Affine* bones, std::array<Affine, 2>& p
         palm = palm_frame(pose.root, hand, side);
         pose_arm(torso, side, palm, bones[i == 0 ? upper_arm_left : upper_arm_right],
                  bones[i == 0 ? forearm_left : forearm_right]);
+        const Affine& arm = bones[i == 0 ? forearm_left : forearm_right];
+        bones[i == 0 ? cuff_left : cuff_right] =
+            facing(palm.origin, arm.turn(rest::arm_direction(side)), palm.y);
         const float b = hand.bend;
         pose_hand(palm, side,
                   {{b * 0.95f, b, b * 1.02f, std::min(b * 1.3f, 0.95f), std::min(b * 1.45f, 1.0f)}},

@@ -146,6 +146,10 @@ Holders scissors_holders(float beat) {
     return {away * (1 - carried), away * carried, 1 - away};
 }
 
+constexpr std::uint16_t tool_bone(Tool tool) {
+    return std::uint16_t(std::uint16_t(first_tool) + std::uint16_t(tool));
+}
+
 Affine lying(F3 tip) {
     return translation(tip) * rotation({0, 1, 0}, pi);
 }
@@ -163,11 +167,10 @@ Affine tool_frame(const Holders& who, const Affine& tray, const Affine& assistan
 
 void add_tools(MovingMesh& moving) {
     for (const int side : {-1, 1})
-        moving.append(make_scissor_half(side, 0),
-                      std::uint16_t(first_tool + (side < 0 ? scissors_a : scissors_b)));
-    moving.append(make_forceps(0.006f), std::uint16_t(first_tool + forceps));
-    moving.append(make_clamp(0.05f), std::uint16_t(first_tool + hemostat));
-    moving.append(make_hand_retractor(), std::uint16_t(first_tool + retractor));
+        moving.append(make_scissor_half(side, 0), tool_bone((side < 0 ? scissors_a : scissors_b)));
+    moving.append(make_forceps(0.006f), tool_bone(forceps));
+    moving.append(make_clamp(0.05f), tool_bone(hemostat));
+    moving.append(make_hand_retractor(), tool_bone(retractor));
 }
 
 std::vector<Affine> pose_bones(double phase, double, std::uint32_t seed) {
@@ -232,7 +235,7 @@ std::vector<Affine> pose_bones(double phase, double, std::uint32_t seed) {
     // Tools follow their hands.
     const F3 pen{0.02f, -0.5f, 0.86f};
     const F3 offered_direction{0, -std::sin(carry_pitch), -std::cos(carry_pitch)};
-    const auto place = [&](Tool tool) -> Affine& { return bones[std::size_t(first_tool + tool)]; };
+    const auto place = [&](Tool tool) -> Affine& { return bones[tool_bone(tool)]; };
     const Affine in_surgeon = surgeon_palms[1] * held(pen, 0.145f, -1);
     const Affine in_assistant = assistant_palms[0] * held(offered_direction, 0.03f, 1);
     place(hemostat) = tool_frame(clamp_holders(beat), lying(clamp_place), in_assistant, in_surgeon);

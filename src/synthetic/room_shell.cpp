@@ -89,8 +89,8 @@ Mesh anaesthesia_machine() {
         std::vector<float> radii;
         for (int i = 0; i <= 90; ++i) {
             const float t = float(i) / 90;
-            path.push_back({mix(0.2f, 0.86f, t), 1.0f + 0.16f * std::sin(pi * t) - 0.06f * t,
-                            mix(0.28f, 0.62f, t) + 0.05f * float(k) * (1 - t)});
+            path.push_back({mix(0.25f, -0.06f, t), 1.0f + 0.2f * std::sin(pi * t) + 0.18f * t,
+                            mix(0.28f, 0.96f, t) + 0.07f * float(k) * (1 - t)});
             radii.push_back(0.016f + 0.003f * float(i % 2));
         }
         m.append(make_tube(path, radii, 12, k ? Look::blue_plastic : Look::white_plastic));
@@ -170,7 +170,7 @@ void add_room_furniture(Mesh& still) {
     still.append(cupboard(), facing({half_x - 0.23f, 0, -0.5f}, {1, 0, 0}, {0, 1, 0}));
     still.append(cupboard(), facing({-0.4f, 0, -half_z + 0.23f}, {0, 0, -1}, {0, 1, 0}));
     still.append(anaesthesia_machine(), facing({-1.75f, 0, -0.55f}, {0.8f, 0, 0.45f}, {0, 1, 0}));
-    still.append(drip_stand(), translation({-1.28f, 0, 0.38f}));
+    still.append(drip_stand(), translation({-1.15f, 0, -0.85f}));
     still.append(bin(Look::brick_yellow), translation({1.75f, 0, 1.2f}));
     still.append(bin(Look::white_plastic), translation({2.1f, 0, 0.85f}));
     Mesh dial;

@@ -28,16 +28,16 @@ struct MovingMesh {
 // Numbers of the bones. Each person has person_bones in a row, see person.h.
 inline constexpr std::uint16_t person_bone_count = 48;
 enum Bone : std::uint16_t {
-    still = 0,   // never moves
-    breath = 1,  // the patient's belly
-    organ = 2,   // rises with the breath, sideways too
-    first_tool = 4,
+    still = 0,       // never moves
+    breath = 1,      // the patient's belly
+    organ = 2,       // rises with the breath, sideways too
+    first_tool = 4,  // see Tool
     first_person = 16,
     bone_count = first_person + 2 * person_bone_count,
 };
 
 // Things held in hands; each is one bone.
-enum Tool : std::uint16_t { scissors_a, scissors_b, forceps, hemostat, retractor, tool_count };
+enum Tool { scissors_a, scissors_b, forceps, hemostat, retractor, tool_count };
 
 // Builders. Each adds its own part; all in the room's frame.
 void add_room_shell(Mesh& still);
