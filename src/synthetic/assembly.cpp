@@ -44,13 +44,13 @@ void bake_openness(Mesh& mesh, int directions) {
             const float facing = dot(mesh.normals[v], direction);
             if (facing <= 0.02f)
                 continue;
-            const F3 p = local[v] + F3{0, 0, -0.02f};
+            const F3 p = local[v] + F3{0, 0, -0.03f};
             const auto& c = grid.camera;
             const int x = int(std::lround(double(p.x / p.z) * c.fx + c.cx));
             const int yy = int(std::lround(double(p.y / p.z) * c.fy + c.cy));
             weight[v] += facing;
             if (x < 0 || yy < 0 || x >= side || yy >= side ||
-                p.z < seen.depth.view().row(yy)[x] + 0.004f)
+                p.z < seen.depth.view().row(yy)[x] + 0.02f)
                 seen_weight[v] += facing;
         }
     }

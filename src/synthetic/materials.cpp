@@ -51,6 +51,7 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::face, {skin, srgb(214, 164, 138), 0.56f, 0.16f, 18});
     set(Look::face_assistant, {skin, srgb(172, 118, 88), 0.52f, 0.18f, 18});
     set(Look::patient_skin, {skin, srgb(204, 138, 88), 0.55f, 0.16f, 22});
+    set(Look::patient_face, {skin, srgb(212, 166, 142), 0.55f, 0.14f, 18});
     set(Look::eye, {eye, srgb(232, 228, 224), 0.25f, 0.9f, 120, 0.06f});
     set(Look::hair, {hair, srgb(40, 28, 20), 0.18f, 0.15f, 12});
     set(Look::muscle, {tissue, srgb(158, 42, 38), 0.42f, 0.7f, 46, 0.05f});
@@ -293,7 +294,11 @@ Appearance appearance(Look look, F3 p, F3 normal, float footprint,
                        std::min(1.0f, 0.004f / (footprint + 1e-5f));
             };
             const float dark = std::abs(normal.x) > 0.5f ? joint(p.z + 0.6f) : joint(p.x + 0.6f);
-            a.color = a.color * ((1 - 0.45f * dark) * (1 + 0.03f * fractal(p * 1.3f, 2)));
+            // Less light reaches the room's edges.
+            const float edge =
+                0.72f + 0.28f * smoothstep(0.0f, 0.7f, p.y) - 0.12f * smoothstep(2.3f, 2.95f, p.y) -
+                0.15f * smoothstep(2.2f, 3.2f, std::min(std::abs(p.x), std::abs(p.z) + 0.4f));
+            a.color = a.color * ((1 - 0.45f * dark) * edge * (1 + 0.02f * fractal(p * 1.3f, 2)));
             break;
         }
         case Look::ceiling: {

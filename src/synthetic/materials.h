@@ -41,6 +41,7 @@ enum class Look : std::uint8_t {
     face,
     face_assistant,
     patient_skin,
+    patient_face,
     eye,
     hair,
     muscle,

@@ -59,7 +59,7 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     add_people(scene->moving, options.detail, options.seed);
     add_tools(scene->moving);
     split_long_edges(still, 0.16f);
-    bake_openness(still, options.detail >= 1 ? 64 : 12);
+    bake_openness(still, options.detail >= 1 ? 96 : options.detail > 0.1 ? 12 : 3);
     for (const Lamp& lamp : lamps())
         scene->still_shadows.emplace_back(lamp, still.positions, still.triangles);
     scene_ = std::move(scene);

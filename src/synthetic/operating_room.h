@@ -33,7 +33,7 @@ enum class Variant : std::uint8_t {
 
 struct SceneOptions {
     std::uint32_t seed = 1;
-    Duration loop = 24s;  // at least 2 s; motions keep their speed only near 24 s
+    Duration loop = 20s;  // 2 s to 2 min; hands move at a natural speed near 20 s
     // 1: full quality. Smaller values make coarser meshes, faster (tests use 0.3).
     double detail = 1;
 };
@@ -111,6 +111,8 @@ public:
     virtual ~RoomView() = default;
     virtual const Calibration& calibration() const = 0;
     virtual GroundTruth render(const RoomMoment& moment) = 0;
+    // The same view for another thread; what never moves is kept once for both.
+    virtual std::unique_ptr<RoomView> share() const = 0;
 };
 
 // Immutable after construction, which takes some seconds at full detail. Safe to

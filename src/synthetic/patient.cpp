@@ -149,7 +149,7 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
         back.positions[i] += back.normals[i] * 0.002f;
     std::erase_if(back.triangles, [&](const Triangle& t) {
         const F3 p = back.positions[t.a];
-        return p.x > -0.6f && p.y > 0.9f;  // lies on the body: never seen from below
+        return p.x > -0.5f && p.y > 0.9f;  // lies on the body: never seen from below
     });
     still.append(drop_unused(back));
 
@@ -167,7 +167,7 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
     const F3 head{-0.86f, 1.03f, 0};
     still.append(make_box({0.3f, 0.08f, 0.3f}, 0.035f, Look::mattress),
                  translation(head + F3{-0.02f, -0.075f, 0}));
-    still.append(make_ball({0.11f, 0.095f, 0.078f}, 28, Look::patient_skin), translation(head));
+    still.append(make_ball({0.11f, 0.095f, 0.078f}, 28, Look::patient_face), translation(head));
     still.append(make_ball({0.085f, 0.1f, 0.084f}, 28, Look::cap_assistant),
                  translation(head + F3{-0.04f, -0.004f, 0}));
     still.append(make_ball({0.04f, 0.02f, 0.034f}, 20, Look::clear_bag),

@@ -43,16 +43,18 @@ struct Gown {
         const F3 d = rest::arm_direction(side);
         const F3 b = a + d * (rest::upper_arm + rest::forearm);
         float r = capsule(p, a, b, 0, 0, &along);
-        const float width = along < 0.53f ? mix(0.074f, 0.058f, along / 0.53f)
-                                          : mix(0.058f, 0.041f, (along - 0.53f) / 0.47f);
+        // The glove's cuff goes over the narrow end.
+        const float width = along < 0.53f   ? mix(0.074f, 0.058f, along / 0.53f)
+                            : along < 0.82f ? mix(0.058f, 0.045f, (along - 0.53f) / 0.29f)
+                                            : mix(0.045f, 0.027f, smoothstep(0.82f, 0.9f, along));
         // Creases around the sleeve, deepest at the elbow.
         const F3 q = p - (a + d * dot(p - a, d));
         const float turn = std::atan2(q.y, q.x);
         const float crease = std::sin(along * 62 + 1.6f * std::sin(turn + side + seed) +
                                       2.5f * noise({along * 7, turn, seed + side}));
-        const float deep = 0.0022f + 0.0042f * std::exp(-std::pow((along - 0.53f) / 0.13f, 2.0f)) +
-                           0.003f * smoothstep(0.8f, 1.0f, along);
-        return r - width - deep * crease - 0.004f * noise(p * 13.0f + F3{seed, 0, 0});
+        const float deep = 0.0022f + 0.0042f * std::exp(-std::pow((along - 0.53f) / 0.13f, 2.0f));
+        return r - width - deep * crease * smoothstep(0.9f, 0.8f, along) -
+               0.004f * noise(p * 13.0f + F3{seed, 0, 0});
     }
     float whole(F3 p) const {
         float ignored;

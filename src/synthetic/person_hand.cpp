@@ -42,11 +42,11 @@ float palm_shape(F3 p) {
     // Wrist, and the glove's cuff over the sleeve, with a rolled end.
     const F3 q{p.x * 0.86f, p.y, p.z};
     d = blend(d, capsule(q, {0, 0, -0.02f}, {0, 0, 0.02f}, 0.026f, 0.023f), 0.03f);
-    const float cuff = capsule(p, {0, 0, -0.085f}, {0, 0, -0.03f}, 0.0455f, 0.034f) -
+    const float cuff = capsule(p, {0, 0, -0.092f}, {0, 0, -0.03f}, 0.048f, 0.033f) -
                        0.0016f * noise({p.z * 120, std::atan2(p.x, p.y) * 2, 3}) +
-                       std::max(0.0f, -0.095f - p.z);
+                       std::max(0.0f, -0.098f - p.z);
     d = blend(d, cuff, 0.03f);
-    const float roll = std::hypot(std::hypot(p.x, p.y) - 0.0445f, p.z + 0.088f) - 0.0036f;
+    const float roll = std::hypot(std::hypot(p.x, p.y) - 0.0475f, p.z + 0.093f) - 0.0036f;
     return blend(d, roll, 0.004f);
 }
 
@@ -71,7 +71,7 @@ Mesh right_hand(float cell, Look look, std::vector<Influence>& influences, std::
             d = blend(d, finger_shape(p, finger(i)), i == 0 ? 0.014f : 0.009f);
         return d;
     };
-    Mesh m = make_surface(whole, {-0.07f, -0.055f, -0.11f}, {0.12f, 0.055f, 0.21f}, cell, look);
+    Mesh m = make_surface(whole, {-0.07f, -0.06f, -0.12f}, {0.12f, 0.06f, 0.21f}, cell, look);
     for (const F3 p : m.positions) {
         int nearest = 1;
         for (int i = 0; i < 5; ++i)

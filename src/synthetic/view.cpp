@@ -56,6 +56,7 @@ public:
 
     const Calibration& calibration() const override { return calibration_; }
     GroundTruth render(const RoomMoment& moment) override;
+    std::unique_ptr<RoomView> share() const override { return std::make_unique<View>(*this); }
 
 private:
     struct Eye {
@@ -65,9 +66,17 @@ private:
         Visibility still;  // of all that never moves
         float pixel_angle = 0;
     };
+    // All that is the same in every moment.
+    struct Still {
+        Eye depth_eye, color_eye;
+        Image<SurfaceSample> surface;
+        Image<LitPoint> light;  // a pixel's mean
+        Image<F3> points;       // where in the room, for shadows
+    };
     static Eye make_eye(const Pose& room_from_eye, const CameraModel& model, int per_side);
     LitPoint shade(const Hit& hit, const Eye& eye) const;
-    void draw_still_color();
+    void draw_still_depth(Still& still) const;
+    void draw_still_color(Still& still) const;
     void render_color(const PosedMoment& moment, ColorImage& out);
     void render_depth(const PosedMoment& moment, GroundTruth& out);
     SurfaceSample surface_of(const Drawn& drawn, const Eye& eye, std::uint32_t triangle, Ray ray,
@@ -77,11 +86,8 @@ private:
     const SceneData& scene_;
     Calibration calibration_;
     RenderOptions options_;
-    Eye depth_eye_, color_eye_;
-    Image<SurfaceSample> still_surface_;
-    Image<LitPoint> still_light_;  // a pixel's mean
-    Image<F3> still_points_;       // where in the room, for shadows
-    Visibility seen_;              // reused
+    std::shared_ptr<const Still> still_;
+    Visibility seen_;  // reused
 };
 
 View::Eye View::make_eye(const Pose& room_from_eye, const CameraModel& model, int per_side) {
@@ -97,28 +103,32 @@ View::Eye View::make_eye(const Pose& room_from_eye, const CameraModel& model, in
 
 View::View(const SceneData& scene, const Calibration& camera, const RenderOptions& options)
     : scene_(scene), calibration_(camera), options_(options) {
-    const Mesh& mesh = scene.still;
-    if (options.depth) {
-        depth_eye_ = make_eye(camera.room_from_camera, camera.depth, 1);
-        Eye& eye = depth_eye_;
-        Drawn drawn{mesh, mesh.positions, mesh.normals, {}};
-        transform(mesh.positions, eye.camera_from_room, drawn.camera);
-        eye.still.clear(camera.depth.size);
-        rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
-        if (options.surface) {
-            still_surface_.resize(camera.depth.size);
-            for (std::size_t i = 0; i < still_surface_.pixels.size(); ++i)
-                if (eye.still.triangles.pixels[i] != no_triangle)
-                    still_surface_.pixels[i] =
-                        surface_of(drawn, eye, eye.still.triangles.pixels[i],
-                                   eye.grid.rays.pixels[i], eye.still.depth.pixels[i]);
-        }
-        // From here on, "no triangle" means: not a moving one.
-        std::fill(eye.still.triangles.pixels.begin(), eye.still.triangles.pixels.end(),
-                  no_triangle);
-    }
+    auto still = std::make_shared<Still>();
+    if (options.depth)
+        draw_still_depth(*still);
     if (options.color && camera.color.size.area() > 0)
-        draw_still_color();
+        draw_still_color(*still);
+    still_ = std::move(still);
+}
+
+void View::draw_still_depth(Still& still) const {
+    const Mesh& mesh = scene_.still;
+    still.depth_eye = make_eye(calibration_.room_from_camera, calibration_.depth, 1);
+    Eye& eye = still.depth_eye;
+    Drawn drawn{mesh, mesh.positions, mesh.normals, {}};
+    transform(mesh.positions, eye.camera_from_room, drawn.camera);
+    eye.still.clear(calibration_.depth.size);
+    rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
+    if (options_.surface) {
+        still.surface.resize(calibration_.depth.size);
+        for (std::size_t i = 0; i < still.surface.pixels.size(); ++i)
+            if (eye.still.triangles.pixels[i] != no_triangle)
+                still.surface.pixels[i] =
+                    surface_of(drawn, eye, eye.still.triangles.pixels[i], eye.grid.rays.pixels[i],
+                               eye.still.depth.pixels[i]);
+    }
+    // From here on, "no triangle" means: not a moving one.
+    std::fill(eye.still.triangles.pixels.begin(), eye.still.triangles.pixels.end(), no_triangle);
 }
 
 LitPoint View::shade(const Hit& hit, const Eye& eye) const {
@@ -133,19 +143,19 @@ LitPoint View::shade(const Hit& hit, const Eye& eye) const {
     return lit;
 }
 
-void View::draw_still_color() {
+void View::draw_still_color(Still& still) const {
     const Size size = calibration_.color.size;
     const Pose room_from_color =
         calibration_.room_from_camera * inverse(calibration_.color_from_depth);
-    color_eye_ = make_eye(room_from_color, calibration_.color, 1);
-    Eye& eye = color_eye_;
+    still.color_eye = make_eye(room_from_color, calibration_.color, 1);
+    Eye& eye = still.color_eye;
     const Image<Ray> centres = std::move(eye.grid.rays);
     const Mesh& mesh = scene_.still;
     Drawn drawn{mesh, mesh.positions, mesh.normals, {}};
     transform(mesh.positions, eye.camera_from_room, drawn.camera);
 
-    still_light_.resize(size);
-    still_points_.resize(size);
+    still.light.resize(size);
+    still.points.resize(size);
     constexpr int n = samples_per_side;
     // The last pass has no shift; its depths stay.
     static constexpr Vec2 shifts[still_passes] = {{0.33, -0.33}, {-0.33, 0.33}, {0, 0}};
@@ -175,9 +185,9 @@ void View::draw_still_color() {
                         hits[std::size_t(known++)] = hit;
                     shares[std::size_t(k)] += 1.0f / (n * n * still_passes);
                     if (pass == still_passes - 1 && s == 0)
-                        still_points_.view().row(y)[x] = hit.room;
+                        still.points.view().row(y)[x] = hit.room;
                 }
-                LitPoint& sum = still_light_.view().row(y)[x];
+                LitPoint& sum = still.light.view().row(y)[x];
                 for (std::size_t k = 0; k < std::size_t(known); ++k) {
                     const LitPoint lit = shade(hits[k], eye);
                     // A single glint must not outshine its pixel.
@@ -203,15 +213,15 @@ Drawn View::draw_moving(const PosedMoment& moment, const Eye& eye) {
 }
 
 void View::render_color(const PosedMoment& moment, ColorImage& out) {
-    const Eye& eye = color_eye_;
+    const Eye& eye = still_->color_eye;
     const Drawn drawn = draw_moving(moment, eye);
     const Size size = calibration_.color.size;
     out.resize(size);
     constexpr int n = samples_per_side;
     constexpr float share = 1.0f / (n * n);
     for (int y = 0; y < size.height; ++y) {
-        const LitPoint* still = still_light_.view().row(y);
-        const F3* points = still_points_.view().row(y);
+        const LitPoint* still = still_->light.view().row(y);
+        const F3* points = still_->points.view().row(y);
         Rgb* row = out.view().row(y);
         const std::uint32_t* ids[n];
         const float* depths[n];
@@ -287,7 +297,7 @@ SurfaceSample View::surface_of(const Drawn& drawn, const Eye& eye, std::uint32_t
 }
 
 void View::render_depth(const PosedMoment& moment, GroundTruth& out) {
-    const Eye& eye = depth_eye_;
+    const Eye& eye = still_->depth_eye;
     const Drawn drawn = draw_moving(moment, eye);
     out.depth_m = seen_.depth;
     for (float& d : out.depth_m.pixels)
@@ -295,7 +305,7 @@ void View::render_depth(const PosedMoment& moment, GroundTruth& out) {
             d = 0;
     if (!options_.surface)
         return;
-    out.surface = still_surface_;
+    out.surface = still_->surface;
     for (std::size_t i = 0; i < seen_.triangles.pixels.size(); ++i)
         if (seen_.triangles.pixels[i] != no_triangle)
             out.surface.pixels[i] = surface_of(drawn, eye, seen_.triangles.pixels[i],
@@ -307,7 +317,7 @@ GroundTruth View::render(const RoomMoment& moment) {
     GroundTruth truth;
     if (options_.depth)
         render_depth(posed, truth);
-    if (!still_light_.empty())
+    if (!still_->light.empty())
         render_color(posed, truth.color);
     return truth;
 }

@@ -43,14 +43,14 @@ CameraModel color_lens(int index, Size size) {
 }  // namespace
 
 Calibration synthetic_camera(Variant variant, int index, int count, Size color) {
-    // The first two stand at opposite corners of the table, each facing one of the
-    // people; the others fill the circle at changing heights.
+    // The first two stand at the table's foot, one on each side, each facing one of
+    // the people; the others fill the circle at changing heights.
     struct Place {
         double degrees, radius, height;
     };
     static constexpr std::array<Place, max_cameras> places{{{-42, 1.62, 2.16},
-                                                            {138, 1.58, 2.2},
-                                                            {48, 1.75, 2.3},
+                                                            {46, 1.64, 2.2},
+                                                            {137, 1.62, 2.25},
                                                             {-132, 1.75, 2.3},
                                                             {2, 2.1, 2.0},
                                                             {182, 2.1, 2.05},
@@ -94,7 +94,7 @@ bool inside_hexagon(Size image, int x, int y) {
     // Straight lines through the border of real 640x576 images.
     const double u = (x + 0.5) * 640 / image.width, v = (y + 0.5) * 576 / image.height;
     return u > 152.5 - 0.557 * v && u < 513.5 + 0.557 * v && u > 2 + 0.6 * (v - 337) &&
-           u < 638 - 0.6 * (v - 337);
+           u < 662.5 - 0.6 * (v - 337);
 }
 
 }  // namespace theatron::synthetic

@@ -4,27 +4,18 @@
 //     synthetic_pictures DIR [seconds] [room|surgeon] [detail]
 //
 // Each of two cameras' colour and depth, and a free viewpoint, as PNG.
-#include <png.h>
-
 #include <chrono>
 #include <cstdio>
 #include <string>
 
+#include "base/error.h"
+#include "files/png_file.h"
 #include "synthetic/operating_room.h"
 
 namespace {
 
 using namespace theatron;
 using namespace theatron::synthetic;
-
-bool write_png(const std::string& path, const ColorImage& image) {
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = png_uint_32(image.size.width);
-    png.height = png_uint_32(image.size.height);
-    png.format = PNG_FORMAT_RGB;
-    return png_image_write_to_file(&png, path.c_str(), 0, image.pixels.data(), 0, nullptr) != 0;
-}
 
 // Near is warm, far is cold, fine steps of 25 cm show as bands.
 ColorImage depth_picture(const Image<float>& depth, bool hexagon) {
@@ -59,8 +50,8 @@ int main(int count, char** arguments) {
     }
     const std::string folder = arguments[1];
     const double seconds = count > 2 ? std::stod(arguments[2]) : 3;
-    const Variant variant = count > 3 && std::string(arguments[3]) == "surgeon" ? Variant::surgeon
-                                                                                 : Variant::room;
+    const Variant variant =
+        count > 3 && std::string(arguments[3]) == "surgeon" ? Variant::surgeon : Variant::room;
     SceneOptions options;
     options.detail = count > 4 ? std::stod(arguments[4]) : 1;
     double start = now();
@@ -72,27 +63,27 @@ int main(int count, char** arguments) {
     lap("scene");
     const auto moment = room.at(Duration(std::int64_t(seconds * 1e6)));
     lap("moment");
-    const std::string prefix = folder + "/synthetic_" + (variant == Variant::room ? "or" : "surgeon");
+    const std::string prefix =
+        folder + "/synthetic_" + (variant == Variant::room ? "or" : "surgeon");
     for (int camera = 0; camera < 2; ++camera) {
         const auto view = room.look_from(synthetic_camera(variant, camera, 2, {1280, 720}));
         lap("still picture");
         const GroundTruth truth = view->render(*moment);
         lap("frame");
         const std::string name = prefix + "_camera" + std::to_string(camera);
-        if (!write_png(name + ".png", truth.color) ||
-            !write_png(name + "_depth.png", depth_picture(truth.depth_m, true))) {
-            std::fprintf(stderr, "cannot write %s.png\n", name.c_str());
-            return 1;
-        }
+        files::write_png(name + ".png", truth.color.view());
+        files::write_png(name + "_depth.png", depth_picture(truth.depth_m, true).view());
     }
     start = now();
     RenderOptions color_only;
     color_only.depth = false;
-    const GroundTruth free = room.render(free_viewpoint({2.5, 1.85, 2.2}, {-0.15, 1.05, -0.1}, {1280, 720}, 62),
-                                         Duration(std::int64_t(seconds * 1e6)), color_only);
+    const GroundTruth free =
+        room.render(free_viewpoint({2.5, 1.85, 2.2}, {-0.15, 1.05, -0.1}, {1280, 720}, 62),
+                    Duration(std::int64_t(seconds * 1e6)), color_only);
     lap("free view");
-    write_png(prefix + "_free_view.png", free.color);
-    const GroundTruth close = room.render(free_viewpoint({0.32, 1.75, -0.42}, {0, 1.05, 0}, {1280, 720}, 50),
-                                          Duration(std::int64_t(seconds * 1e6)), color_only);
-    write_png(prefix + "_situs.png", close.color);
+    files::write_png(prefix + "_free_view.png", free.color.view());
+    const GroundTruth close =
+        room.render(free_viewpoint({0.32, 1.75, -0.42}, {0, 1.05, 0}, {1280, 720}, 50),
+                    Duration(std::int64_t(seconds * 1e6)), color_only);
+    files::write_png(prefix + "_situs.png", close.color.view());
 }
