@@ -8,6 +8,7 @@
 #include "base/options.h"
 #include "capture/folder_camera.h"
 #include "capture/mkv_camera.h"
+#include "capture/synthetic_camera.h"
 
 namespace theatron::capture {
 namespace {
@@ -22,6 +23,7 @@ struct Kind {
 constexpr Kind kinds[] = {
     {"folder", folder_camera_help, open_folder_camera},
     {"mkv", mkv_camera_help, open_mkv_camera},
+    {"synthetic", synthetic_camera_help, open_synthetic_camera},
 };
 
 // What the standard library throws, as a sentence too.

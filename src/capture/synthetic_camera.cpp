@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/synthetic_camera.h"
+
+#include "base/error.h"
+#include "base/time.h"
+#include "capture/playback.h"
+#include "synthetic/frame_cache.h"
+
+namespace theatron::capture {
+namespace {
+
+class SyntheticRecording final : public Recording {
+public:
+    SyntheticRecording(const synthetic::LoopOptions& options, const Progress& progress)
+        : loop_(options, progress), fps_(options.frames_per_second) {}
+
+    const Calibration& calibration() const { return loop_.calibration(); }
+
+    std::optional<Duration> offset() override {
+        if (next_ == loop_.frames())
+            return std::nullopt;
+        return seconds_to_duration(double(next_) / fps_);
+    }
+    void skip() override { ++next_; }
+    void read(Frame& out) override { loop_.read(next_++, out); }
+    void rewind() override { next_ = 0; }
+
+private:
+    synthetic::FrameLoop loop_;
+    double fps_;
+    std::size_t next_ = 0;
+};
+
+Size color_size(const std::string& name, const std::string& specification) {
+    if (name == "720")
+        return {1280, 720};
+    if (name == "1080")
+        return {1920, 1080};
+    if (name == "depth")
+        return {640, 360};
+    if (name == "off")
+        return {};
+    throw Error("In the camera '" + specification +
+                "', color must be 720, 1080, depth or off, not '" + name + "'.");
+}
+
+synthetic::LoopOptions take_loop_options(Options& options) {
+    synthetic::LoopOptions loop;
+    const std::string variant = options.value();
+    if (!variant.empty() && variant != "room" && variant != "surgeon")
+        throw Error("There is no synthetic scene '" + variant + "'; there are room and surgeon.");
+    loop.variant = variant == "surgeon" ? synthetic::Variant::surgeon : synthetic::Variant::room;
+    loop.cameras = options.take_int("cameras", 2, 1, synthetic::max_cameras);
+    loop.camera = options.take_int("camera", 0, 0, loop.cameras - 1);
+    loop.scene.seed = std::uint32_t(options.take_int("seed", 1, 0, 1'000'000));
+    loop.scene.loop = seconds_to_duration(options.take_number("seconds", 20, 2, 120));
+    loop.frames_per_second = options.take_number("fps", 30, 1, 60);
+    loop.noise = options.take_flag("noise", true);
+    loop.color = color_size(options.take("color", "720"), options.text());
+    loop.folder = options.take("cache");
+    const std::string quality = options.take("quality", "full");
+    if (quality == "quick") {
+        loop.scene.detail = 0.2;
+        loop.depth_divisor = 2;
+        if (loop.color.area() > 0)
+            loop.color = {640, 360};
+    } else if (quality != "full") {
+        throw Error("In the camera '" + options.text() + "', quality must be full or quick.");
+    }
+    return loop;
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> open_synthetic_camera(Options& options, const Progress& progress) {
+    const synthetic::LoopOptions loop = take_loop_options(options);
+    PlaybackOptions playback;
+    playback.loop = options.take_flag("loop", true);
+    playback.start = options.take_int("start", 0, 0, 1'000'000);
+    options.require_no_problem();
+
+    auto recording = std::make_unique<SyntheticRecording>(loop, progress);
+    CameraInfo info;
+    info.name = std::string(loop.variant == synthetic::Variant::room ? "or" : "surgeon") +
+                std::to_string(loop.camera);
+    info.calibration = recording->calibration();
+    info.frames_per_second = loop.frames_per_second;
+    return make_recorded_camera(std::move(info), std::move(recording), playback);
+}
+
+}  // namespace theatron::capture

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/synthetic_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace theatron::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string problem_of(std::string_view specification) {
+    try {
+        (void)open_camera(specification);
+    } catch (const Error& problem) {
+        return problem.what();
+    }
+    return "";
+}
+
+TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
+    const fs::path cache = fs::temp_directory_path() / "theatron-synthetic-camera-test";
+    fs::remove_all(cache);
+    const auto camera =
+        open_camera("synthetic:seconds=2,fps=2,quality=quick,cache=" + cache.string());
+    EXPECT_TRUE(camera->info().calibration.registered);
+    EXPECT_EQ(camera->info().calibration.depth.size, (Size{320, 288}));
+    for (FrameNumber number = 0; number < 2; ++number) {
+        const Capture capture = camera->next(2s);
+        ASSERT_EQ(capture.kind, Capture::Kind::frame);
+        EXPECT_EQ(capture.frame->depth.size, (Size{320, 288}));
+        EXPECT_EQ(capture.frame->color.size, (Size{640, 360}));
+        EXPECT_TRUE(capture.frame->color.is_jpeg());
+        // The middle of the picture sees the table: about two metres away.
+        const int middle = capture.frame->depth.view().row(170)[160];
+        EXPECT_GT(middle, 1000);
+        EXPECT_LT(middle, 3000);
+    }
+    fs::remove_all(cache);
+}
+
+TEST(SyntheticCamera, ExplainsWrongOptions) {
+    EXPECT_NE(problem_of("synthetic:kitchen").find("room and surgeon"), std::string::npos);
+    EXPECT_NE(problem_of("synthetic:color=9").find("color"), std::string::npos);
+    EXPECT_NE(problem_of("synthetic:camera=2,cameras=2").find("camera"), std::string::npos);
+    EXPECT_NE(problem_of("synthetic:nose=1").find("nose"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace theatron::capture

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synthetic/operating_room.h"
+
+#include "base/error.h"
+#include "synthetic/synthetic_view.h"
+
+namespace theatron::synthetic {
+
+std::string_view to_text(Material material) {
+    static constexpr std::string_view names[] = {
+        "none",  "wall", "floor", "door",  "plastic", "metal",  "polished", "rubber", "glass",
+        "drape", "gown", "cap",   "mask",  "glove",   "skin",   "eye",      "hair",   "tissue",
+        "liver", "fat",  "gauze", "paper", "brick",   "screen", "scrubs"};
+    static_assert(std::size(names) == std::size_t(Material::count));
+    return material < Material::count ? names[std::size_t(material)] : "unknown";
+}
+
+PosedMoment::PosedMoment(const SceneData& scene, Duration time) : time_(time) {
+    const Duration loop = scene.options.loop;
+    const Duration within = (time % loop + loop) % loop;
+    const double seconds = double(loop.count()) / 1e6;
+    const std::vector<Affine> bones =
+        pose_bones(double(within.count()) / double(loop.count()), seconds, scene.options.seed);
+    const Mesh& rest = scene.moving.mesh;
+    positions.resize(rest.positions.size());
+    normals.resize(rest.positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Influence& in = scene.moving.influences[i];
+        F3 p{}, n{};
+        for (std::size_t b = 0; b < 4 && in.weight[b] > 0; ++b) {
+            p += (bones[in.bone[b]] * rest.positions[i]) * in.weight[b];
+            n += bones[in.bone[b]].turn(rest.normals[i]) * in.weight[b];
+        }
+        positions[i] = p;
+        normals[i] = normalized(n);
+    }
+    for (const Lamp& lamp : lamps())
+        shadows.emplace_back(lamp, positions, rest.triangles);
+}
+
+struct OperatingRoom::Scene : SceneData {};
+
+OperatingRoom::OperatingRoom(const SceneOptions& options) {
+    if (options.loop < 2s || options.loop > 120s)
+        throw Error("The synthetic room's loop must last between 2 and 120 seconds.");
+    auto scene = std::make_unique<Scene>();
+    scene->options = options;
+    scene->pictures = make_pictures();
+    Mesh& still = scene->still;
+    add_room_shell(still);
+    add_room_furniture(still);
+    add_lamps(still);
+    add_table(still);
+    add_tray(still, options.seed);
+    add_bricks(still, options.seed);
+    add_monitor(still);
+    add_patient(still, scene->moving, options.detail);
+    add_situs(still, scene->moving, options.detail);
+    add_people(scene->moving, options.detail, options.seed);
+    add_tools(scene->moving);
+    split_long_edges(still, 0.16f);
+    bake_openness(still, options.detail >= 1 ? 96 : options.detail > 0.1 ? 12 : 3);
+    for (const Lamp& lamp : lamps())
+        scene->still_shadows.emplace_back(lamp, still.positions, still.triangles);
+    scene_ = std::move(scene);
+}
+
+OperatingRoom::~OperatingRoom() = default;
+
+const SceneOptions& OperatingRoom::options() const {
+    return scene_->options;
+}
+
+std::shared_ptr<const RoomMoment> OperatingRoom::at(Duration time) const {
+    return std::make_shared<PosedMoment>(*scene_, time);
+}
+
+std::unique_ptr<RoomView> OperatingRoom::look_from(const Calibration& camera,
+                                                   const RenderOptions& options) const {
+    return make_view(*scene_, camera, options);
+}
+
+GroundTruth OperatingRoom::render(const Calibration& camera, Duration time,
+                                  const RenderOptions& options) const {
+    return look_from(camera, options)->render(*at(time));
+}
+
+}  // namespace theatron::synthetic

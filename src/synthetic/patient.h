@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape of the patient under the cover, shared by the cover and the situs.
+#pragma once
+
+#include "synthetic/vec3f.h"
+
+namespace theatron::synthetic {
+
+// Where the belly is open: an oval around the room's middle.
+inline constexpr float window_x = 0.175f, window_z = 0.13f;  // half axes of the cover's window
+
+// How far out of the oval: 1 on its border.
+inline float window_distance(float x, float z) {
+    // Between an ellipse and a rectangle.
+    const float u = std::abs(x) / window_x, v = std::abs(z) / window_z;
+    return std::pow(u * u * u + v * v * v, 1.0f / 3);
+}
+
+// Height of the body's upper surface, without cover.
+float body_height(float x, float z);
+
+// How much a place rises when the patient breathes in, 0 … 1.
+inline float breath_lift(F3 p) {
+    return smoothstep(0.55f, 0.05f, std::abs(p.x + 0.08f)) *
+           smoothstep(0.42f, 0.12f, std::abs(p.z)) * smoothstep(0.9f, 1.04f, p.y);
+}
+
+}  // namespace theatron::synthetic
