@@ -9,6 +9,7 @@ namespace theatron::app {
 
 void add_host_command(CLI::App& app);
 void add_join_command(CLI::App& app);
+void add_record_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_demo_command(CLI::App& app);
 

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", THEATRON_VERSION);
     theatron::app::add_host_command(app);
     theatron::app::add_join_command(app);
+    theatron::app::add_record_command(app);
     theatron::app::add_bench_command(app);
     theatron::app::add_demo_command(app);
 

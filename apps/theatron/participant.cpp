@@ -26,6 +26,7 @@ struct Participant::Shared {
     Status status;
     std::vector<Camera> cameras;
     std::uint64_t generation = 0;
+    std::vector<wire::StreamSetting> settings;
     std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
     std::vector<receive::StreamFigures> figures;
     bool reset_wanted = false;
@@ -45,10 +46,7 @@ Participant::Participant(Options options)
                      }
                      shared_->changed.notify_all();
                  },
-                 [this](StreamId stream, SettingId setting) {
-                     shared_->client->send_control(
-                         wire::encode_control(wire::RequestKey{stream, setting}));
-                 }}),
+                 [this](StreamId stream, SettingId setting) { request_key(stream, setting); }}),
       shared_(std::make_unique<Shared>()) {
     thread_ = std::thread([this] { run(); });
 }
@@ -114,10 +112,23 @@ net::Client::Handler Participant::handler() {
         shared_->client->send_control(hello);
     };
     h.control = [this](ByteView message) { on_control(message); };
-    h.media = [this](ByteView message) { (void)receiver_.on_media(message, now()); };
+    h.media = [this](ByteView message) { on_media(message); };
     h.now = [this] { return now(); };
     h.tick = [this] { on_tick(); };
     return h;
+}
+
+void Participant::on_media(ByteView message) {
+    if (!options_.media) {
+        (void)receiver_.on_media(message, now());
+        return;
+    }
+    if (const auto header = wire::parse_media_header(message))
+        options_.media(*header, message);
+}
+
+void Participant::request_key(StreamId stream, SettingId setting) {
+    shared_->client->send_control(wire::encode_control(wire::RequestKey{stream, setting}));
 }
 
 void Participant::on_control(ByteView message) {
@@ -139,6 +150,7 @@ void Participant::on_control(ByteView message) {
             shared_->cameras = std::move(cameras);
             ++shared_->generation;
             shared_->newest.clear();
+            shared_->settings.clear();
             shared_->status.phase = Phase::joined;
             shared_->status.problem.clear();
             shared_->status.host_name = session_.welcome().host_name;
@@ -152,6 +164,10 @@ void Participant::on_control(ByteView message) {
         case Change::settings:
             if (!session_.note().empty())
                 remark(session_.note());
+            {
+                const std::lock_guard lock(shared_->mutex);
+                shared_->settings = session_.settings();
+            }
             try {
                 receiver_.set_settings(session_.settings());
             } catch (const Error& e) {
@@ -243,6 +259,11 @@ std::vector<Participant::Camera> Participant::cameras(std::uint64_t& generation)
     const std::lock_guard lock(shared_->mutex);
     generation = shared_->generation;
     return shared_->cameras;
+}
+
+std::vector<wire::StreamSetting> Participant::settings() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->settings;
 }
 
 std::vector<receive::CameraFramePtr> Participant::take_frames() {

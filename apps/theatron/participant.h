@@ -28,6 +28,9 @@ public:
         // Told what a person should know: reconnecting, refused, a camera ended.
         // Called from the participant's thread.
         std::function<void(const std::string&)> remark;
+        // If set, media goes here as it comes instead of being decoded. Called
+        // from the participant's thread; the message is valid during the call.
+        std::function<void(const wire::MediaHeader&, ByteView message)> media;
     };
 
     // Begins to connect at once, on a thread of its own. Throws Error for a codec
@@ -54,6 +57,12 @@ public:
     // All cameras of the host; `generation` grows whenever they changed.
     std::vector<Camera> cameras(std::uint64_t& generation) const;
 
+    // How the host sends each stream to this participant.
+    std::vector<wire::StreamSetting> settings() const;
+
+    // From within `media` only: asks the host for a key frame.
+    void request_key(StreamId stream, SettingId setting);
+
     // The newest frame of each camera that is newer than what was taken before.
     std::vector<receive::CameraFramePtr> take_frames();
 
@@ -73,6 +82,7 @@ private:
     void run();
     net::Client::Handler handler();
     void on_control(ByteView message);
+    void on_media(ByteView message);
     void on_camera_states();
     void on_tick();
     void remark(const std::string& text) const;

@@ -8,6 +8,7 @@
 #include "base/options.h"
 #include "capture/folder_camera.h"
 #include "capture/mkv_camera.h"
+#include "capture/recording_camera.h"
 #include "capture/synthetic_camera.h"
 
 namespace theatron::capture {
@@ -23,6 +24,7 @@ struct Kind {
 constexpr Kind kinds[] = {
     {"folder", folder_camera_help, open_folder_camera},
     {"mkv", mkv_camera_help, open_mkv_camera},
+    {"recording", recording_camera_help, open_recording_camera},
     {"synthetic", synthetic_camera_help, open_synthetic_camera},
 };
 

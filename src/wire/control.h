@@ -85,6 +85,7 @@ struct StreamSetting {
     StreamId stream{};
     SettingId setting{};
     std::string codec;
+    bool operator==(const StreamSetting&) const = default;
 };
 
 // What this participant now gets. `note` is empty or says why it is not what

@@ -74,7 +74,7 @@ void stamp_sent(std::span<std::byte> message, TimePoint sent) {
     store_le(message.data() + at_sent, after_captured(sent, captured));
 }
 
-Result<MediaHeader> parse_media_header(ByteView message) {
+Result<MediaHeader> parse_header_alone(ByteView message) {
     if (message.empty())
         return Status::truncated;
     if (load_le<std::uint8_t>(message.data() + at_version) != media_version)
@@ -110,11 +110,17 @@ Result<MediaHeader> parse_media_header(ByteView message) {
     h.filtered = from_offset(load_le<std::uint32_t>(in + at_filtered), h.captured);
     h.encoded = from_offset(load_le<std::uint32_t>(in + at_encoded), h.captured);
     h.sent = from_offset(load_le<std::uint32_t>(in + at_sent), h.captured);
+    return h;
+}
 
+Result<MediaHeader> parse_media_header(ByteView message) {
+    const Result<MediaHeader> header = parse_header_alone(message);
+    if (!header)
+        return header;
     const std::size_t payload = message.size() - media_header_size;
-    if (payload < h.payload_size)
+    if (payload < header->payload_size)
         return Status::truncated;
-    return payload > h.payload_size ? Result<MediaHeader>(Status::trailing_bytes) : h;
+    return payload > header->payload_size ? Result<MediaHeader>(Status::trailing_bytes) : header;
 }
 
 }  // namespace theatron::wire

@@ -47,6 +47,10 @@ void stamp_sent(std::span<std::byte> message, TimePoint sent);
 // size it names. Safe for untrusted input.
 Result<MediaHeader> parse_media_header(ByteView message);
 
+// Reads the header alone, from the first media_header_size bytes of `bytes`,
+// for a payload that is kept elsewhere. Safe for untrusted input.
+Result<MediaHeader> parse_header_alone(ByteView bytes);
+
 // The payload of a message that parse_media_header accepted.
 inline ByteView media_payload(ByteView message) {
     return message.subspan(media_header_size);

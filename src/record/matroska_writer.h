@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes Matroska files of encoded images, so that they open again however the
+// writing ended.
+//
+// A file grows by whole clusters, each handed to the system in one go: after a
+// crash it holds all but the last call's blocks. Knows nothing of what the
+// bytes mean. One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/bytes.h"
+
+namespace theatron::record {
+
+struct Track {
+    int number = 1;  // 1 to 126, each once
+    std::string name;
+    std::string codec_id;
+    Bytes codec_private;
+    int width = 0, height = 0;
+    double frames_per_second = 0;  // 0: not said
+    bool shown = true;             // a player that plays one track may choose this one
+    // Colour bytes of an uncompressed track ("b16g"); 0: none.
+    std::uint32_t uncompressed_fourcc = 0;
+};
+
+struct Attachment {
+    std::string name;
+    std::string mime_type;
+    Bytes bytes;
+    std::uint64_t uid = 0;  // 0: chosen by the writer
+};
+
+// One named text about the whole file, a track or an attachment.
+struct Tag {
+    std::string name, value;
+    int track = 0;                     // 0: not about a track
+    std::uint64_t attachment_uid = 0;  // 0: not about an attachment
+};
+
+struct Block {
+    int track = 1;
+    std::int64_t time_us = 0;  // since the file's beginning, not negative
+    bool key = true;
+    std::int64_t reference_us = 0;  // unless key: the time of the frame referred to
+    ByteView payload;
+    ByteView side;  // stored beside the payload, unseen by players; may be empty
+};
+
+// Block additions with this number hold a block's `side`.
+inline constexpr int side_id = 2;
+
+class MatroskaWriter {
+public:
+    struct Layout {
+        std::vector<Track> tracks;
+        std::vector<Attachment> attachments;
+        std::vector<Tag> tags;
+        std::string side_name;  // what `side` is, for people who look into the file
+    };
+
+    // Creates `path`, in place of a file that is there, and writes everything
+    // before the first block. Throws Error.
+    MatroskaWriter(const std::filesystem::path& path, const Layout& layout);
+    MatroskaWriter(const MatroskaWriter&) = delete;
+    // Leaves the file as it is: call finish() first.
+    ~MatroskaWriter();
+
+    // Appends blocks, ordered by time within a call. Returns one sentence if that failed, as on a
+    // full disk; the file is then cut back to what was whole before, and takes no more blocks.
+    std::string write(std::vector<Block> blocks);
+
+    // Writes the index, the duration and the size. After a full disk, as much of that as there is
+    // room for. Returns one sentence if that failed; the file opens nevertheless.
+    std::string finish();
+
+    std::uint64_t bytes() const { return end_; }
+
+private:
+    struct Cue {
+        std::int64_t time_us;
+        int track;
+        std::uint64_t cluster;  // position in the segment
+    };
+
+    void append_cluster(std::span<const Block> blocks, Bytes& out);
+    std::string append(const Bytes& bytes);
+    std::string problem(int error) const;
+
+    std::filesystem::path path_;
+    int file_ = -1;
+    bool failed_ = false;
+    std::uint64_t end_ = 0;                        // of the file
+    std::uint64_t segment_ = 0;                    // where the segment's content begins
+    std::map<std::string, std::uint64_t> places_;  // of the parts that finish() fills in or names
+    std::int64_t duration_us_ = 0;
+    std::int64_t date_ns_ = 0;
+    std::vector<Cue> cues_;
+    std::map<int, std::int64_t> last_cue_us_;  // by track
+};
+
+}  // namespace theatron::record

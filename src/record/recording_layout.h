@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names that make a Matroska file a recording (docs/formats/recording.md).
+#pragma once
+
+#include <string>
+
+#include "base/ids.h"
+
+namespace theatron::record {
+
+inline constexpr const char* depth_codec_id = "V_THEATRON/DEPTH";
+inline constexpr const char* color_codec_id = "V_THEATRON/COLOR";  // all but JPEG
+inline constexpr const char* jpeg_codec_id = "V_MJPEG";
+inline constexpr const char* calibration_mime_type = "application/x-theatron-calibration";
+inline constexpr const char* side_name = "theatron.media-header";
+
+constexpr int track_number(StreamId stream) {
+    return int(stream) + 1;
+}
+constexpr StreamId stream_of_track(int number) {
+    return StreamId(number - 1);
+}
+
+inline std::string calibration_name(CameraId camera) {
+    return "calibration-" + std::to_string(int(camera)) + ".bin";
+}
+
+}  // namespace theatron::record

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+
+#include "base/error.h"
+#include "record/matroska_reader.h"
+#include "record/recorder.h"
+#include "record/recording_file.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Message {
+    wire::MediaHeader header;
+    std::shared_ptr<const Bytes> bytes;
+};
+
+// A message with `size` bytes that depend on its stream and number.
+Message message(StreamId stream, FrameNumber frame, Duration at, std::size_t size,
+                FrameNumber reference, int layer = 0) {
+    wire::MediaHeader header;
+    header.codec = is_depth(stream) ? 4 : 66;
+    header.stream = stream;
+    header.setting = SettingId(3);
+    header.frame = frame;
+    header.reference = reference;
+    header.key = frame == reference;
+    header.temporal_layer = std::uint8_t(layer);
+    header.payload_size = std::uint32_t(size);
+    header.moment = header.captured = from_us(5'000'000'017) + at;
+    header.delivered = header.captured + Duration(1234);
+    header.encoded = header.captured + Duration(5677);
+    auto bytes = std::make_shared<Bytes>(wire::media_header_size + size);
+    wire::write_media_header(header, bytes->data());
+    std::minstd_rand random(frame * 64 + unsigned(stream) + 1);
+    for (std::size_t i = wire::media_header_size; i < bytes->size(); ++i)
+        (*bytes)[i] = std::byte(random() >> 16);
+    return {header, bytes};
+}
+
+std::vector<RecordedCamera> cameras(int count) {
+    std::vector<RecordedCamera> list;
+    for (int i = 0; i < count; ++i) {
+        RecordedCamera camera;
+        camera.id = CameraId(i);
+        camera.name = "camera " + std::to_string(i);
+        camera.frames_per_second = 30;
+        camera.calibration = Bytes(100, std::byte(i));
+        camera.depth = {"zstd:delta=1,layers=3", 640, 576};
+        camera.color = RecordedStream{"jpeg:quality=85", 1280, 720};
+        list.push_back(camera);
+    }
+    return list;
+}
+
+// Frames of several cameras with temporal layers, jitter and a gap of half a second.
+std::vector<Message> generated(int camera_count, int frames, std::size_t size) {
+    std::vector<Message> messages;
+    std::minstd_rand random(7);
+    for (int n = 0; n < frames; ++n) {
+        if (n >= frames / 2 && n < frames / 2 + 15)
+            continue;
+        for (int c = 0; c < camera_count; ++c) {
+            const Duration at(n * 33'333 + int(random() % 3000) + c * 411);
+            const int layer = n % 4 == 0 ? 0 : n % 2 == 0 ? 1 : 2;
+            const auto reference =
+                FrameNumber(layer == 0 ? (n == 0 ? 0 : n - 4) : n - (layer == 1 ? 2 : 1));
+            messages.push_back(message(depth_stream(CameraId(c)), FrameNumber(n), at,
+                                       size + random() % size, reference, layer));
+            messages.push_back(message(color_stream(CameraId(c)), FrameNumber(n), at,
+                                       size + random() % size, FrameNumber(n)));
+        }
+    }
+    return messages;
+}
+
+void record_all(const fs::path& path, int camera_count, const std::vector<Message>& messages) {
+    Recorder recorder(path, cameras(camera_count));
+    for (const Message& m : messages)
+        ASSERT_TRUE(recorder.add(m.header, m.bytes));
+    recorder.finish();
+    EXPECT_EQ(recorder.figures().problem, "");
+    EXPECT_EQ(recorder.figures().frames, messages.size());
+    EXPECT_EQ(recorder.figures().dropped, 0u);
+    EXPECT_EQ(recorder.figures().bytes, fs::file_size(path));
+}
+
+Bytes bytes_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    const ByteView view = as_bytes(text);
+    return Bytes(view.begin(), view.end());
+}
+
+// The frames of a recording, in the order of `messages`, and whether each is as it was.
+std::size_t count_equal(const RecordingFile& recording, const std::vector<Message>& messages) {
+    std::map<StreamId, std::size_t> next;
+    std::size_t equal = 0;
+    Bytes payload;
+    for (const Message& m : messages) {
+        const CameraContent& camera = recording.cameras()[std::size_t(camera_of(m.header.stream))];
+        const auto& frames = is_depth(m.header.stream) ? camera.depth.frames : camera.color.frames;
+        const std::size_t i = next[m.header.stream]++;
+        if (i >= frames.size())
+            continue;
+        EXPECT_EQ(recording.read_payload(frames[i], payload), Status::ok);
+        const ByteView expected = wire::media_payload(*m.bytes);
+        equal += frames[i].header == m.header &&
+                 std::equal(payload.begin(), payload.end(), expected.begin(), expected.end());
+    }
+    return equal;
+}
+
+std::size_t frames_in(const RecordingFile& recording) {
+    std::size_t count = 0;
+    for (const CameraContent& camera : recording.cameras())
+        count += camera.depth.frames.size() + camera.color.frames.size();
+    return count;
+}
+
+TEST(Recording, GivesBackWhatWasRecordedToTheByteAndMicrosecond) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(4, 90, 2000);
+    record_all(folder.path() / "four.mkv", 4, messages);
+
+    const auto recording = RecordingFile::open(folder.path() / "four.mkv");
+    EXPECT_TRUE(recording->complete());
+    EXPECT_EQ(recording->refused(), 0u);
+    ASSERT_EQ(recording->cameras().size(), 4u);
+    const CameraContent& camera = recording->cameras()[2];
+    EXPECT_EQ(camera.name, "camera 2");
+    EXPECT_EQ(camera.frames_per_second, 30);
+    EXPECT_EQ(camera.calibration, Bytes(100, std::byte{2}));
+    EXPECT_EQ(camera.depth.codec, "zstd:delta=1,layers=3");
+    EXPECT_EQ(camera.depth.width, 640);
+    EXPECT_EQ(camera.color.codec, "jpeg");
+    EXPECT_EQ(camera.color.height, 720);
+    EXPECT_EQ(frames_in(*recording), messages.size());
+    EXPECT_EQ(count_equal(*recording, messages), messages.size());
+}
+
+TEST(Recording, WithoutAnyFrameOpensToo) {
+    const testing::TemporaryFolder folder;
+    record_all(folder.path() / "none.mkv", 1, {});
+    const auto recording = RecordingFile::open(folder.path() / "none.mkv");
+    EXPECT_TRUE(recording->complete());
+    EXPECT_EQ(frames_in(*recording), 0u);
+}
+
+TEST(Recording, AFrameFromBeforeTheFirstKeepsItsTime) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "early.mkv";
+    std::vector<Message> messages;
+    messages.push_back(message(StreamId(0), 5, 1s, 10, 5));
+    {
+        Recorder recorder(path, cameras(1));
+        recorder.add(messages[0].header, messages[0].bytes);
+        while (recorder.figures().frames == 0)
+            usleep(1000);
+        messages.push_back(message(StreamId(0), 4, 0s, 10, 4));
+        recorder.add(messages[1].header, messages[1].bytes);
+    }
+    EXPECT_EQ(count_equal(*RecordingFile::open(path), messages), 2u);
+}
+
+// Cut off anywhere, a file holds the clusters that are whole, and says that it was cut.
+TEST(Recording, CutOffAnywhereOpensUpToTheLastWholeCluster) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(2, 12, 60);
+    record_all(folder.path() / "whole.mkv", 2, messages);
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+
+    std::size_t before = 0;
+    std::set<std::size_t> counts;
+    std::size_t opened = 0;
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+        // Of exact size: the sanitizer sees any read past the end.
+        const Bytes part(whole.begin(), whole.begin() + std::ptrdiff_t(n));
+        const auto recording = RecordingFile::read(std::make_unique<MemorySource>(part));
+        if (!recording) {
+            EXPECT_EQ(opened, 0u) << "opens shorter, but not at " << n;
+            continue;
+        }
+        ++opened;
+        EXPECT_FALSE((*recording)->complete());
+        EXPECT_EQ((*recording)->refused(), 0u);
+        const std::size_t count = frames_in(**recording);
+        EXPECT_GE(count, before) << n;
+        EXPECT_EQ(count_equal(**recording, messages), count) << n;
+        before = count;
+        counts.insert(count);
+    }
+    EXPECT_EQ(before, messages.size());
+    EXPECT_GE(counts.size(), 5u) << "there are too few clusters";
+    EXPECT_GT(opened, whole.size() / 2);
+}
+
+TEST(Recording, DamagedAnywhereNeverBreaksTheReader) {
+    const testing::TemporaryFolder folder;
+    record_all(folder.path() / "whole.mkv", 2, generated(2, 6, 60));
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+    std::minstd_rand random(3);
+    Bytes payload;
+    for (int i = 0; i < 20'000; ++i) {
+        Bytes damaged = whole;
+        for (unsigned k = 0; k <= random() % 4; ++k)
+            damaged[random() % damaged.size()] = std::byte(random() >> 16);
+        const auto recording = RecordingFile::read(std::make_unique<MemorySource>(damaged));
+        if (!recording)
+            continue;
+        for (const CameraContent& camera : (*recording)->cameras())
+            for (const RecordedFrame& frame : camera.depth.frames)
+                ASSERT_EQ((*recording)->read_payload(frame, payload), Status::ok);
+    }
+}
+
+TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "killed.mkv";
+    int pipe_ends[2];
+    ASSERT_EQ(pipe(pipe_ends), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        // Two cameras at a hundred frames a second, until the end.
+        Recorder recorder(path, cameras(2));
+        for (FrameNumber n = 0;; ++n) {
+            for (int c = 0; c < 2; ++c) {
+                const Message m = message(depth_stream(CameraId(c)), n, n * 10ms, 20'000, n);
+                recorder.add(m.header, m.bytes);
+            }
+            if (write(pipe_ends[1], &n, sizeof(n)) < 0)
+                _exit(1);
+            usleep(10'000);
+        }
+    }
+    FrameNumber last = 0;
+    while (last < 150)
+        ASSERT_EQ(read(pipe_ends[0], &last, sizeof(last)), ssize_t(sizeof(last)));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+
+    const auto recording = RecordingFile::open(path);
+    EXPECT_FALSE(recording->complete());
+    for (const CameraContent& camera : recording->cameras()) {
+        const auto& frames = camera.depth.frames;
+        ASSERT_FALSE(frames.empty());
+        EXPECT_GE(frames.back().header.frame + 100, last);
+        EXPECT_EQ(frames.size(), frames.back().header.frame + 1u) << "there are gaps";
+    }
+}
+
+// Stands for a full disk: the system lets the file grow to this size only.
+class SizeLimit {
+public:
+    explicit SizeLimit(rlim_t bytes) {
+        signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+private:
+    rlimit before_;
+};
+
+TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "full.mkv";
+    const auto messages = generated(1, 90, 10'000);
+    std::size_t taken = 0;
+    {
+        const SizeLimit limit(500'000);
+        Recorder recorder(path, cameras(1));
+        for (const Message& m : messages) {
+            taken += recorder.add(m.header, m.bytes);
+            usleep(5'000);
+        }
+        recorder.finish();
+        const auto figures = recorder.figures();
+        EXPECT_NE(figures.problem.find("ends here; what came before is kept"), std::string::npos)
+            << figures.problem;
+        EXPECT_FALSE(recorder.add(messages[0].header, messages[0].bytes));
+        EXPECT_EQ(figures.bytes, fs::file_size(path));
+        EXPECT_LE(figures.bytes, 500'000u);
+    }
+    EXPECT_LT(taken, messages.size());
+    const auto recording = RecordingFile::open(path);
+    EXPECT_TRUE(recording->complete()) << "it was closed, if early";
+    EXPECT_GT(frames_in(*recording), 10u);
+    EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
+}
+
+TEST(Recording, WhereNoFileCanBeIsOneSentence) {
+    try {
+        Recorder recorder("/nowhere/at/all.mkv", cameras(1));
+        FAIL();
+    } catch (const Error& problem) {
+        EXPECT_STREQ(problem.what(),
+                     "Cannot create '/nowhere/at/all.mkv': No such file or directory.");
+    }
+}
+
+TEST(Recording, OtherFilesAreRefusedWithOneSentence) {
+    const testing::TemporaryFolder folder;
+    const auto sentence = [&](std::string_view content) {
+        const fs::path path = folder.path() / "x";
+        std::ofstream(path, std::ios::binary)
+            .write(content.data(), std::streamsize(content.size()));
+        try {
+            (void)RecordingFile::open(path);
+        } catch (const Error& problem) {
+            return std::string(problem.what()).substr(path.string().size() + 2);
+        }
+        return std::string("opened");
+    };
+    EXPECT_EQ(sentence(""), " ends before its first frame.");
+    EXPECT_EQ(sentence("RIFF....AVI LIST"), " is not a recording: it is no Matroska file.");
+}
+
+}  // namespace
+}  // namespace theatron::record
