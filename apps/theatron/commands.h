@@ -10,6 +10,8 @@ namespace theatron::app {
 void add_host_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_record_command(CLI::App& app);
+void add_inspect_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_demo_command(CLI::App& app);
 

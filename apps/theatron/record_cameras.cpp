@@ -15,6 +15,9 @@ constexpr Duration first_frame_patience = std::chrono::seconds(5);
 // An encoder may still have the last frame of a camera that has ended.
 constexpr Duration encoding_patience = std::chrono::milliseconds(500);
 
+// A recording wants every frame: half a second of them may wait for the encoder.
+constexpr std::size_t waiting_frames = 15;
+
 constexpr SettingId depth_setting{1}, color_setting{2};
 
 record::RecordedCamera describe(CameraId id, const capture::CameraInfo& info,
@@ -52,7 +55,7 @@ public:
             };
             events.state = [this](wire::CameraState state) { on_state(std::move(state)); };
             lanes_.push_back(std::make_unique<send::CameraLane>(
-                CameraId(lanes_.size()), std::move(camera), std::move(events)));
+                CameraId(lanes_.size()), std::move(camera), std::move(events), waiting_frames));
         }
     }
 

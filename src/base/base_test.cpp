@@ -63,6 +63,16 @@ TEST(NewestSlot, KeepsOnlyTheNewest) {
     EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), std::nullopt);
 }
 
+TEST(NewestSlot, WithRoomForMoreDropsTheOldest) {
+    NewestSlot<int> slot(2);
+    EXPECT_FALSE(slot.put(1));
+    EXPECT_FALSE(slot.put(2));
+    EXPECT_TRUE(slot.put(3));
+    EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), 2);
+    EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), 3);
+    EXPECT_EQ(slot.take(std::chrono::milliseconds(0)), std::nullopt);
+}
+
 TEST(Statistics, PercentilesOfAWindow) {
     SampleWindow window(4);
     for (const double v : {9.0, 1.0, 2.0, 3.0, 4.0})

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hand-over between two threads when only the newest value counts.
+// The hand-over between two threads when the newest values count.
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 namespace theatron {
 
-// Holds at most one value. put() replaces an untaken one; take() waits.
+// Holds at most `capacity` values, usually one. put() replaces the oldest
+// untaken one if there is no room; take() waits.
 template <class T>
 class NewestSlot {
 public:
+    explicit NewestSlot(std::size_t capacity = 1) : capacity_(capacity) {}
+
     // Returns true if an untaken value was replaced, that is, dropped.
     bool put(T value) {
         bool replaced;
         {
             const std::lock_guard lock(mutex_);
-            replaced = value_.has_value();
-            value_ = std::move(value);
+            replaced = values_.size() == capacity_;
+            if (replaced)
+                values_.pop_front();
+            values_.push_back(std::move(value));
         }
         changed_.notify_one();
         return replaced;
@@ -29,9 +36,13 @@ public:
     template <class D>
     std::optional<T> take(D timeout) {
         std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, timeout, [&] { return value_ || closed_ || woken_; });
+        changed_.wait_for(lock, timeout, [&] { return !values_.empty() || closed_ || woken_; });
         woken_ = false;
-        return std::exchange(value_, std::nullopt);
+        if (values_.empty())
+            return std::nullopt;
+        std::optional<T> oldest = std::move(values_.front());
+        values_.pop_front();
+        return oldest;
     }
 
     // Makes a waiting take() return at once, empty-handed if nothing is there.
@@ -58,7 +69,8 @@ public:
 private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::optional<T> value_;
+    std::deque<T> values_;
+    const std::size_t capacity_;
     bool closed_ = false;
     bool woken_ = false;
 };

@@ -13,19 +13,23 @@ struct Mode {
     Size picture;
     Size sensor;
     int left = 0, top = 0;
+    const char* name;
 };
 
 constexpr Size depth_sensor{1024, 1024};
 constexpr Mode depth_modes[] = {
-    {{320, 288}, {512, 512}, 96, 90},      // NFOV 2x2 binned
-    {{640, 576}, {1024, 1024}, 192, 180},  // NFOV unbinned
-    {{512, 512}, {512, 512}, 0, 0},        // WFOV 2x2 binned
-    {{1024, 1024}, {1024, 1024}, 0, 0},    // WFOV unbinned
+    {{320, 288}, {512, 512}, 96, 90, "NFOV_2X2BINNED"},
+    {{640, 576}, {1024, 1024}, 192, 180, "NFOV_UNBINNED"},
+    {{512, 512}, {512, 512}, 0, 0, "WFOV_2X2BINNED"},
+    {{1024, 1024}, {1024, 1024}, 0, 0, "WFOV_UNBINNED"},
 };
 constexpr Mode color_modes[] = {
-    {{1280, 720}, {1280, 960}, 0, 120},   {{1920, 1080}, {1920, 1440}, 0, 180},
-    {{2560, 1440}, {2560, 1920}, 0, 240}, {{2048, 1536}, {2048, 1536}, 0, 0},
-    {{3840, 2160}, {3840, 2880}, 0, 360}, {{4096, 3072}, {4096, 3072}, 0, 0},
+    {{1280, 720}, {1280, 960}, 0, 120, "MJPG_720P"},
+    {{1920, 1080}, {1920, 1440}, 0, 180, "MJPG_1080P"},
+    {{2560, 1440}, {2560, 1920}, 0, 240, "MJPG_1440P"},
+    {{2048, 1536}, {2048, 1536}, 0, 0, "MJPG_1536P"},
+    {{3840, 2160}, {3840, 2880}, 0, 360, "MJPG_2160P"},
+    {{4096, 3072}, {4096, 3072}, 0, 0, "MJPG_3072P"},
 };
 
 // The radius that the SDK takes where the factory could not measure one, about
@@ -149,6 +153,56 @@ ParsedCalibration parse_azure_calibration(std::string_view text, Size depth, Siz
     if (!fields.problem().empty())
         return refused(fields.problem());
     return {.calibration = calibration, .problem = {}};
+}
+
+AzureDescription describe_as_azure(const Calibration& calibration) {
+    const auto sensor = [](const char* location, const CameraModel& model, const Mode& mode,
+                           Size whole, const Pose& camera_from_device) {
+        const auto [width, height] = mode.sensor;
+        const Mat3 r = matrix_from_quat(camera_from_device.rotation);
+        const Vec3 t = camera_from_device.translation;
+        // No limit is more than any lens sees.
+        constexpr double unlimited = 100;
+        return Json{{"Intrinsics",
+                     {{"ModelParameterCount", 14},
+                      {"ModelParameters",
+                       {(model.cx + mode.left + 0.5) / width, (model.cy + mode.top + 0.5) / height,
+                        model.fx / width, model.fy / height, model.k[0], model.k[1], model.k[2],
+                        model.k[3], model.k[4], model.k[5], 0, 0, model.p2, model.p1}},
+                      {"ModelType", "CALIBRATION_LensDistortionModelBrownConrady"}}},
+                    {"Location", location},
+                    {"Purpose", "CALIBRATION_CameraPurposeUnknown"},
+                    {"MetricRadius", model.max_radius > 0 ? model.max_radius : unlimited},
+                    {"Rt",
+                     {{"Rotation",
+                       {r.m[0][0], r.m[0][1], r.m[0][2], r.m[1][0], r.m[1][1], r.m[1][2], r.m[2][0],
+                        r.m[2][1], r.m[2][2]}},
+                      {"Translation", {t.x, t.y, t.z}}}},
+                    {"SensorWidth", whole.width},
+                    {"SensorHeight", whole.height},
+                    {"Shutter", "CALIBRATION_ShutterTypeUndefined"},
+                    {"ThermalAdjustmentParams", {{"Params", Json::array()}}}};
+    };
+    AzureDescription result;
+    Json cameras = Json::array();
+    if (const auto mode = mode_of(depth_modes, calibration.depth.size)) {
+        result.depth_mode = mode->name;
+        cameras.push_back(
+            sensor("CALIBRATION_CameraLocationD0", calibration.depth, *mode, depth_sensor, {}));
+    }
+    constexpr Size color_sensor{4096, 3072};
+    if (const auto mode = mode_of(color_modes, calibration.color.size)) {
+        result.color_mode = mode->name;
+        cameras.push_back(sensor("CALIBRATION_CameraLocationPV0", calibration.color, *mode,
+                                 color_sensor, calibration.color_from_depth));
+    } else if (calibration.color.size == Size{}) {
+        result.color_mode = "OFF";
+    }
+    result.calibration =
+        Json{{"CalibrationInformation",
+              {{"Cameras", std::move(cameras)}, {"InertialSensors", Json::array()}}}}
+            .dump();
+    return result;
 }
 
 }  // namespace theatron::capture

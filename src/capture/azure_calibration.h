@@ -9,6 +9,7 @@
 // (Azure-Kinect-Sensor-SDK, mode_specific_calibration.c).
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "capture/json_fields.h"
@@ -21,5 +22,15 @@ bool looks_like_azure_calibration(std::string_view text);
 // For depth pictures of size `depth` and colour pictures of size `color`
 // (0 x 0: no colour), which name the modes. Safe for untrusted input.
 ParsedCalibration parse_azure_calibration(std::string_view text, Size depth, Size color);
+
+// What an Azure Kinect would carry whose calibration is `calibration`: the text
+// that parse_azure_calibration reads as that again, and its modes' names as
+// recordings give them. Empty names: no Azure Kinect gives pictures of that size.
+struct AzureDescription {
+    std::string calibration;
+    std::string depth_mode;  // "NFOV_UNBINNED"
+    std::string color_mode;  // "MJPG_720P", or "OFF"
+};
+AzureDescription describe_as_azure(const Calibration& calibration);
 
 }  // namespace theatron::capture

@@ -67,6 +67,25 @@ TEST(FolderCalibration, ReadsEveryField) {
     EXPECT_EQ(c.room_from_camera, (Pose{{0, 0, 1, 0}, {0, 1.5, 0}}));
 }
 
+TEST(FolderCalibration, WhatIsWrittenReadsAsTheSame) {
+    Calibration calibration;
+    calibration.depth = {vga, 500.1, 501, 320.5, 1.0 / 3, {1, 2, 3, 4, 5, 6}, 0.1, 0.2, 1.5};
+    calibration.color = {hd, 900, 901, 640.5, 360};
+    calibration.color_from_depth = {{0, 0, 1, 0}, {-0.032, 0.1, 1e-9}};
+    calibration.depth_unit_mm = 0.125;
+    calibration.room_from_camera = {{0, 1, 0, 0}, {3, 1.25, -2}};
+    calibration.registered = true;
+    const auto again = parse_folder_calibration(write_folder_calibration(calibration), vga, hd);
+    EXPECT_EQ(again.problem, "");
+    EXPECT_EQ(again.calibration, calibration);
+
+    Calibration depth_only;
+    depth_only.depth = pinhole(vga, 60);
+    const auto alone = parse_folder_calibration(write_folder_calibration(depth_only), vga, {});
+    EXPECT_EQ(alone.problem, "");
+    EXPECT_EQ(alone.calibration, depth_only);
+}
+
 TEST(FolderCalibration, ColorWithoutCameraIsAlignedWithDepth) {
     Json file = our_file();
     file.erase("color");
@@ -162,6 +181,34 @@ TEST(AzureCalibration, PosesAreBetweenTheCameras) {
     EXPECT_EQ(pose().translation, (Vec3{-0.032, 0, 0}));
     file["CalibrationInformation"]["Cameras"][0]["Rt"]["Translation"] = {0.001, 0, 0};
     EXPECT_NEAR(pose().translation.x, -0.033, 1e-12);
+}
+
+TEST(AzureCalibration, WhatIsDescribedReadsAsTheSame) {
+    Calibration calibration;
+    calibration.color = {hd, 611.8, 611.9, 639.3, 365.9, {1, 2, 3, 4, 5, 6}, 0.01, 0.02, 1.7};
+    calibration.color_from_depth = {rotation_about({1, 2, 3}, 0.1), {-0.032, -0.002, 0.004}};
+    for (const Size size : {Size{640, 576}, {320, 288}, {512, 512}, {1024, 1024}}) {
+        calibration.depth = {size, 504.6, 504.7, 332.8, 288, {6, 5, 4, 3, 2, 1}, 0.1, 0.2, 1.74};
+        const AzureDescription azure = describe_as_azure(calibration);
+        EXPECT_EQ(azure.color_mode, "MJPG_720P");
+        const auto again = parse_azure_calibration(azure.calibration, size, hd);
+        ASSERT_EQ(again.problem, "");
+        const Calibration& c = again.calibration;
+        EXPECT_NEAR(c.depth.fx, calibration.depth.fx, 1e-9);
+        EXPECT_NEAR(c.depth.cx, calibration.depth.cx, 1e-9);
+        EXPECT_NEAR(c.depth.cy, calibration.depth.cy, 1e-9);
+        EXPECT_EQ(c.depth.k, calibration.depth.k);
+        EXPECT_EQ(c.depth.p1, calibration.depth.p1);
+        EXPECT_EQ(c.depth.max_radius, calibration.depth.max_radius);
+        EXPECT_NEAR(c.color.fy, calibration.color.fy, 1e-9);
+        EXPECT_NEAR(c.color.cy, calibration.color.cy, 1e-9);
+        EXPECT_NEAR(c.color_from_depth.rotation.x, calibration.color_from_depth.rotation.x, 1e-12);
+        EXPECT_EQ(c.color_from_depth.translation, calibration.color_from_depth.translation);
+    }
+    calibration.depth.size = vga;
+    EXPECT_EQ(describe_as_azure(calibration).depth_mode, "");
+    calibration.color = {};
+    EXPECT_EQ(describe_as_azure(calibration).color_mode, "OFF");
 }
 
 TEST(AzureCalibration, SaysWhatIsWrong) {

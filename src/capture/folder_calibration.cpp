@@ -2,6 +2,7 @@
 #include "capture/folder_calibration.h"
 
 #include <cstdlib>
+#include <tuple>
 
 #include "capture/azure_calibration.h"
 
@@ -91,6 +92,36 @@ ParsedCalibration parse_folder_calibration(std::string_view text, Size depth, Si
         calibration.registered = true;
     }
     return checked(fields, calibration);
+}
+
+std::string write_folder_calibration(const Calibration& calibration) {
+    const auto camera = [](const CameraModel& m) {
+        return nlohmann::ordered_json{{"width", m.size.width},
+                                      {"height", m.size.height},
+                                      {"fx", m.fx},
+                                      {"fy", m.fy},
+                                      {"cx", m.cx},
+                                      {"cy", m.cy},
+                                      {"k", m.k},
+                                      {"p1", m.p1},
+                                      {"p2", m.p2},
+                                      {"max_radius", m.max_radius}};
+    };
+    const auto pose = [](const Pose& p) {
+        const auto& [q, t] = std::tie(p.rotation, p.translation);
+        return nlohmann::ordered_json{{"quaternion", {q.w, q.x, q.y, q.z}},
+                                      {"translation", {t.x, t.y, t.z}}};
+    };
+    nlohmann::ordered_json json;
+    json["depth"] = camera(calibration.depth);
+    if (calibration.color.size != Size{}) {
+        json["color"] = camera(calibration.color);
+        json["color_from_depth"] = pose(calibration.color_from_depth);
+    }
+    json["depth_unit_mm"] = calibration.depth_unit_mm;
+    if (calibration.registered)
+        json["room_from_camera"] = pose(calibration.room_from_camera);
+    return json.dump(2) + "\n";
 }
 
 ParsedCalibration parse_intrinsics_matrix(std::string_view text, Size depth, Size color) {

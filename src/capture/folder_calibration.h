@@ -3,6 +3,7 @@
 // All functions are safe for untrusted input.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "capture/json_fields.h"
@@ -17,6 +18,9 @@ ParsedCalibration parse_folder_calibration(std::string_view json, Size depth, Si
 // Reads camera-intrinsics.txt: the nine numbers of a pinhole camera's matrix,
 // row by row. Colour is aligned with depth.
 ParsedCalibration parse_intrinsics_matrix(std::string_view text, Size depth, Size color);
+
+// The text of a calibration.json that reads as `calibration` again.
+std::string write_folder_calibration(const Calibration& calibration);
 
 // What is assumed where nothing is known.
 Calibration default_calibration(Size depth, Size color);

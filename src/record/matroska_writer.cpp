@@ -133,22 +133,6 @@ void render_info(std::int64_t duration_us, std::int64_t date_ns, Bytes& out) {
     render(info, out);
 }
 
-// The BITMAPINFOHEADER of V_MS/VFW/FOURCC tracks.
-Bytes bitmap_info(const Track& track) {
-    Bytes bytes;
-    ByteWriter out(bytes);
-    out.put(std::uint32_t(40));
-    out.put(std::int32_t(track.width));
-    out.put(std::int32_t(track.height));
-    out.put(std::uint16_t(1));
-    out.put(std::uint16_t(16));
-    out.put(track.uncompressed_fourcc);
-    out.put(std::uint32_t(track.width * track.height * 2));
-    for (int i = 0; i < 4; ++i)
-        out.put(std::uint32_t(0));
-    return bytes;
-}
-
 void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
     Empty<KaxTracks> tracks;
     for (const Track& track : layout.tracks) {
@@ -161,9 +145,7 @@ void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
         if (!track.name.empty())
             add_unicode<KaxTrackName>(entry, track.name);
         add_text<KaxCodecID>(entry, track.codec_id);
-        if (track.uncompressed_fourcc != 0)
-            add_bytes<KaxCodecPrivate>(entry, bitmap_info(track));
-        else if (!track.codec_private.empty())
+        if (!track.codec_private.empty())
             add_bytes<KaxCodecPrivate>(entry, track.codec_private);
         if (track.frames_per_second > 0)
             add_number<KaxTrackDefaultDuration>(
@@ -178,11 +160,6 @@ void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
         auto& video = add<KaxTrackVideo>(entry);
         add_number<KaxVideoPixelWidth>(video, std::uint64_t(track.width));
         add_number<KaxVideoPixelHeight>(video, std::uint64_t(track.height));
-        if (track.uncompressed_fourcc != 0) {
-            std::byte fourcc[4];
-            store_le(fourcc, track.uncompressed_fourcc);
-            add_bytes<KaxVideoColourSpace>(video, fourcc);
-        }
     }
     render(tracks, out);
 }
@@ -209,11 +186,14 @@ void render_tags(const std::vector<Tag>& tags, Bytes& out) {
     for (const Tag& tag : tags) {
         auto& entry = add<KaxTag>(list);
         auto& targets = add<KaxTagTargets>(entry);
-        add_number<KaxTagTargetTypeValue>(targets, 50);
-        if (tag.track != 0)
+        if (tag.track != 0) {
+            add_text<KaxTagTargetType>(targets, "TRACK");
             add_number<KaxTagTrackUID>(targets, std::uint64_t(tag.track));
-        if (tag.attachment_uid != 0)
+        }
+        if (tag.attachment_uid != 0) {
+            add_text<KaxTagTargetType>(targets, "ATTACHMENT");
             add_number<KaxTagAttachmentUID>(targets, tag.attachment_uid);
+        }
         auto& simple = add<KaxTagSimple>(entry);
         add_unicode<KaxTagName>(simple, tag.name);
         add_unicode<KaxTagString>(simple, tag.value);

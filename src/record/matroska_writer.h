@@ -26,8 +26,6 @@ struct Track {
     int width = 0, height = 0;
     double frames_per_second = 0;  // 0: not said
     bool shown = true;             // a player that plays one track may choose this one
-    // Colour bytes of an uncompressed track ("b16g"); 0: none.
-    std::uint32_t uncompressed_fourcc = 0;
 };
 
 struct Attachment {

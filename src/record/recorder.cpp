@@ -33,13 +33,15 @@ MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras) {
         track.shown = !is_depth(id);
         layout.tracks.push_back(std::move(track));
     };
-    for (const RecordedCamera& camera : cameras) {
-        add(camera, depth_stream(camera.id), camera.depth, depth_codec_id);
+    // What players can play comes first.
+    for (const RecordedCamera& camera : cameras)
         if (camera.color) {
             const bool jpeg = camera.color->codec.starts_with("jpeg");
             add(camera, color_stream(camera.id), *camera.color,
                 jpeg ? jpeg_codec_id : color_codec_id);
         }
+    for (const RecordedCamera& camera : cameras) {
+        add(camera, depth_stream(camera.id), camera.depth, depth_codec_id);
         layout.attachments.push_back(
             {calibration_name(camera.id), calibration_mime_type, camera.calibration});
     }

@@ -46,8 +46,13 @@ struct CameraLane::Encoders {
     Bytes scratch;  // depth is encoded here before its size is known
 };
 
-CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events)
-    : id_(id), camera_(std::move(camera)), info_(camera_->info()), events_(std::move(events)) {
+CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events,
+                       std::size_t waiting_frames)
+    : id_(id),
+      camera_(std::move(camera)),
+      info_(camera_->info()),
+      events_(std::move(events)),
+      newest_(waiting_frames) {
     for (const char* stage : {"capture", "queue", "depth_encode", "color_encode"})
         stages_.emplace(stage, SampleWindow(kept_samples));
     encoding_ = std::thread([this] { encode(); });

@@ -61,8 +61,10 @@ public:
         std::function<void(wire::CameraState)> state;
     };
 
-    // Takes over `camera` and starts at once.
-    CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events);
+    // Takes over `camera` and starts at once. `waiting_frames`: how many may wait
+    // for the encoder; one for the least age, more for the fewest drops.
+    CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events,
+               std::size_t waiting_frames = 1);
     ~CameraLane();
 
     CameraId id() const { return id_; }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exports into folders: PLY points, and the pictures of folder:DIR.
+#include <cstdio>
+#include <deque>
+#include <map>
+
+#include "base/error.h"
+#include "capture/folder_calibration.h"
+#include "export_formats.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "geometry/ply.h"
+#include "video/jpeg_native.h"
+
+namespace theatron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string numbered(std::size_t number, const char* ending) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%05zu%s", number, ending);
+    return text;
+}
+
+fs::path make_folder(const fs::path& folder) {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem)
+        throw Error("Cannot make the folder '" + folder.string() + "': " + problem.message() + ".");
+    return folder;
+}
+
+// Of one camera: the folder itself.
+fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size_t camera) {
+    return source.cameras.size() == 1 ? folder : folder / ("camera-" + std::to_string(camera));
+}
+
+class PointMaker {
+public:
+    explicit PointMaker(const Calibration& calibration)
+        : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {}
+
+    void append(const Frame& frame, std::vector<ColoredPoint>& out) {
+        const ColorImage* color = &frame.color.pixels;
+        if (frame.color.is_jpeg()) {
+            if (jpeg_.decompress(frame.color.jpeg, color_) != Status::ok)
+                throw Error("A colour picture of the recording is damaged.");
+            color = &color_;
+        }
+        append_points(frame.depth.view(), rays_, color->view(), calibration_, out);
+    }
+
+    const Calibration& calibration() const { return calibration_; }
+
+private:
+    Calibration calibration_;
+    Image<Ray> rays_;
+    video::JpegDecompressor jpeg_;
+    ColorImage color_;
+};
+
+class ProgressOfAll {
+public:
+    explicit ProgressOfAll(const ExportSource& source) : report_(source.progress) {
+        for (const auto& camera : source.cameras)
+            frames_ += camera->frames();
+    }
+    void frame_done() {
+        ++done_;
+        if (report_)
+            report_("exporting", double(done_) / double(frames_));
+    }
+
+private:
+    const capture::Progress& report_;
+    std::size_t frames_ = 0, done_ = 0;
+};
+
+// One file for each moment, with all cameras that have a frame of it.
+std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
+    std::deque<PointMaker> makers;  // they stay where they are
+    for (const auto& camera : source.cameras)
+        makers.emplace_back(camera->info().calibration);
+    make_folder(folder);
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::vector<ColoredPoint> points;
+    for (std::size_t written = 0;; ++written) {
+        std::map<std::size_t, TimePoint> moments;  // of each camera's upcoming frame
+        for (std::size_t i = 0; i < source.cameras.size(); ++i)
+            if (source.cameras[i]->offset())
+                moments[i] = source.cameras[i]->upcoming().header.moment;
+        if (moments.empty())
+            return written;
+        TimePoint moment = moments.begin()->second;
+        for (const auto& [camera, other] : moments)
+            moment = std::min(moment, other);
+        points.clear();
+        for (const auto& [camera, other] : moments) {
+            if (other != moment)
+                continue;
+            const std::size_t first = points.size();
+            source.cameras[camera]->read(frame);
+            makers[camera].append(frame, points);
+            transform_points(makers[camera].calibration().room_from_camera,
+                             std::span(points).subspan(first));
+            progress.frame_done();
+        }
+        files::write_file(folder / numbered(written, ".ply"), encode_ply(points));
+    }
+}
+
+}  // namespace
+
+std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged) {
+    if (merged)
+        return export_merged_ply(source, folder);
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::vector<ColoredPoint> points;
+    std::size_t files = 0;
+    for (std::size_t i = 0; i < source.cameras.size(); ++i) {
+        capture::RecordedFrames& camera = *source.cameras[i];
+        const fs::path own = make_folder(folder_of(source, folder, i));
+        PointMaker maker(camera.info().calibration);
+        for (std::size_t n = 0; camera.offset(); ++n, ++files) {
+            camera.read(frame);
+            points.clear();
+            maker.append(frame, points);
+            files::write_file(own / numbered(n, ".ply"), encode_ply(points));
+            progress.frame_done();
+        }
+    }
+    return files;
+}
+
+std::size_t export_png(ExportSource& source, const fs::path& folder) {
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::size_t frames = 0;
+    for (std::size_t i = 0; i < source.cameras.size(); ++i) {
+        capture::RecordedFrames& camera = *source.cameras[i];
+        const fs::path own = folder_of(source, folder, i);
+        const fs::path depth = make_folder(own / "depth");
+        const Calibration& calibration = camera.info().calibration;
+        const bool has_color = calibration.color.size != Size{};
+        const fs::path color = has_color ? make_folder(own / "color") : fs::path();
+        files::write_file(own / "calibration.json",
+                          as_bytes(capture::write_folder_calibration(calibration)));
+        for (std::size_t n = 0; camera.offset(); ++n, ++frames) {
+            camera.read(frame);
+            files::write_png(depth / numbered(n, ".png"), frame.depth.view());
+            if (frame.color.is_jpeg())
+                files::write_file(color / numbered(n, ".jpg"), frame.color.jpeg);
+            else if (!frame.color.empty())
+                files::write_png(color / numbered(n, ".png"), frame.color.pixels.view());
+            progress.frame_done();
+        }
+    }
+    return frames;
+}
+
+}  // namespace theatron::app

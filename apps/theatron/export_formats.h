@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a recording can be turned into. All functions throw Error.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "capture/recording_camera.h"
+
+namespace theatron::app {
+
+// The cameras to export, each at its first frame.
+struct ExportSource {
+    std::vector<std::unique_ptr<capture::RecordedFrames>> cameras;
+    capture::Progress progress;
+};
+
+// Each returns how many files or frames it wrote.
+//
+// DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply; `merged`: one file for each
+// moment with the points of all cameras, in the room.
+std::size_t export_ply(ExportSource& source, const std::filesystem::path& folder, bool merged);
+// The layout of folder:DIR, for several cameras in DIR/camera-0 and so on.
+std::size_t export_png(ExportSource& source, const std::filesystem::path& folder);
+// An Azure Kinect's recording, of one camera.
+std::size_t export_k4a(ExportSource& source, const std::filesystem::path& file);
+
+}  // namespace theatron::app
