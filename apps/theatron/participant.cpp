@@ -43,7 +43,7 @@ Participant::Participant(Options options)
                          const std::lock_guard lock(shared_->mutex);
                          shared_->newest[frame->camera] = std::move(frame);
                      }
-                     shared_->changed.notify_all();
+                     announce();
                  },
                  [this](StreamId stream, SettingId setting) {
                      shared_->client->send_control(
@@ -75,6 +75,7 @@ void Participant::run() {
                 return;
             shared_->client = &client;
             shared_->clock = {};
+            shared_->status.round_trip = {};
         }
         const net::Client::End end = client.run();
 
@@ -91,14 +92,13 @@ void Participant::run() {
         }
         shared_->status.phase = refused ? Phase::refused : Phase::lost;
         shared_->status.problem = why;
-        shared_->changed.notify_all();
+        lock.unlock();
+        announce();
         if (refused)
             return;
-        if (news) {
-            lock.unlock();
+        if (news)
             remark(why + (was_joined ? " Reconnecting." : " Trying again."));
-            lock.lock();
-        }
+        lock.lock();
         if (shared_->changed.wait_for(lock, wait, [&] { return shared_->stopping; }))
             return;
         wait = std::min(2 * wait, longest_wait);
@@ -144,7 +144,7 @@ void Participant::on_control(ByteView message) {
             shared_->status.host_name = session_.welcome().host_name;
             const bool again = ++shared_->status.joins > 1;
             lock.unlock();
-            shared_->changed.notify_all();
+            announce();
             if (again)
                 remark("Connected again.");
             break;
@@ -280,6 +280,12 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
         shared_->depth_wish = depth;
     if (!color.empty())
         shared_->color_wish = color;
+}
+
+void Participant::announce() const {
+    shared_->changed.notify_all();
+    if (options_.news)
+        options_.news();
 }
 
 void Participant::remark(const std::string& text) const {

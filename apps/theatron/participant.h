@@ -28,6 +28,9 @@ public:
         // Told what a person should know: reconnecting, refused, a camera ended.
         // Called from the participant's thread.
         std::function<void(const std::string&)> remark;
+        // Told that a frame can be taken or the connection has changed. Called from
+        // the participant's thread.
+        std::function<void()> news;
     };
 
     // Begins to connect at once, on a thread of its own. Throws Error for a codec
@@ -75,6 +78,7 @@ private:
     void on_control(ByteView message);
     void on_camera_states();
     void on_tick();
+    void announce() const;
     void remark(const std::string& text) const;
 
     const Options options_;
