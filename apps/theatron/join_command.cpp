@@ -18,6 +18,7 @@
 #include "stop_signal.h"
 #include "video/color_codec.h"
 #include "viewer_scene.h"
+#include "window_viewer.h"
 
 namespace theatron::app {
 namespace {
@@ -35,6 +36,13 @@ struct Flags {
     double warmup = 0;
     double every = 0;
     bool json = false;
+    bool no_window = false;
+    std::string render_scale = "auto";
+
+    // Whoever asks for files or figures wants no window.
+    bool window() const {
+        return offscreen.empty() && depth_file.empty() && every <= 0 && !json && !no_window;
+    }
 };
 
 Size parse_size(const std::string& text) {
@@ -44,6 +52,17 @@ Size parse_size(const std::string& text) {
         !is_valid(size))
         throw Error("The size '" + text + "' is not WIDTHxHEIGHT, for example 1280x720.");
     return size;
+}
+
+// 0 for "auto".
+double parse_render_scale(const std::string& text) {
+    if (text == "auto")
+        return 0;
+    char* end = nullptr;
+    const double scale = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(scale >= 0.1 && scale <= 1))
+        throw Error("The render scale '" + text + "' is neither auto nor between 0.1 and 1.");
+    return scale;
 }
 
 // Draws what came, from one viewpoint, into files.
@@ -122,6 +141,16 @@ void run(const Flags& flags) {
     options.color_codec = color.setting.text;
     options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 
+    if (flags.window()) {
+        render::check_renderer_name(flags.renderer);
+        WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
+                             flags.renderer, parse_render_scale(flags.render_scale),
+                             flags.seconds});
+        catch_stop_signals();
+        viewer.run();
+        return;
+    }
+
     std::unique_ptr<OffscreenPicture> picture;
     if (!flags.offscreen.empty() || !flags.depth_file.empty())
         picture = std::make_unique<OffscreenPicture>(flags);
@@ -198,9 +227,11 @@ void add_join_command(CLI::App& app) {
     command->footer(
         "Depth codecs: " + join_names(codec::depth_codec_names()) +
         "\nColour codecs: " + join_names(video::color_codec_names()) +
-        "\n\nLines on standard input change codecs while it runs: 'depth rvl', 'color "
-        "jpeg:quality=60'.\n"
+        "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
+        "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change codecs: "
+        "'depth rvl',\n'color jpeg:quality=60'.\n"
         "\nExamples:\n"
+        "  theatron join LINK\n"
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
         "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
         "--json");
@@ -212,12 +243,13 @@ void add_join_command(CLI::App& app) {
     command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")
         ->capture_default_str();
     command->add_option("--offscreen", flags->offscreen,
-                        "Draw the last picture into this PNG file");
+                        "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,
                         "Write that picture's depth, in millimetres, into this 16-bit PNG file");
     command->add_option("--renderer", flags->renderer, join_names(render::renderer_names()))
         ->capture_default_str();
-    command->add_option("--size", flags->size, "Size of the picture")->capture_default_str();
+    command->add_option("--size", flags->size, "Size of the window or of the picture")
+        ->capture_default_str();
     command
         ->add_option("--view", flags->view,
                      "camera:N, or camera:N,yaw=DEGREES,pitch=DEGREES to look from beside it")
@@ -228,6 +260,12 @@ void add_join_command(CLI::App& app) {
     command->add_option("--every", flags->every,
                         "Print the figures as a JSON line every so many seconds");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
+    command->add_flag("--no-window", flags->no_window,
+                      "Receive and tell the figures, draw nothing");
+    command
+        ->add_option("--render-scale", flags->render_scale,
+                     "Share of the window's pixels that is drawn on each side: auto, or 0.1 to 1")
+        ->capture_default_str();
     command->callback([flags] { run(*flags); });
 }
 

@@ -44,7 +44,7 @@ Participant::Participant(Options options)
                          const std::lock_guard lock(shared_->mutex);
                          shared_->newest[frame->camera] = std::move(frame);
                      }
-                     shared_->changed.notify_all();
+                     announce();
                  },
                  [this](StreamId stream, SettingId setting) { request_key(stream, setting); }}),
       shared_(std::make_unique<Shared>()) {
@@ -73,6 +73,7 @@ void Participant::run() {
                 return;
             shared_->client = &client;
             shared_->clock = {};
+            shared_->status.round_trip = {};
         }
         const net::Client::End end = client.run();
 
@@ -89,14 +90,13 @@ void Participant::run() {
         }
         shared_->status.phase = refused ? Phase::refused : Phase::lost;
         shared_->status.problem = why;
-        shared_->changed.notify_all();
+        lock.unlock();
+        announce();
         if (refused)
             return;
-        if (news) {
-            lock.unlock();
+        if (news)
             remark(why + (was_joined ? " Reconnecting." : " Trying again."));
-            lock.lock();
-        }
+        lock.lock();
         if (shared_->changed.wait_for(lock, wait, [&] { return shared_->stopping; }))
             return;
         wait = std::min(2 * wait, longest_wait);
@@ -156,7 +156,7 @@ void Participant::on_control(ByteView message) {
             shared_->status.host_name = session_.welcome().host_name;
             const bool again = ++shared_->status.joins > 1;
             lock.unlock();
-            shared_->changed.notify_all();
+            announce();
             if (again)
                 remark("Connected again.");
             break;
@@ -301,6 +301,12 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
         shared_->depth_wish = depth;
     if (!color.empty())
         shared_->color_wish = color;
+}
+
+void Participant::announce() const {
+    shared_->changed.notify_all();
+    if (options_.news)
+        options_.news();
 }
 
 void Participant::remark(const std::string& text) const {

@@ -31,6 +31,9 @@ public:
         // If set, media goes here as it comes instead of being decoded. Called
         // from the participant's thread; the message is valid during the call.
         std::function<void(const wire::MediaHeader&, ByteView message)> media;
+        // Told that a frame can be taken or the connection has changed. Called from
+        // the participant's thread.
+        std::function<void()> news;
     };
 
     // Begins to connect at once, on a thread of its own. Throws Error for a codec
@@ -85,6 +88,7 @@ private:
     void on_media(ByteView message);
     void on_camera_states();
     void on_tick();
+    void announce() const;
     void remark(const std::string& text) const;
 
     const Options options_;

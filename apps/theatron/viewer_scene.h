@@ -2,11 +2,9 @@
 // What a participant sees, drawn offscreen: the newest frames of all cameras.
 #pragma once
 
-#include <map>
 #include <string>
 
-#include "participant.h"
-#include "render/cloud_scene.h"
+#include "live_scene.h"
 #include "render/offscreen_context_native.h"
 #include "view_choice.h"
 
@@ -16,19 +14,16 @@ namespace theatron::app {
 class ViewerScene {
 public:
     // Takes over what is new: cameras and frames.
-    void take(Participant& participant);
+    void take(Participant& participant) { (void)scene_.take(participant); }
 
-    bool has_picture() const { return !newest_.empty(); }
+    bool has_picture() const { return scene_.has_picture(); }
 
     // Throws Error if that camera gave nothing, or if the driver reported an error.
     render::Picture render(const ViewChoice& view, Size size, const std::string& renderer);
 
 private:
     render::OffscreenContext context_;
-    render::CloudScene scene_;
-    std::uint64_t generation_ = 0;
-    std::map<CameraId, Calibration> calibrations_;
-    std::map<CameraId, receive::CameraFramePtr> newest_;
+    LiveScene scene_;
 };
 
 }  // namespace theatron::app

@@ -149,8 +149,8 @@ class Session(unittest.TestCase):
     def test_bad_joins_are_refused_in_one_sentence(self):
         with host(self.state, self.camera) as h:
             link = h.greeting["link"]
-            self.refused("token is wrong", "join", link.replace("join=", "join=x"), "--seconds", "1")
-            self.refused("another certificate", "join", link[:-4] + "0000", "--seconds", "1")
+            self.refused("token is wrong", "join", link.replace("join=", "join=x"), "--seconds", "1", "--no-window")
+            self.refused("another certificate", "join", link[:-4] + "0000", "--no-window", "--seconds", "1")
             self.refused("'banana' does not exist", "join", link, "--depth-codec", "banana", "--seconds", "1")
             self.refused("no renderer", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
             self.refused("link", "join", "nonsense", "--seconds", "1")
@@ -166,7 +166,7 @@ class Session(unittest.TestCase):
             for noise in (b"GET / HTTP/1.1\r\n\r\n", b"\x16\x03\x01" + bytes(200), b""):
                 with socket.create_connection(("127.0.0.1", h.greeting["port"])) as stranger:
                     stranger.sendall(noise)
-            code, _, errors = run("join", h.greeting["link"], "--seconds", "0.5")
+            code, _, errors = run("join", h.greeting["link"], "--no-window", "--seconds", "0.5")
             self.assertEqual(code, 0, errors)
 
     @unittest.skipUnless((DATA / "table-person_640x360").exists(), "no recorded sequences beside the checkout")

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window tells in words: the facts at the bottom and the message in the middle.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "participant.h"
+#include "xr/overlay_native.h"
+
+namespace theatron::app {
+
+// What the window itself knows.
+struct OnScreen {
+    bool has_picture = false;
+    std::optional<double> age_ms;  // of what is shown, now
+    double drawn_per_second = 0;
+    std::string renderer;
+    double scale = 1;     // of the window's pixels, drawn on each side
+    std::string address;  // of the host
+};
+
+std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen);
+
+// Both empty while everything is as it should be.
+struct WindowMessage {
+    std::string message, detail;
+};
+WindowMessage window_message(const Participant::Status& status, const OnScreen& screen);
+
+}  // namespace theatron::app

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/desktop_window_native.h"
+
+#define SDL_MAIN_HANDLED
+#include <SDL.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+
+#include "base/error.h"
+#include "render/gl_errors_native.h"
+
+namespace theatron::xr {
+namespace {
+
+constexpr const char* instead =
+    " Use --offscreen FILE.png for a picture, or --no-window to receive without one.";
+
+[[noreturn]] void fail(const std::string& what) {
+    throw Error(what + " (" + SDL_GetError() + ")." + instead);
+}
+
+// SDL as a whole, for as long as the window.
+struct Library {
+    Library() {
+        SDL_SetMainReady();
+        // Ctrl-C is the program's own business.
+        SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+        // Through EGL also under X11, as everything else that draws here.
+        SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
+        // The window manager stays in charge, and may compose other windows over ours.
+        SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+        if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+            throw Error(std::string("There is no display to open a window on.") + instead);
+        const std::string driver = SDL_GetCurrentVideoDriver();
+        if (driver == "offscreen" || driver == "dummy") {
+            SDL_QuitSubSystem(SDL_INIT_VIDEO);
+            throw Error(std::string("There is no display to open a window on.") + instead);
+        }
+    }
+    ~Library() {
+        SDL_QuitSubSystem(SDL_INIT_VIDEO);
+        SDL_Quit();
+    }
+};
+
+std::optional<KeyPress> pressed(const SDL_Keysym& key) {
+    // Alt+Tab and the like belong to the desktop.
+    if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI))
+        return std::nullopt;
+    // Digits by their place: some keyboards need Shift for them.
+    if (key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_9)
+        return KeyPress{Action::view_camera, int(key.scancode) - int(SDL_SCANCODE_1)};
+    if (key.scancode >= SDL_SCANCODE_KP_1 && key.scancode <= SDL_SCANCODE_KP_9)
+        return KeyPress{Action::view_camera, int(key.scancode) - int(SDL_SCANCODE_KP_1)};
+    switch (key.sym) {
+        case SDLK_ESCAPE:
+            return KeyPress{Action::leave};
+        case SDLK_F1:
+        case SDLK_h:
+            return KeyPress{Action::help};
+        case SDLK_F11:
+            return KeyPress{Action::full_screen};
+        case SDLK_TAB:
+        case SDLK_m:
+            return KeyPress{Action::next_renderer};
+        case SDLK_c:
+            return KeyPress{Action::next_depth_codec};
+        case SDLK_v:
+            return KeyPress{Action::next_color_codec};
+        case SDLK_r:
+        case SDLK_HOME:
+            return KeyPress{Action::own_view};
+        default:
+            return std::nullopt;
+    }
+}
+
+// The keys that fly, by their place on the keyboard: WASD is a shape, not four letters.
+void read_held_keys(Steering& steering) {
+    if (SDL_GetModState() & (KMOD_CTRL | KMOD_ALT | KMOD_GUI))
+        return;
+    const Uint8* held = SDL_GetKeyboardState(nullptr);
+    const auto axis = [&](SDL_Scancode more, SDL_Scancode less) {
+        return double(held[more]) - double(held[less]);
+    };
+    steering.fly = {axis(SDL_SCANCODE_D, SDL_SCANCODE_A), axis(SDL_SCANCODE_E, SDL_SCANCODE_Q),
+                    axis(SDL_SCANCODE_W, SDL_SCANCODE_S)};
+    steering.fast = held[SDL_SCANCODE_LSHIFT] || held[SDL_SCANCODE_RSHIFT];
+}
+
+}  // namespace
+
+struct DesktopWindow::Parts {
+    Library library;
+    SDL_Window* window = nullptr;
+    SDL_GLContext context = nullptr;
+    Uint32 wake_event = 0;
+    std::atomic<bool> woken = false;
+    render::GlErrors errors;
+
+    ~Parts() {
+        if (context)
+            SDL_GL_DeleteContext(context);
+        if (window)
+            SDL_DestroyWindow(window);
+    }
+    double window_height() const {
+        int width = 0, height = 0;
+        SDL_GetWindowSize(window, &width, &height);
+        return std::max(height, 1);
+    }
+    void take(const SDL_Event& event, WindowInput& input);
+};
+
+DesktopWindow::DesktopWindow(const std::string& title, Size size)
+    : parts_(std::make_unique<Parts>()) {
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    // The clouds are drawn elsewhere and copied here.
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
+    parts_->window = SDL_CreateWindow(
+        title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
+        SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    if (!parts_->window)
+        fail("No window can be opened here");
+    SDL_SetWindowMinimumSize(parts_->window, 320, 240);
+    parts_->context = SDL_GL_CreateContext(parts_->window);
+    if (!parts_->context)
+        fail("The graphics driver offers no OpenGL ES 3 for a window");
+    // Where the driver cannot wait for the screen, the owner's own pace must do.
+    SDL_GL_SetSwapInterval(1);
+    parts_->wake_event = SDL_RegisterEvents(1);
+    parts_->errors.watch();
+}
+
+DesktopWindow::~DesktopWindow() = default;
+
+void DesktopWindow::wait(Duration timeout) {
+    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
+    if (ms > 0)
+        SDL_WaitEventTimeout(nullptr, int(ms));
+}
+
+void DesktopWindow::wake() {
+    if (parts_->woken.exchange(true))
+        return;
+    SDL_Event event{};
+    event.type = parts_->wake_event;
+    SDL_PushEvent(&event);
+}
+
+WindowInput DesktopWindow::poll() {
+    WindowInput input;
+    SDL_Event event;
+    while (SDL_PollEvent(&event))
+        parts_->take(event, input);
+    read_held_keys(input.steering);
+    return input;
+}
+
+void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
+    if (event.type == wake_event)
+        woken = false;
+    switch (event.type) {
+        case SDL_QUIT:
+            input.close = true;
+            break;
+        case SDL_WINDOWEVENT:
+            if (event.window.event == SDL_WINDOWEVENT_EXPOSED ||
+                event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
+                input.redraw = true;
+            break;
+        case SDL_KEYDOWN:
+            if (event.key.repeat == 0)
+                if (const auto key = pressed(event.key.keysym))
+                    input.keys.push_back(*key);
+            break;
+        case SDL_MOUSEMOTION: {
+            const double height = window_height();
+            const Vec2 way{event.motion.xrel / height, event.motion.yrel / height};
+            Vec2* drag = nullptr;
+            if (event.motion.state & SDL_BUTTON_LMASK)
+                drag = &input.steering.turn;
+            else if (event.motion.state & (SDL_BUTTON_RMASK | SDL_BUTTON_MMASK))
+                drag = &input.steering.slide;
+            if (drag)
+                *drag = {drag->x + way.x, drag->y + way.y};
+            break;
+        }
+        case SDL_MOUSEWHEEL: {
+            const double clicks = event.wheel.preciseY;
+            const bool flipped = event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED;
+            input.steering.approach += flipped ? -clicks : clicks;
+            break;
+        }
+        default:
+            break;
+    }
+}
+
+Size DesktopWindow::pixels() const {
+    Size size;
+    SDL_GL_GetDrawableSize(parts_->window, &size.width, &size.height);
+    return {std::max(size.width, 1), std::max(size.height, 1)};
+}
+
+double DesktopWindow::text_pixels() const {
+    constexpr double normal = 18;  // on a screen of 96 dots per inch
+    const double pixels_per_unit = pixels().height / parts_->window_height();
+    float dpi = 0;
+    const int display = SDL_GetWindowDisplayIndex(parts_->window);
+    if (SDL_GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0)
+        dpi = 96;
+    // On a wall a large picture is looked at from far away, whatever its dots per inch. Screens
+    // lie about their size, so neither is believed beyond a factor of three.
+    const double scale =
+        std::max({pixels_per_unit, std::min(dpi / 96.0, 3.0), pixels().height / 1200.0});
+    return normal * std::clamp(scale, 1.0, 3.0);
+}
+
+Duration DesktopWindow::picture_time() const {
+    SDL_DisplayMode mode{};
+    const int display = SDL_GetWindowDisplayIndex(parts_->window);
+    if (SDL_GetCurrentDisplayMode(display, &mode) != 0 || mode.refresh_rate <= 0)
+        mode.refresh_rate = 60;
+    return seconds_to_duration(1.0 / mode.refresh_rate);
+}
+
+void DesktopWindow::set_title(const std::string& title) {
+    SDL_SetWindowTitle(parts_->window, title.c_str());
+}
+
+void DesktopWindow::toggle_full_screen() {
+    const bool full = SDL_GetWindowFlags(parts_->window) & SDL_WINDOW_FULLSCREEN_DESKTOP;
+    SDL_SetWindowFullscreen(parts_->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+}
+
+void DesktopWindow::present() {
+    SDL_GL_SwapWindow(parts_->window);
+}
+
+int DesktopWindow::gl_errors() const {
+    return parts_->errors.count();
+}
+
+std::string DesktopWindow::first_gl_error() const {
+    return parts_->errors.first();
+}
+
+}  // namespace theatron::xr

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window on the desktop that OpenGL ES 3 draws into, and what is done there.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "image/view.h"
+#include "xr/window_input.h"
+
+namespace theatron::xr {
+
+// One at a time. Use from the thread that made it, but for wake().
+class DesktopWindow {
+public:
+    // Opens the window and makes its GL context current. `size` is in the desktop's
+    // units, which are several pixels each on some screens. Throws Error where
+    // there is no display, or none that can do OpenGL ES 3.
+    DesktopWindow(const std::string& title, Size size);
+    // No object of the GL context may be left.
+    ~DesktopWindow();
+    DesktopWindow(const DesktopWindow&) = delete;
+    DesktopWindow& operator=(const DesktopWindow&) = delete;
+
+    // Returns when something was done at the window, wake() was called or the time
+    // is over.
+    void wait(Duration timeout);
+    // From any thread; also remembered for the next wait().
+    void wake();
+    // What was done since the last call.
+    WindowInput poll();
+
+    Size pixels() const;
+    // How large a text of normal size is on this screen, in pixels.
+    double text_pixels() const;
+    // The shortest time between two pictures that the screen can show.
+    Duration picture_time() const;
+
+    void set_title(const std::string& title);
+    void toggle_full_screen();
+
+    // Shows what was drawn. Waits for the screen where the driver does so.
+    void present();
+
+    // Errors that the GL driver reported, and the text of the first.
+    int gl_errors() const;
+    std::string first_gl_error() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::xr

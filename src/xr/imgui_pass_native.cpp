@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/imgui_pass_native.h"
+
+#include <cstddef>
+
+#include "base/error.h"
+
+namespace theatron::xr {
+namespace {
+
+// Places are in pixels from the top left corner.
+constexpr const char* vertex_shader = R"(
+uniform vec2 window;
+layout(location = 0) in vec2 place;
+layout(location = 1) in vec2 glyph;
+layout(location = 2) in vec4 color;
+out vec2 v_glyph;
+out vec4 v_color;
+void main() {
+    v_glyph = glyph;
+    v_color = color;
+    vec2 unit = place / window;
+    gl_Position = vec4(2.0 * unit.x - 1.0, 1.0 - 2.0 * unit.y, 0.0, 1.0);
+}
+)";
+
+// The texture holds how much of a pixel a letter covers; areas use one that is covered.
+constexpr const char* fragment_shader = R"(
+uniform sampler2D glyphs;
+in vec2 v_glyph;
+in vec4 v_color;
+out vec4 out_color;
+void main() {
+    out_color = vec4(v_color.rgb, v_color.a * texture(glyphs, v_glyph).r);
+}
+)";
+
+void attribute(GLuint location, GLint count, GLenum type, GLboolean normalised,
+               std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, count, type, normalised, sizeof(ImDrawVert),
+                          reinterpret_cast<const void*>(offset));
+}
+
+}  // namespace
+
+ImGuiPass::ImGuiPass() {
+    const GLuint shaders[] = {
+        render::compile_shader(GL_VERTEX_SHADER, {{"overlay.vert", vertex_shader}}),
+        render::compile_shader(GL_FRAGMENT_SHADER, {{"overlay.frag", fragment_shader}})};
+    for (const GLuint shader : shaders) {
+        glAttachShader(program_.name(), shader);
+        glDeleteShader(shader);
+    }
+    glLinkProgram(program_.name());
+    GLint linked = 0;
+    glGetProgramiv(program_.name(), GL_LINK_STATUS, &linked);
+    if (!linked)
+        throw Error("The graphics driver does not accept the shaders of the texts.");
+    window_uniform_ = glGetUniformLocation(program_.name(), "window");
+
+    glBindVertexArray(vertex_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+    attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
+    attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, uv));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ImDrawVert, col));
+    glBindVertexArray(0);
+}
+
+void ImGuiPass::upload_fonts() {
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    fonts_ = {};  // another size: the storage of a texture is final
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, fonts_.name());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, width, height);
+    render::set_sampling(GL_TEXTURE_2D, GL_LINEAR);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, pixels);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+void ImGuiPass::draw(const ImDrawData& data) {
+    const auto width = GLsizei(data.DisplaySize.x), height = GLsizei(data.DisplaySize.y);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_SCISSOR_TEST);
+
+    glUseProgram(program_.name());
+    glUniform2f(window_uniform_, data.DisplaySize.x, data.DisplaySize.y);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, fonts_.name());
+    glBindVertexArray(vertex_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(list.VtxBuffer.size_in_bytes()),
+                     list.VtxBuffer.Data, GL_STREAM_DRAW);
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(list.IdxBuffer.size_in_bytes()),
+                     list.IdxBuffer.Data, GL_STREAM_DRAW);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const ImVec4 clip = command.ClipRect;  // left, top, right, bottom
+            const auto left = GLint(clip.x), bottom = GLint(data.DisplaySize.y - clip.w);
+            glScissor(left, bottom, GLsizei(clip.z - clip.x), GLsizei(clip.w - clip.y));
+            const std::size_t first = command.IdxOffset * sizeof(ImDrawIdx);
+            glDrawElements(GL_TRIANGLES, GLsizei(command.ElemCount),
+                           sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(first));
+        }
+    }
+    glBindVertexArray(0);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+}
+
+}  // namespace theatron::xr

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/overlay_native.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "xr/font_native.h"
+#include "xr/imgui_pass_native.h"
+
+namespace theatron::xr {
+namespace {
+
+constexpr ImU32 bar_color = IM_COL32(12, 14, 18, 225);
+constexpr ImU32 panel_color = IM_COL32(12, 14, 18, 240);
+constexpr ImU32 veil_color = IM_COL32(8, 10, 14, 170);
+constexpr ImU32 text_color = IM_COL32(245, 247, 250, 255);
+constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
+constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
+constexpr ImU32 key_color = IM_COL32(140, 205, 255, 255);
+
+// Latin, Greek and Cyrillic letters, and the signs of our own texts.
+constexpr ImWchar glyphs[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x52f, 0x2010, 0x2027, 0};
+
+}  // namespace
+
+struct Overlay::Parts {
+    ImGuiContext* context = nullptr;
+    ImGuiPass pass;
+    double text_pixels = 0;  // for which the fonts are made
+    ImFont* small = nullptr;
+    ImFont* normal = nullptr;
+    ImFont* large = nullptr;
+
+    Parts() : context(ImGui::CreateContext()) {
+        ImGui::GetIO().IniFilename = nullptr;  // nothing is remembered in files
+    }
+    ~Parts() { ImGui::DestroyContext(context); }
+
+    void make_fonts(double pixels);
+    ImVec2 measure(ImFont* font, const std::string& text, float wrap = 0) const {
+        return font->CalcTextSizeA(font->FontSize, 1e9f, wrap, text.c_str());
+    }
+    void text(ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
+              float wrap = 0) const {
+        list->AddText(font, font->FontSize, {std::round(place.x), std::round(place.y)}, color,
+                      words.c_str(), nullptr, wrap);
+    }
+
+    // Each draws its part; all use what draw() has set up.
+    float facts(const std::vector<Fact>& facts) const;
+    void message(const std::string& message, const std::string& detail, float bottom) const;
+    void notice(const std::string& notice) const;
+    void help(float bottom) const;
+
+    ImDrawList* list = nullptr;
+    ImVec2 window;
+    float unit = 0;  // half the height of a normal text: all gaps are multiples of it
+};
+
+void Overlay::Parts::make_fonts(double pixels) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    const auto font = text_font();
+    const auto add = [&](double size) {
+        ImFontConfig config;
+        config.FontDataOwnedByAtlas = false;
+        config.OversampleH = 2;
+        // ImGui takes a writable pointer and leaves the data alone.
+        return atlas.AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), int(font.size()),
+                                          float(std::round(size)), &config, glyphs);
+    };
+    small = add(pixels * 0.8);
+    normal = add(pixels);
+    large = add(pixels * 1.9);
+    atlas.Build();
+    pass.upload_fonts();
+    text_pixels = pixels;
+}
+
+// From the left, in as many rows as they need. Returns how high they stand.
+float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
+    const float gap = 2.2f * unit, margin = 1.2f * unit;
+    const float row = small->FontSize + normal->FontSize + 0.9f * unit;
+    const auto width = [&](const Fact& fact) {
+        return std::max(measure(small, fact.label).x, measure(normal, fact.value).x);
+    };
+    std::vector<ImVec2> places;
+    float x = margin, y = 0;
+    for (const Fact& fact : facts) {
+        if (x > margin && x + width(fact) + margin > window.x) {
+            x = margin;
+            y += row;
+        }
+        places.push_back({x, y});
+        x += width(fact) + gap;
+    }
+    if (facts.empty())
+        return 0;
+    const float height = y + row + 0.5f * unit, top = window.y - height;
+    list->AddRectFilled({0, top}, window, bar_color);
+    for (std::size_t i = 0; i < facts.size(); ++i) {
+        const ImVec2 at{places[i].x, top + places[i].y + 0.5f * unit};
+        text(small, at, label_color, facts[i].label);
+        text(normal, {at.x, at.y + small->FontSize}, facts[i].warning ? warning_color : text_color,
+             facts[i].value);
+    }
+    return height;
+}
+
+void Overlay::Parts::message(const std::string& message, const std::string& detail,
+                             float bottom) const {
+    list->AddRectFilled({0, 0}, {window.x, window.y - bottom}, veil_color);
+    const float wrap = window.x * 0.8f;
+    const ImVec2 size = measure(large, message, wrap);
+    const ImVec2 more = measure(normal, detail, wrap);
+    const float width = std::max(size.x, more.x);
+    const float height = size.y + (detail.empty() ? 0 : unit + more.y);
+    const ImVec2 from{(window.x - width) / 2, (window.y - bottom - height) / 2};
+    const float padding = 2.5f * unit;
+    list->AddRectFilled({from.x - padding, from.y - padding},
+                        {from.x + width + padding, from.y + height + padding}, panel_color, unit);
+    text(large, {(window.x - size.x) / 2, from.y}, text_color, message, wrap);
+    text(normal, {(window.x - more.x) / 2, from.y + size.y + unit}, label_color, detail, wrap);
+}
+
+void Overlay::Parts::notice(const std::string& notice) const {
+    const float wrap = window.x * 0.8f, padding = unit;
+    const ImVec2 size = measure(normal, notice, wrap);
+    const ImVec2 from{(window.x - size.x) / 2, 2.5f * unit};
+    list->AddRectFilled({from.x - 2 * padding, from.y - padding},
+                        {from.x + size.x + 2 * padding, from.y + size.y + padding}, panel_color,
+                        unit);
+    text(normal, from, text_color, notice, wrap);
+}
+
+void Overlay::Parts::help(float bottom) const {
+    const float row = normal->FontSize + 0.9f * unit, gap = 3 * unit, padding = 2.5f * unit;
+    float keys = 0, meanings = 0;
+    for (const KeyHelp& line : key_help()) {
+        keys = std::max(keys, measure(normal, line.keys).x);
+        meanings = std::max(meanings, measure(normal, line.meaning).x);
+    }
+    const float width = keys + gap + meanings;
+    const float height = row * float(key_help().size()) - 0.9f * unit;
+    const ImVec2 from{(window.x - width) / 2, std::max(padding, (window.y - bottom - height) / 2)};
+    list->AddRectFilled({from.x - padding, from.y - padding},
+                        {from.x + width + padding, from.y + height + padding}, panel_color, unit);
+    float y = from.y;
+    for (const KeyHelp& line : key_help()) {
+        text(normal, {from.x, y}, key_color, line.keys);
+        text(normal, {from.x + keys + gap, y}, text_color, line.meaning);
+        y += row;
+    }
+}
+
+Overlay::Overlay() : parts_(std::make_unique<Parts>()) {}
+Overlay::~Overlay() = default;
+
+void Overlay::draw(const OverlayContent& content, Size window, double text_pixels) {
+    Parts& p = *parts_;
+    ImGui::SetCurrentContext(p.context);
+    if (p.text_pixels != text_pixels)
+        p.make_fonts(text_pixels);
+    p.window = {float(window.width), float(window.height)};
+    p.unit = float(text_pixels / 2);
+    ImGui::GetIO().DisplaySize = p.window;
+    ImGui::GetIO().DeltaTime = 1.0f / 60;  // nothing here moves by itself
+    ImGui::NewFrame();
+    p.list = ImGui::GetForegroundDrawList();
+
+    const float bottom = p.facts(content.facts);
+    if (!content.message.empty())
+        p.message(content.message, content.detail, bottom);
+    if (content.help)
+        p.help(bottom);
+    if (!content.notice.empty())
+        p.notice(content.notice);
+
+    ImGui::Render();
+    p.pass.draw(*ImGui::GetDrawData());
+}
+
+}  // namespace theatron::xr

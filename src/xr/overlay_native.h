@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The texts over the picture: a line of facts at the bottom, a message in the
+// middle, what was just chosen, and the help.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/view.h"
+#include "xr/window_input.h"
+
+namespace theatron::xr {
+
+// One field of the line at the bottom.
+struct Fact {
+    std::string label, value;
+    bool warning = false;
+    bool operator==(const Fact&) const = default;
+};
+
+struct OverlayContent {
+    std::vector<Fact> facts;
+    // Large in the middle, over a darkened picture, with a smaller line below.
+    std::string message, detail;
+    std::string notice;  // at the top, for what just happened
+    bool help = false;
+    bool operator==(const OverlayContent&) const = default;
+};
+
+// Needs the window's GL context current, also in the destructor.
+class Overlay {
+public:
+    // Throws Error where the driver does not accept the shaders.
+    Overlay();
+    ~Overlay();
+
+    // Draws into the window's framebuffer. `text_pixels` is the height of a normal text.
+    void draw(const OverlayContent& content, Size window, double text_pixels);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::xr

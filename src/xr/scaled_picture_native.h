@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of the scene that a window shows, drawn with as many pixels as there
+// is time for. It stays when only the texts over it change.
+#pragma once
+
+#include <memory>
+
+#include "render/cloud_scene.h"
+
+namespace theatron::xr {
+
+// Needs the window's GL context current, also in the destructor.
+class ScaledPicture {
+public:
+    ScaledPicture();
+    ~ScaledPicture();
+
+    // The cleared picture to draw into, with `scale` (above 0, at most 1) of the
+    // window's pixels on each side.
+    render::DrawTarget begin(Size window, double scale);
+
+    // Copies it into the whole window. Before the first begin() that is the
+    // background alone.
+    void show(Size window) const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::xr

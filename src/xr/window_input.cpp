@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/window_input.h"
+
+namespace theatron::xr {
+
+const std::vector<KeyHelp>& key_help() {
+    static const std::vector<KeyHelp> help = {
+        {"Left mouse button, drag", "Look from another side"},
+        {"Right mouse button, drag", "Move sideways, up and down"},
+        {"Mouse wheel", "Come closer, go further away"},
+        {"W A S D, Q E", "Walk; Q down, E up; faster with Shift"},
+        {"R or Home", "Back to the camera's own view"},
+        {"1 to 9", "View of camera 1 to 9"},
+        {"M or Tab", "Next way of drawing"},
+        {"C, V", "Next depth codec, next colour codec"},
+        {"F11", "Full screen"},
+        {"H or F1", "Show or hide this help"},
+        {"Esc", "Leave the session"},
+    };
+    return help;
+}
+
+}  // namespace theatron::xr

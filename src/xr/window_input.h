@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person did at the window, in plain values: no type of the window system.
+#pragma once
+
+#include <vector>
+
+#include "xr/navigation.h"
+
+namespace theatron::xr {
+
+// What a key asks for at the moment it is pressed. Those that fly are held, not pressed:
+// they are part of the steering.
+enum class Action {
+    leave,
+    help,
+    full_screen,
+    next_renderer,
+    next_depth_codec,
+    next_color_codec,
+    own_view,     // back to what the camera itself sees
+    view_camera,  // `camera` of the key press
+};
+
+struct KeyPress {
+    Action action{};
+    int camera = 0;  // counted from 0
+};
+
+struct WindowInput {
+    bool close = false;   // the window's own button, or the system wants us to end
+    bool redraw = false;  // the window was uncovered or has another size
+    std::vector<KeyPress> keys;
+    Steering steering;
+};
+
+// The keys as a person is told about them.
+struct KeyHelp {
+    const char* keys;
+    const char* meaning;
+};
+const std::vector<KeyHelp>& key_help();
+
+}  // namespace theatron::xr

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A screen that exists only in memory (Xvfb), with real key and mouse events (xdotool)."""
+import mmap
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import time
+
+
+class VirtualScreen:
+    def __init__(self, width, height):
+        self.folder = tempfile.TemporaryDirectory(prefix="theatron_screen_")
+        # The server picks a free display and says which.
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp",
+             "-fbdir", self.folder.name], pass_fds=[writer], stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader) as pipe:
+            self.display = ":" + pipe.readline().strip()
+        self.environment = {**os.environ, "DISPLAY": self.display, "SDL_VIDEODRIVER": "x11"}
+        self.environment.pop("WAYLAND_DISPLAY", None)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+        self.folder.cleanup()
+
+    def do(self, *arguments):
+        """One xdotool command line, for example key Tab."""
+        done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True)
+        return done.stdout.strip()
+
+    def title(self):
+        return self.do("search", "--name", "Theatron", "getwindowname")
+
+    def pixels(self, left, top, width, height):
+        """Rows of blue, green, red, unused bytes: what is on the screen now (an XWD file)."""
+        with open(pathlib.Path(self.folder.name) / "Xvfb_screen0", "rb") as file, \
+                mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as image:
+            header_size, = struct.unpack_from(">I", image, 0)
+            stride, = struct.unpack_from(">I", image, 48)
+            colors, = struct.unpack_from(">I", image, 76)
+            start = header_size + 12 * colors
+            return [image[start + y * stride + 4 * left:start + y * stride + 4 * (left + width)]
+                    for y in range(top, top + height)]
+
+
+def difference(one, other):
+    """Share of the pixels that differ visibly."""
+    total = sum(len(row) // 4 for row in one)
+    changed = sum(abs(a[4 * x + 1] - b[4 * x + 1]) > 12
+                  for a, b in zip(one, other) for x in range(len(a) // 4))
+    return changed / total
+
+
+def brightness(rows):
+    """Mean of the green values."""
+    return sum(sum(row[1::4]) for row in rows) / sum(len(row) // 4 for row in rows)
+
+
+def wait_until(condition, timeout=25, every=0.1):
+    """The condition's first true value; fails when there is none in time."""
+    deadline = time.monotonic() + timeout
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not in {timeout} s")
+        time.sleep(every)
