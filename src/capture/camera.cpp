@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "capture/folder_camera.h"
+#include "capture/k4a_camera.h"
 #include "capture/mkv_camera.h"
 
 namespace theatron::capture {
@@ -22,6 +23,7 @@ struct Kind {
 constexpr Kind kinds[] = {
     {"folder", folder_camera_help, open_folder_camera},
     {"mkv", mkv_camera_help, open_mkv_camera},
+    {"k4a", k4a_camera_help, open_k4a_camera},
 };
 
 // What the standard library throws, as a sentence too.
