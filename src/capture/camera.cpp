@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "capture/folder_camera.h"
+#include "capture/k4a_camera.h"
 #include "capture/mkv_camera.h"
 #include "capture/recording_camera.h"
 #include "capture/synthetic_camera.h"
@@ -26,6 +27,7 @@ constexpr Kind kinds[] = {
     {"mkv", mkv_camera_help, open_mkv_camera},
     {"recording", recording_camera_help, open_recording_camera},
     {"synthetic", synthetic_camera_help, open_synthetic_camera},
+    {"k4a", k4a_camera_help, open_k4a_camera},
 };
 
 // What the standard library throws, as a sentence too.

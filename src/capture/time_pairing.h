@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts the depth and the colour of one moment together, from two tracks that
-// are read one after the other. Pure: it knows times, not what they belong to.
+// are read one after the other, or that a camera delivers apart. Pure: it knows
+// times, not what they belong to.
 #pragma once
 
 #include <deque>
@@ -27,6 +28,12 @@ public:
     // A colour picture belongs to a depth picture if they are at most
     // `tolerance` apart: half of the usual time between frames.
     explicit TimePairing(Duration tolerance) : tolerance_(tolerance) {}
+
+    // For a live camera, where waiting costs age: a colour picture at most
+    // `certain` away is the nearest without a look at the next one, and at most
+    // `max_waiting` depth pictures wait for theirs.
+    TimePairing(Duration tolerance, Duration certain, std::size_t max_waiting)
+        : tolerance_(tolerance), certain_(certain), max_waiting_(max_waiting) {}
 
     // Times of one track must not fall; a picture older than the one before is ignored.
     void add_depth(Picture picture) { add(depth_, std::move(picture)); }
@@ -55,8 +62,8 @@ public:
     }
 
 private:
-    // A recording whose colour stops must not gather depth for ever.
-    static constexpr std::size_t max_waiting = 30;
+    // A track whose counterpart stops must not gather pictures for ever.
+    static constexpr std::size_t usual_max_waiting = 30;
 
     static Duration distance(Duration a, Duration b) { return a < b ? b - a : a - b; }
 
@@ -64,15 +71,21 @@ private:
         if (!track.empty() && picture.time < track.back().time)
             return;
         track.push_back(std::move(picture));
-        if (&track == &color_ && color_.size() > max_waiting)
+        if (&track == &color_ && color_.size() > usual_max_waiting)
             color_.pop_front();
     }
     bool is_decided() const {
-        return finished_ || depth_.size() > max_waiting ||
-               (!color_.empty() && color_.back().time >= depth_.front().time + tolerance_);
+        const Duration time = depth_.front().time;
+        for (const Picture& color : color_)
+            if (distance(color.time, time) <= certain_)
+                return true;
+        return finished_ || depth_.size() > max_waiting_ ||
+               (!color_.empty() && color_.back().time >= time + tolerance_);
     }
 
     Duration tolerance_;
+    Duration certain_{-1};  // none is, until the next has come
+    std::size_t max_waiting_ = usual_max_waiting;
     std::deque<Picture> depth_, color_;
     bool finished_ = false;
 };

@@ -86,5 +86,27 @@ TEST(TimePairing, IgnoresPicturesThatGoBackInTime) {
     EXPECT_EQ(paired({50, 20, 83}, {50, 10, 83}), (Pairs{{50, 50}, {83, 83}}));
 }
 
+TEST(TimePairing, ALiveCamerasPictureDoesNotWaitForTheNextColor) {
+    Pairing pairing(16ms, 8ms, 2);
+    add_depth(pairing, 33);
+    EXPECT_EQ(taken(pairing), Pairs{});
+    add_color(pairing, 40);
+    EXPECT_EQ(taken(pairing), (Pairs{{33, 40}}));
+    add_depth(pairing, 66);
+    add_color(pairing, 78);  // the next one could be nearer
+    EXPECT_EQ(taken(pairing), Pairs{});
+    add_color(pairing, 111);
+    EXPECT_EQ(taken(pairing), (Pairs{{66, 78}}));
+}
+
+TEST(TimePairing, ALiveCamerasPictureWaitsForFewOthers) {
+    Pairing pairing(16ms, 8ms, 2);
+    for (const int ms : {0, 33})
+        add_depth(pairing, ms);
+    EXPECT_EQ(taken(pairing), Pairs{});
+    add_depth(pairing, 66);
+    EXPECT_EQ(taken(pairing), (Pairs{{0, none}}));
+}
+
 }  // namespace
 }  // namespace theatron::capture

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// libk4a, loaded when a camera is asked for, and its handles with owners.
+#pragma once
+
+#include <memory>
+
+#include "capture/k4a_api.h"
+
+namespace theatron::capture::k4a {
+
+// The functions of the library. It stays loaded until the process ends: its
+// depth engine does not survive being unloaded.
+struct Library {
+#define THEATRON_K4A_MEMBER(type, name, arguments) type(*name) arguments = nullptr;
+    THEATRON_K4A_FUNCTIONS(THEATRON_K4A_MEMBER)
+#undef THEATRON_K4A_MEMBER
+};
+
+// Takes $THEATRON_K4A_LIBRARY or else the names under which the library is
+// installed. Throws Error where there is none, saying what to install.
+Library load_library();
+
+// Gives a handle back with the library's function for it.
+template <class Handle>
+struct GiveBack {
+    void (*function)(Handle*) = nullptr;
+    void operator()(Handle* handle) const { function(handle); }
+};
+using DevicePtr = std::unique_ptr<DeviceObject, GiveBack<DeviceObject>>;
+using CapturePtr = std::unique_ptr<CaptureObject, GiveBack<CaptureObject>>;
+using ImagePtr = std::unique_ptr<ImageObject, GiveBack<ImageObject>>;
+
+}  // namespace theatron::capture::k4a
