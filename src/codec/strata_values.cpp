@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/strata_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace theatron::codec::strata {
+namespace {
+
+constexpr std::size_t all_depths = 65536;
+
+std::vector<std::uint8_t> presence(DepthView depth) {
+    std::vector<std::uint8_t> present(all_depths);
+    for (int y = 0; y < depth.size.height; ++y) {
+        const std::uint16_t* row = depth.row(y);
+        for (int x = 0; x < depth.size.width; ++x)
+            present[row[x]] = 1;
+    }
+    present[0] = present[all_depths - 1] = 0;
+    return present;
+}
+
+Values listed(const std::vector<std::uint8_t>& present) {
+    Values values;
+    for (std::size_t v = 0; v < all_depths; ++v) {
+        if (present[v] != 0)
+            values.push_back(std::uint16_t(v));
+    }
+    return values;
+}
+
+// Each depth's rank, 0 where it has none.
+std::vector<std::uint16_t> rank_table(const Values& values) {
+    std::vector<std::uint16_t> ranks(all_depths);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        ranks[values[i]] = std::uint16_t(first_rank + i);
+    ranks[all_depths - 1] = 65535;
+    return ranks;
+}
+
+void map_pixels(const std::uint16_t* table, DepthView in, MutableDepthView out) {
+    for (int y = 0; y < in.size.height; ++y) {
+        const std::uint16_t* from = in.row(y);
+        std::uint16_t* to = out.row(y);
+        for (int x = 0; x < in.size.width; ++x)
+            to[x] = table[from[x]];
+    }
+}
+
+}  // namespace
+
+Values find_values(DepthView depth) {
+    Values values = listed(presence(depth));
+    if (values.empty() || values.size() > max_values)
+        return {};
+    // Bits that ranks save: those of the distance to the next value. A sample of
+    // the pixels says how often.
+    std::vector<std::uint16_t> ranks = rank_table(values);
+    double saved = 0;
+    for (int y = 1; y < depth.size.height; y += 4) {
+        for (int x = y % 3; x < depth.size.width; x += 3) {
+            const std::size_t i = std::size_t(ranks[depth.row(y)[x]]) - first_rank;
+            if (i + 1 < values.size())
+                saved += 12 * std::log2(double(values[i + 1] - values[i]));
+        }
+    }
+    const double pixels = double(depth.size.area());
+    const double cost = 10.0 * double(values.size());
+    if (saved < cost + 0.25 * pixels)
+        values.clear();
+    return values;
+}
+
+bool add_values(DepthView depth, Values& values) {
+    std::vector<std::uint8_t> known(all_depths);
+    for (const std::uint16_t v : values)
+        known[v] = 1;
+    known[0] = known[all_depths - 1] = 1;
+    bool complete = true;
+    for (int y = 0; y < depth.size.height; ++y) {
+        const std::uint16_t* row = depth.row(y);
+        std::uint8_t all = 1;
+        for (int x = 0; x < depth.size.width; ++x)
+            all &= known[row[x]];
+        if (all != 0)
+            continue;
+        complete = false;
+        for (int x = 0; x < depth.size.width; ++x)
+            known[row[x]] = 1;
+    }
+    if (complete)
+        return true;
+    known[0] = known[all_depths - 1] = 0;
+    values = listed(known);
+    return values.size() <= max_values;
+}
+
+void put_values(const Values& before, const Values& values, SideWriter& side) {
+    NumberModel counts, gaps;
+    Values added;
+    std::set_difference(values.begin(), values.end(), before.begin(), before.end(),
+                        std::back_inserter(added));
+    counts.put(unsigned(added.size()), side);
+    unsigned last = 0;
+    for (const std::uint16_t v : added) {
+        gaps.put(v - last - 1, side);
+        last = v;
+    }
+}
+
+bool get_values(const Values& before, Values& values, SideReader& side) {
+    NumberModel counts, gaps;
+    const unsigned count = counts.get(side);
+    if (count + before.size() > max_values)
+        return false;
+    Values added;
+    unsigned last = 0;
+    for (unsigned i = 0; i < count; ++i) {
+        last += gaps.get(side) + 1;
+        if (last >= all_depths - 1)
+            return false;
+        added.push_back(std::uint16_t(last));
+    }
+    values.clear();
+    std::set_union(before.begin(), before.end(), added.begin(), added.end(),
+                   std::back_inserter(values));
+    return values.size() == before.size() + count;
+}
+
+void to_ranks(DepthView depth, const Values& values, MutableDepthView ranks) {
+    map_pixels(rank_table(values).data(), depth, ranks);
+}
+
+void from_ranks(const Values& values, MutableDepthView depth) {
+    std::vector<std::uint16_t> table(all_depths);
+    std::copy(values.begin(), values.end(), table.begin() + first_rank);
+    table[all_depths - 1] = 65535;
+    map_pixels(table.data(), depth, depth);
+}
+
+void move_ranks(const Values& before, const Values& values, std::uint16_t* ranks,
+                std::size_t count) {
+    if (before.size() == values.size())
+        return;
+    // Predictions beyond the known ranks keep their distance to the last one.
+    const std::size_t added = values.size() - before.size();
+    std::vector<std::uint16_t> table(all_depths);
+    for (std::size_t rank = 0; rank < all_depths; ++rank)
+        table[rank] = std::uint16_t(rank < first_rank ? rank : rank + added);
+    for (std::size_t i = 0, to = 0; i < before.size(); ++i) {
+        while (values[to] != before[i])
+            ++to;
+        table[first_rank + i] = std::uint16_t(first_rank + to);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        ranks[k] = table[ranks[k]];
+}
+
+}  // namespace theatron::codec::strata
