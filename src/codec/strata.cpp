@@ -36,6 +36,13 @@ double ideal_bits(const Counts& counts) {
     return bits;
 }
 
+// Which way of predicting pays is tried on an intra frame, on the first that
+// refers to it, and then now and again; other frames do as their reference.
+std::uint8_t next_age(bool delta, const Memory& before) {
+    constexpr int period = 8;
+    return delta ? std::uint8_t(before.head->age % period + 1) : std::uint8_t(0);
+}
+
 class Codec final : public StrataCodec {
 public:
     explicit Codec(const StrataParams& params) {
@@ -67,6 +74,7 @@ public:
 
 private:
     void prepare(Size size);
+    bool rank(DepthView depth, Values& values);
     bool blend_pays(Model model);
     void count(const CodedPixels& coded, std::size_t values);
     const std::uint8_t* draw(const Region& region);
@@ -80,6 +88,7 @@ private:
     std::vector<std::uint8_t> region_rows_, region_steps_;
     Region drawn_;
     DepthImage ranks_;
+    RankTables tables_;
     Bytes side_, own_memory_;
     Counts counts_;
     Frequencies frequencies_;
@@ -130,6 +139,14 @@ void Codec::count(const CodedPixels& coded, std::size_t values) {
         counts_[i] = tables[0][i] + tables[1][i] + tables[2][i] + tables[3][i];
 }
 
+// The ranks of an image, whose new values are added. False if there are too many.
+bool Codec::rank(DepthView depth, Values& values) {
+    ranks_.resize(depth.size);
+    if (tables_.to_ranks(depth, values, ranks_.view()))
+        return true;
+    return add_values(depth, values) && tables_.to_ranks(depth, values, ranks_.view());
+}
+
 // Tries both ways of predicting on 32 rows in the middle of the image.
 bool Codec::blend_pays(Model model) {
     const int group = (layout_.groups - 1) / 2;
@@ -177,21 +194,17 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (payload.delta) {
         old_values = values = before.values();
         // Too many values: begin anew.
-        if (!values.empty() && !add_values(depth, values))
+        if (!values.empty() && !rank(depth, values))
             payload.delta = false;
     }
     if (!payload.delta) {
         old_values.clear();
         values = lossy ? Values{} : find_values(depth);
+        if (!values.empty())
+            rank(depth, values);
     }
     payload.ranks = !values.empty();
-
-    DepthView coded_depth = depth;
-    if (payload.ranks) {
-        ranks_.resize(depth.size);
-        to_ranks(depth, values, ranks_.view());
-        coded_depth = ranks_.view();
-    }
+    const DepthView coded_depth = payload.ranks ? DepthView(ranks_.view()) : depth;
     rows_to_steps(layout_, coded_depth, pixels_.data());
 
     Memory after = make_memory(layout_, next != nullptr ? next->memory : own_memory_);
@@ -206,15 +219,17 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
         model.reference_depth = before.depth;
         model.reference_valid = before.valid;
         if (old_values.size() != values.size()) {
-            moved_.assign(before.depth, before.depth + plane);
-            move_ranks(old_values, values, moved_.data(), plane);
+            moved_.resize(plane);
+            move_ranks(old_values, values, before.depth, plane, moved_.data());
             model.reference_depth = moved_.data();
         }
     }
     Equations equations;
     sample_equations(model, pixels_.data(), payload.ranks ? 8 : 40, equations);
     model.weights = solve(equations, payload.delta ? tap_count : intra_taps);
-    model.blend = blend_pays(model);
+    after.head->age = next_age(payload.delta, before);
+    model.blend = after.head->age <= 1 ? blend_pays(model) : before.head->blend != 0;
+    after.head->blend = model.blend;
     payload.weights = model.weights;
     payload.blend = model.blend;
 
@@ -281,6 +296,8 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     model.valid = after.valid;
     model.weights = payload->weights;
     model.blend = payload->blend;
+    after.head->blend = payload->blend;
+    after.head->age = next_age(payload->delta, before);
     model.tolerance = payload->tolerance;
     if (!payload->tolerance.lossless())
         model.region = draw(payload->region);
@@ -289,8 +306,8 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         model.reference_valid = before.valid;
         if (old_values.size() != values.size()) {
             const std::size_t plane = layout_.plane_values();
-            moved_.assign(before.depth, before.depth + plane);
-            move_ranks(old_values, values, moved_.data(), plane);
+            moved_.resize(plane);
+            move_ranks(old_values, values, before.depth, plane, moved_.data());
             model.reference_depth = moved_.data();
         }
     }
@@ -310,7 +327,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         return Status::malformed;
     steps_to_rows(layout_, tokens_.data(), out);
     if (payload->ranks)
-        from_ranks(values, out);
+        tables_.from_ranks(values, out);
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());

@@ -162,6 +162,17 @@ HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     return hn::IfThenElse(mask, hn::ShiftRight<16>(state), state);
 }
 
+// 1 / v, so well that quotients below 2^20 are off by less than 1.
+HWY_INLINE hn::Vec<F32> reciprocal(hn::Vec<F32> v) {
+    const F32 d;
+#if HWY_ARCH_X86
+    const auto rough = hn::ApproximateReciprocal(v);
+    return hn::Mul(rough, hn::NegMulAdd(rough, v, hn::Set(d, 2.0f)));
+#else
+    return hn::Div(hn::Set(d, 1.0f), v);
+#endif
+}
+
 void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequencies& frequencies,
                    Stream& stream) {
     const D32 d;
@@ -199,8 +210,9 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
 
             // The quotient in floating point is off by one at most; the
             // remainder shows it.
-            const auto ratio = hn::Div(hn::ConvertTo(F32(), hn::BitCast(S32(), state)),
-                                       hn::ConvertTo(F32(), hn::BitCast(S32(), frequency)));
+            const auto ratio =
+                hn::Mul(hn::ConvertTo(F32(), hn::BitCast(S32(), state)),
+                        reciprocal(hn::ConvertTo(F32(), hn::BitCast(S32(), frequency))));
             V32 quotient = hn::BitCast(d, hn::ConvertTo(S32(), ratio));
             V32 rest = hn::Sub(state, hn::Mul(quotient, frequency));
             const auto too_much = hn::Gt(rest, hn::Set(d, 0x7fffffff));

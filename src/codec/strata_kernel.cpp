@@ -10,8 +10,11 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "codec/strata_coder-inl.h"
+// In this order: each uses the one before.
 #include "codec/strata_model-inl.h"
+
+#include "codec/strata_coder-inl.h"
+
 #include "codec/strata_skew-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,8 +41,12 @@ public:
     // Prepares the step's copies of lanes of other groups.
     Step begin(int index) {
         const std::size_t at = std::size_t(index + plane_margin) * plane_stride + plane_origin;
-        Step step{model_.depth + at, model_.valid + at, model_.reference_depth,
-                  model_.reference_valid, index};
+        Step step{model_.depth + at,
+                  model_.valid + at,
+                  model_.reference_depth,
+                  model_.reference_valid,
+                  index,
+                  is_inside(index)};
         if (step.reference_depth != nullptr) {
             step.reference_depth += at;
             step.reference_valid += at;
@@ -47,32 +54,33 @@ public:
         depth = model_.depth + at;
         valid = model_.valid + at;
         const std::ptrdiff_t back = std::ptrdiff_t(delay_) * plane_stride;
-        const bool has_group_above = index >= delay_;
-        for (int i = 1; i <= plane_origin; ++i) {
-            depth[-i] = has_group_above ? depth[lane_count - i - back] : std::uint16_t(0);
-            valid[-i] = has_group_above ? valid[lane_count - i - back] : std::uint8_t(0);
+        constexpr std::size_t front = plane_origin,
+                              behind = plane_stride - plane_origin - lane_count;
+        if (index >= delay_) {
+            std::memcpy(depth - front, depth + lane_count - front - back, front * sizeof(*depth));
+            std::memcpy(valid - front, valid + lane_count - front - back, front);
+        } else {
+            std::memset(depth - front, 0, front * sizeof(*depth));
+            std::memset(valid - front, 0, front);
         }
-        for (int i = lane_count; i < plane_stride - plane_origin; ++i) {
-            depth[i] = 0;
-            valid[i] = 0;
-        }
-        std::uint16_t* delayed = delayed_.data() + slot_ * (trace_count - first_delayed);
+        std::memset(depth + lane_count, 0, behind * sizeof(*depth));
+        std::memset(valid + lane_count, 0, behind);
+        const std::uint16_t* above = delayed(index);
         for (int i = first_delayed; i < trace_count; ++i)
-            traces.at(index, i)[-1] = delayed[i - first_delayed];
+            traces.at(index, i)[-1] = above[i - first_delayed];
         return step;
     }
 
+    // Ends a step. What other groups need of it is copied a few steps later,
+    // when it has left the processor's store queue.
     void end(int index) {
-        std::uint16_t* delayed = delayed_.data() + slot_ * (trace_count - first_delayed);
-        for (int i = first_delayed; i < trace_count; ++i)
-            delayed[i - first_delayed] = traces.at(index, i)[lane_count - 1];
-        slot_ = slot_ + 1 == std::size_t(delay_) ? 0 : slot_ + 1;
-        if (index >= delay_) {
-            const std::ptrdiff_t back = std::ptrdiff_t(delay_) * plane_stride;
-            depth[lane_count - back] = depth[0];
-            valid[lane_count - back] = valid[0];
-        }
+        copy_lanes(index - copy_lag);
         advance(positions, model_.layout);
+    }
+
+    void finish() {
+        for (int i = copy_lag - 1; i >= 0; --i)
+            copy_lanes(model_.layout.steps - 1 - i);
     }
 
     Traces traces;
@@ -81,9 +89,36 @@ public:
     std::uint8_t* valid = nullptr;
 
 private:
+    static constexpr int copy_lag = 4;
+    static_assert(copy_lag < least_delay);
+
+    bool is_inside(int index) const {
+        const Layout& layout = model_.layout;
+        const int x = index % layout.pitch;  // of lane 0, plus 1
+        return x > skew * (lane_count - 1) && x <= layout.size.width &&
+               (index / layout.pitch + 1) * lane_count <= layout.size.height;
+    }
+
+    std::uint16_t* delayed(int index) {
+        return delayed_.data() + std::size_t(index % delay_) * (trace_count - first_delayed);
+    }
+
+    void copy_lanes(int index) {
+        if (index < 0)
+            return;
+        std::uint16_t* to = delayed(index);
+        for (int i = first_delayed; i < trace_count; ++i)
+            to[i - first_delayed] = traces.at(index, i)[lane_count - 1];
+        if (index < delay_)
+            return;
+        const std::size_t from = std::size_t(index + plane_margin) * plane_stride + plane_origin;
+        const std::size_t copy = from + lane_count - std::size_t(delay_) * plane_stride;
+        model_.depth[copy] = model_.depth[from];
+        model_.valid[copy] = model_.valid[from];
+    }
+
     const Model& model_;
     int delay_;
-    std::size_t slot_ = 0;
     std::vector<std::uint16_t> delayed_;
 };
 
@@ -98,13 +133,22 @@ HWY_INLINE void tokens_of(V16 code, V16& token, V16& extra) {
     alignas(64) std::uint16_t codes[hn::MaxLanes(d)], tokens[hn::MaxLanes(d)],
         extras[hn::MaxLanes(d)];
     hn::Store(code, d, codes);
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-        const Token t = token_of(codes[i]);
-        tokens[i] = std::uint16_t(t.token);
-        extras[i] = std::uint16_t(t.extra);
+    const D32 d32;
+    const V32 one = hn::Set(d32, 1);
+    for (std::size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(d32)) {
+        // As a floating-point number a code shows its highest bit in the
+        // exponent, and the next one in front of the rest of the mantissa.
+        const V32 wide = load32(codes + i);
+        const V32 as_float = hn::BitCast(d32, hn::ConvertTo(F32(), hn::BitCast(S32(), wide)));
+        const V32 halves = hn::Sub(hn::ShiftRight<22>(as_float), hn::Set(d32, 2 * 127));
+        const V32 bits = hn::Sub(hn::ShiftRight<1>(halves), one);
+        const V32 low = hn::And(wide, hn::Sub(hn::Shl(one, hn::And(bits, hn::Set(d32, 15))), one));
+        store16(hn::And(hn::Add(halves, hn::Set(d32, first_long_token - 9)), hn::Set(d32, 0xffff)),
+                tokens + i);
+        store16(low, extras + i);
     }
-    token = hn::Load(d, tokens);
-    extra = hn::Load(d, extras);
+    token = hn::IfThenElse(is_long, hn::Load(d, tokens), token);
+    extra = hn::IfThenElseZero(is_long, hn::Load(d, extras));
 }
 
 template <bool temporal, bool blend, bool lossy>
@@ -152,6 +196,7 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
         }
         walk.end(t);
     }
+    walk.finish();
 }
 
 template <bool temporal, bool blend, bool lossy>
@@ -232,6 +277,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
         }
         walk.end(t);
     }
+    walk.finish();
     return reader.at_end();
 }
 
@@ -284,6 +330,7 @@ HWY_EXPORT(encode_tokens);
 HWY_EXPORT(rows_to_steps);
 HWY_EXPORT(steps_to_rows);
 HWY_EXPORT(sample_equations);
+HWY_EXPORT(shift_ranks);
 
 void encode_model(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
     HWY_DYNAMIC_DISPATCH(encode_model)(model, pixels, coded);
@@ -305,6 +352,11 @@ void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDep
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations) {
     HWY_DYNAMIC_DISPATCH(sample_equations)(model, pixels, limit, equations);
+}
+
+void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
+                 std::size_t bound_count, std::uint16_t* to) {
+    HWY_DYNAMIC_DISPATCH(shift_ranks)(from, count, bounds, bound_count, to);
 }
 
 }  // namespace theatron::codec::strata

@@ -89,4 +89,9 @@ using Equations = std::array<double, equation_count>;
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations);
 
+// Adds to each number how many of the bounds it reaches. The count is a multiple
+// of 8; `to` may be `from`.
+void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
+                 std::size_t bound_count, std::uint16_t* to);
+
 }  // namespace theatron::codec::strata

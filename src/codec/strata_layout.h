@@ -22,6 +22,7 @@ namespace theatron::codec::strata {
 
 inline constexpr int lane_count = 32;
 inline constexpr int skew = 4;  // steps that a row lags behind the one above
+inline constexpr int least_delay = 8;
 inline constexpr int plane_stride = 40;
 inline constexpr int plane_origin = 4;
 inline constexpr int plane_margin = 8;  // steps of zeros before the first and after the last
@@ -47,7 +48,7 @@ struct Layout {
 inline Layout layout_of(Size size) {
     Layout layout;
     layout.size = size;
-    layout.pitch = std::max(size.width + 2, lane_count * skew + 2);
+    layout.pitch = std::max(size.width + 2, lane_count * skew + least_delay);
     layout.groups = (size.height + lane_count - 1) / lane_count;
     layout.steps = layout.groups * layout.pitch + skew * (lane_count - 1);
     return layout;

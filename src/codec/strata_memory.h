@@ -15,7 +15,8 @@ struct MemoryHead {
     std::uint32_t magic = 0;
     std::uint16_t width = 0, height = 0;
     std::uint16_t value_count = 0;
-    std::uint16_t blend = 0;
+    std::uint8_t blend = 0;
+    std::uint8_t age = 0;  // see next_age in strata.cpp
     Levels levels{};
     std::array<std::uint16_t, max_values> values{};
 };

@@ -36,10 +36,11 @@ enum Trace {
 inline constexpr int first_delayed = triple0;  // those that lane 0 reads from lane 31
 
 struct Traces {
-    // Lanes from value plane_origin on, in front of them the lane above lane 0.
-    alignas(64) std::uint16_t of[8][trace_count][plane_stride] = {};
+    // Lanes from value trace_origin on, in front of them the lane above lane 0.
+    static constexpr int trace_stride = 64, trace_origin = 32;
+    alignas(64) std::uint16_t of[8][trace_count][trace_stride] = {};
 
-    std::uint16_t* at(int step, int trace) { return of[step & 7][trace] + plane_origin; }
+    std::uint16_t* at(int step, int trace) { return of[step & 7][trace] + trace_origin; }
 };
 
 // Where each lane is in its row.
@@ -55,6 +56,7 @@ struct Step {
     const std::uint16_t* reference_depth;
     const std::uint8_t* reference_valid;
     int index;
+    bool inside;  // all lanes are at a pixel
 };
 
 // What the model says about the pixels of some lanes.
@@ -205,21 +207,28 @@ HWY_INLINE Prediction predict(const Model& model, const Step& s, Traces& traces,
     context = hn::IfThenElse(hn::Eq(neighbourhood, hn::Set(d, 27)), context,
                              hn::Add(neighbourhood, hn::Set(d, mixed_contexts)));
 
-    const V16 x = hn::Load(d, positions.x + lane);
-    const V16 rows = hn::Load(d, positions.rows + lane);
-    const auto in_rows = hn::RebindMask(d, hn::Gt(hn::BitCast(S16(), rows), hn::Zero(S16())));
-    const auto in_columns =
-        hn::Lt(hn::Sub(x, one), hn::Set(d, std::uint16_t(model.layout.size.width)));
-    const auto is_pixel = hn::And(in_rows, in_columns);
-    p.active = as_value(is_pixel);
-    p.context = hn::IfThenElse(is_pixel, context, hn::Set(d, idle_context));
+    p.context = context;
+    p.active = hn::Set(d, 0xffff);
+    p.outside_depth = above;
+    p.outside_valid = valid_above;
+    if (HWY_UNLIKELY(!s.inside)) {
+        const V16 x = hn::Load(d, positions.x + lane);
+        const V16 rows = hn::Load(d, positions.rows + lane);
+        const auto in_rows = hn::RebindMask(d, hn::Gt(hn::BitCast(S16(), rows), hn::Zero(S16())));
+        const auto in_columns =
+            hn::Lt(hn::Sub(x, one), hn::Set(d, std::uint16_t(model.layout.size.width)));
+        const auto is_pixel = hn::And(in_rows, in_columns);
+        p.active = as_value(is_pixel);
+        p.context = hn::IfThenElse(is_pixel, context, hn::Set(d, idle_context));
 
-    // Left of the image stands what is above right, right of it the last pixel,
-    // below it the row above.
-    const auto before_row = hn::Eq(x, hn::Zero(d));
-    p.outside_depth = hn::IfThenElse(in_rows, hn::IfThenElse(before_row, upper_right, left), above);
-    p.outside_valid = hn::IfThenElse(
-        in_rows, hn::IfThenElse(before_row, valid_upper_right, valid_left), valid_above);
+        // Left of the image stands what is above right, right of it the last pixel,
+        // below it the row above.
+        const auto before_row = hn::Eq(x, hn::Zero(d));
+        p.outside_depth =
+            hn::IfThenElse(in_rows, hn::IfThenElse(before_row, upper_right, left), above);
+        p.outside_valid = hn::IfThenElse(
+            in_rows, hn::IfThenElse(before_row, valid_upper_right, valid_left), valid_above);
+    }
     return p;
 }
 

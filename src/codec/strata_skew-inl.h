@@ -127,7 +127,7 @@ void sample_equations(const Model& model, const std::uint16_t* pixels, int limit
                       Equations& equations) {
     // Lanes whose neighbours above are lanes of the same group.
     constexpr int first = 8, sampled = 16;
-    constexpr int stride = 6;
+    constexpr int stride = 11;
     const hn::CappedTag<float, sampled> d;
     const hn::Rebind<std::int32_t, decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
@@ -197,6 +197,26 @@ void sample_equations(const Model& model, const std::uint16_t* pixels, int limit
         for (std::size_t lane = 0; lane < n; ++lane)
             equations[i] += double(sums[i][lane]);
     }
+}
+
+void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
+                 std::size_t bound_count, std::uint16_t* to) {
+    const hn::CappedTag<std::uint16_t, 8> d8;
+    const hn::ScalableTag<std::uint16_t> d;
+    const auto shift = [&](auto tag, std::size_t at) HWY_ATTR {
+        const auto rank = hn::LoadU(tag, from + at);
+        auto moved = rank;
+        for (std::size_t i = 0; i < bound_count; ++i) {
+            const auto below = hn::Lt(rank, hn::Set(tag, bounds[i]));
+            moved = hn::Add(moved, hn::IfThenZeroElse(below, hn::Set(tag, 1)));
+        }
+        hn::StoreU(moved, tag, to + at);
+    };
+    std::size_t at = 0;
+    for (; at + hn::Lanes(d) <= count; at += hn::Lanes(d))
+        shift(d, at);
+    for (; at < count; at += hn::Lanes(d8))
+        shift(d8, at);
 }
 
 }  // namespace theatron::codec::strata::HWY_NAMESPACE

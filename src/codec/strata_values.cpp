@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "codec/strata_kernel.h"
+
 namespace theatron::codec::strata {
 namespace {
 
@@ -30,22 +32,16 @@ Values listed(const std::vector<std::uint8_t>& present) {
     return values;
 }
 
-// Each depth's rank, 0 where it has none.
+constexpr std::uint16_t no_rank = 0x7fff;
+
+// Each depth's rank, no_rank where it has none.
 std::vector<std::uint16_t> rank_table(const Values& values) {
-    std::vector<std::uint16_t> ranks(all_depths);
+    std::vector<std::uint16_t> ranks(all_depths, no_rank);
+    ranks[0] = 0;
     for (std::size_t i = 0; i < values.size(); ++i)
         ranks[values[i]] = std::uint16_t(first_rank + i);
     ranks[all_depths - 1] = 65535;
     return ranks;
-}
-
-void map_pixels(const std::uint16_t* table, DepthView in, MutableDepthView out) {
-    for (int y = 0; y < in.size.height; ++y) {
-        const std::uint16_t* from = in.row(y);
-        std::uint16_t* to = out.row(y);
-        for (int x = 0; x < in.size.width; ++x)
-            to[x] = table[from[x]];
-    }
 }
 
 }  // namespace
@@ -128,33 +124,65 @@ bool get_values(const Values& before, Values& values, SideReader& side) {
     return values.size() == before.size() + count;
 }
 
-void to_ranks(DepthView depth, const Values& values, MutableDepthView ranks) {
-    map_pixels(rank_table(values).data(), depth, ranks);
-}
-
-void from_ranks(const Values& values, MutableDepthView depth) {
-    std::vector<std::uint16_t> table(all_depths);
-    std::copy(values.begin(), values.end(), table.begin() + first_rank);
-    table[all_depths - 1] = 65535;
-    map_pixels(table.data(), depth, depth);
-}
-
-void move_ranks(const Values& before, const Values& values, std::uint16_t* ranks,
-                std::size_t count) {
-    if (before.size() == values.size())
-        return;
-    // Predictions beyond the known ranks keep their distance to the last one.
-    const std::size_t added = values.size() - before.size();
-    std::vector<std::uint16_t> table(all_depths);
-    for (std::size_t rank = 0; rank < all_depths; ++rank)
-        table[rank] = std::uint16_t(rank < first_rank ? rank : rank + added);
-    for (std::size_t i = 0, to = 0; i < before.size(); ++i) {
-        while (values[to] != before[i])
-            ++to;
-        table[first_rank + i] = std::uint16_t(first_rank + to);
+bool RankTables::to_ranks(DepthView depth, const Values& values, MutableDepthView ranks) {
+    if (forward_values_ != values || forward_.empty()) {
+        forward_values_ = values;
+        forward_ = rank_table(values);
     }
-    for (std::size_t k = 0; k < count; ++k)
-        ranks[k] = table[ranks[k]];
+    const std::uint16_t* table = forward_.data();
+    int unknown = 0;
+    for (int y = 0; y < depth.size.height; ++y) {
+        const std::uint16_t* from = depth.row(y);
+        std::uint16_t* to = ranks.row(y);
+        for (int x = 0; x < depth.size.width; ++x)
+            to[x] = table[from[x]];
+        std::int16_t row_unknown = 0;
+        for (int x = 0; x < depth.size.width; ++x)
+            row_unknown = std::int16_t(row_unknown | -(to[x] == no_rank));
+        unknown |= row_unknown;
+    }
+    return unknown == 0;
+}
+
+void RankTables::from_ranks(const Values& values, MutableDepthView depth) {
+    if (backward_values_ != values || backward_.empty()) {
+        backward_values_ = values;
+        backward_.assign(all_depths, 0);
+        std::copy(values.begin(), values.end(), backward_.begin() + first_rank);
+        backward_[all_depths - 1] = 65535;
+    }
+    const std::uint16_t* table = backward_.data();
+    for (int y = 0; y < depth.size.height; ++y) {
+        std::uint16_t* row = depth.row(y);
+        for (int x = 0; x < depth.size.width; ++x)
+            row[x] = table[row[x]];
+    }
+}
+
+void move_ranks(const Values& before, const Values& values, const std::uint16_t* from,
+                std::size_t count, std::uint16_t* to) {
+    // Each new value moves all ranks from its place on by one.
+    std::vector<std::uint16_t> bounds;
+    std::size_t known = 0;
+    for (const std::uint16_t v : values) {
+        if (known < before.size() && before[known] == v)
+            ++known;
+        else
+            bounds.push_back(std::uint16_t(first_rank + known));
+    }
+    constexpr std::size_t few = 24;
+    if (bounds.size() <= few) {
+        shift_ranks(from, count, bounds.data(), bounds.size(), to);
+        return;
+    }
+    std::vector<std::uint16_t> table(all_depths);
+    for (std::size_t rank = 0, reached = 0; rank < all_depths; ++rank) {
+        while (reached < bounds.size() && bounds[reached] <= rank)
+            ++reached;
+        table[rank] = std::uint16_t(rank + reached);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        to[i] = table[from[i]];
 }
 
 }  // namespace theatron::codec::strata

@@ -31,13 +31,22 @@ bool add_values(DepthView depth, Values& values);
 void put_values(const Values& before, const Values& values, SideWriter& side);
 bool get_values(const Values& before, Values& values, SideReader& side);
 
-// To ranks and back. 0 and 65535 stay what they are; ranks without a value
-// become 0.
-void to_ranks(DepthView depth, const Values& values, MutableDepthView ranks);
-void from_ranks(const Values& values, MutableDepthView depth);
+// To ranks and back, with tables that are kept while the values stay the same.
+class RankTables {
+public:
+    // 0 and 65535 stay what they are. False if the image has other values than
+    // those given; `ranks` is then unspecified.
+    bool to_ranks(DepthView depth, const Values& values, MutableDepthView ranks);
+    // Ranks without a value become 0.
+    void from_ranks(const Values& values, MutableDepthView depth);
 
-// Ranks in `before` as ranks in `values`.
-void move_ranks(const Values& before, const Values& values, std::uint16_t* ranks,
-                std::size_t count);
+private:
+    Values forward_values_, backward_values_;
+    std::vector<std::uint16_t> forward_, backward_;
+};
+
+// Ranks in `before` as ranks in `values`, which has all of `before`.
+void move_ranks(const Values& before, const Values& values, const std::uint16_t* from,
+                std::size_t count, std::uint16_t* to);
 
 }  // namespace theatron::codec::strata
