@@ -65,13 +65,8 @@ unsigned kind_of(std::uint8_t level) {
 
 }  // namespace
 
-const Levels& standard_levels() {
-    static const Levels levels{};
-    return levels;
-}
-
 void choose_levels(const Counts& counts, const Levels& before, Levels& levels) {
-    constexpr double cost_of_change = 6;  // bits, about
+    constexpr double cost_of_change = 3;  // bits, about
     levels = before;
     for (unsigned c = 0; c < coded_contexts; ++c) {
         const std::uint32_t* count = counts.data() + std::size_t(c) * token_count;
@@ -104,7 +99,6 @@ void put_levels(const Levels& levels, const Levels& before, SideWriter& side) {
         side.put(context_changed, m.context_changed);
         if (!context_changed)
             continue;
-        // Without a level before, the context in front is the best guess.
         bool last_changed = false;
         for (unsigned t = 0; t < used_tokens; ++t) {
             const int guess = before[c][t];

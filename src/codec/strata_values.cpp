@@ -35,13 +35,12 @@ Values listed(const std::vector<std::uint8_t>& present) {
 constexpr std::uint16_t no_rank = 0x7fff;
 
 // Each depth's rank, no_rank where it has none.
-std::vector<std::uint16_t> rank_table(const Values& values) {
-    std::vector<std::uint16_t> ranks(all_depths, no_rank);
+void make_ranks(const Values& values, std::vector<std::uint16_t>& ranks) {
+    ranks.assign(all_depths, no_rank);
     ranks[0] = 0;
     for (std::size_t i = 0; i < values.size(); ++i)
         ranks[values[i]] = std::uint16_t(first_rank + i);
     ranks[all_depths - 1] = 65535;
-    return ranks;
 }
 
 }  // namespace
@@ -52,7 +51,8 @@ Values find_values(DepthView depth) {
         return {};
     // Bits that ranks save: those of the distance to the next value. A sample of
     // the pixels says how often.
-    std::vector<std::uint16_t> ranks = rank_table(values);
+    std::vector<std::uint16_t> ranks;
+    make_ranks(values, ranks);
     double saved = 0;
     for (int y = 1; y < depth.size.height; y += 4) {
         for (int x = y % 3; x < depth.size.width; x += 3) {
@@ -127,7 +127,7 @@ bool get_values(const Values& before, Values& values, SideReader& side) {
 bool RankTables::to_ranks(DepthView depth, const Values& values, MutableDepthView ranks) {
     if (forward_values_ != values || forward_.empty()) {
         forward_values_ = values;
-        forward_ = rank_table(values);
+        make_ranks(values, forward_);
     }
     const std::uint16_t* table = forward_.data();
     int unknown = 0;
