@@ -94,8 +94,8 @@ private:
 
     bool is_inside(int index) const {
         const Layout& layout = model_.layout;
-        const int x = index % layout.pitch;  // of lane 0, plus 1
-        return x > skew * (lane_count - 1) && x <= layout.size.width &&
+        const int x = index % layout.pitch - row_front;  // of lane 0
+        return x >= skew * (lane_count - 1) && x < layout.size.width &&
                (index / layout.pitch + 1) * lane_count <= layout.size.height;
     }
 

@@ -45,7 +45,7 @@ struct Traces {
 
 // Where each lane is in its row.
 struct Positions {
-    alignas(64) std::uint16_t x[lane_count];     // as in the image plus 1; wraps below 0
+    alignas(64) std::uint16_t x[lane_count];     // as in the image plus row_front; wraps below 0
     alignas(64) std::uint16_t rows[lane_count];  // rows left, signed; none at 0 and less
 };
 
@@ -215,15 +215,15 @@ HWY_INLINE Prediction predict(const Model& model, const Step& s, Traces& traces,
         const V16 x = hn::Load(d, positions.x + lane);
         const V16 rows = hn::Load(d, positions.rows + lane);
         const auto in_rows = hn::RebindMask(d, hn::Gt(hn::BitCast(S16(), rows), hn::Zero(S16())));
-        const auto in_columns =
-            hn::Lt(hn::Sub(x, one), hn::Set(d, std::uint16_t(model.layout.size.width)));
+        const auto in_columns = hn::Lt(hn::Sub(x, hn::Set(d, row_front)),
+                                       hn::Set(d, std::uint16_t(model.layout.size.width)));
         const auto is_pixel = hn::And(in_rows, in_columns);
         p.active = as_value(is_pixel);
         p.context = hn::IfThenElse(is_pixel, context, hn::Set(d, idle_context));
 
         // Left of the image stands what is above right, right of it the last pixel,
         // below it the row above.
-        const auto before_row = hn::Eq(x, hn::Zero(d));
+        const auto before_row = hn::Lt(x, hn::Set(d, row_front));
         p.outside_depth =
             hn::IfThenElse(in_rows, hn::IfThenElse(before_row, upper_right, left), above);
         p.outside_valid = hn::IfThenElse(

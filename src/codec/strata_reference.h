@@ -15,7 +15,7 @@ class ReferenceModel {
 public:
     ReferenceModel(Size size, const Weights& weights, bool blend)
         : size_(size), weights_(weights), blend_(blend) {
-        pixels_.assign(std::size_t(size.width + 2) * std::size_t(rows()), {});
+        pixels_.assign(std::size_t(size.width + 4) * std::size_t(rows()), {});
     }
 
     struct Coded {
@@ -27,7 +27,7 @@ public:
     std::vector<Coded> encode(DepthView depth, const ReferenceModel* before) {
         std::vector<Coded> coded;
         for (int y = 0; y < rows(); ++y) {
-            for (int x = -1; x <= size_.width; ++x) {
+            for (int x = -2; x < size_.width + 2; ++x) {
                 const bool is_pixel = x >= 0 && x < size_.width && y < size_.height;
                 step(x, y, before, is_pixel ? &depth.row(y)[x] : nullptr, coded);
             }
@@ -50,9 +50,9 @@ private:
     // steps of it.
     const Pixel& at(int x, int y) const {
         static const Pixel none;
-        if (y < 0 || y >= rows() || x < -1 || x > size_.width)
+        if (y < 0 || y >= rows() || x < -2 || x >= size_.width + 2)
             return none;
-        return pixels_[std::size_t(y) * std::size_t(size_.width + 2) + std::size_t(x + 1)];
+        return pixels_[std::size_t(y) * std::size_t(size_.width + 4) + std::size_t(x + 2)];
     }
 
     static std::uint16_t half(std::uint16_t v) { return std::uint16_t(std::int16_t(v) >> 1); }

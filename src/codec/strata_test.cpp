@@ -157,19 +157,6 @@ TEST(Strata, SaysWhatIsWrongWithAHeader) {
               Status::missing_reference);
 }
 
-// A bit that flips anywhere in the words leaves a wrong final state.
-TEST(Strata, NoticesDamagedWords) {
-    Chain chain;
-    const DepthImage image = noise({40, 20}, 5);
-    ASSERT_EQ(chain.pass(image), Status::ok);
-    DepthImage out(image.size);
-    for (std::size_t at = chain.encoded.size() - 1500; at < chain.encoded.size(); at += 97) {
-        Bytes damaged = chain.encoded;
-        damaged[at] ^= std::byte{4};
-        EXPECT_EQ(chain.decoder->decode(damaged, nullptr, out.view(), nullptr), Status::malformed);
-    }
-}
-
 TEST(Strata, EncodesAgainstAReferenceOfAnotherCodecAsAnIntraFrame) {
     const auto codec = make_strata({});
     const DepthImage image = scene({40, 20}, 1);
@@ -198,8 +185,9 @@ TEST(Strata, KeepsToTheDeclaredErrorAndNeverChangesValidity) {
                 const int before = image.pixels[i], after = chain.decoded.pixels[i];
                 ASSERT_EQ(before == 0, after == 0);
                 ASSERT_EQ(before == 0xffff, after == 0xffff);
-                if (before != 0xffff)
-                    ASSERT_LE(std::abs(before - after), error_bound(params, before)) << before;
+                const bool measured = before != 0 && before != 0xffff;
+                const int bound = measured ? error_bound(params, before) : 0;
+                ASSERT_LE(std::abs(before - after), bound) << before;
             }
             EXPECT_EQ(chain.decoded, chain.at_encoder.depth);
         }
@@ -224,10 +212,10 @@ TEST(Strata, StaysExactWhereTheRegionIs) {
         draw_region(region, {inside.data(), next.size});
         std::size_t exact = 0, changed = 0;
         for (std::size_t i = 0; i < next.pixels.size(); ++i) {
-            if (inside[i] != 0)
-                ASSERT_EQ(chain.decoded.pixels[i], next.pixels[i]);
+            const bool equal = chain.decoded.pixels[i] == next.pixels[i];
+            ASSERT_TRUE(equal || inside[i] == 0) << i;
             exact += inside[i] != 0;
-            changed += chain.decoded.pixels[i] != next.pixels[i];
+            changed += !equal;
         }
         EXPECT_GT(exact, 2000u);
         EXPECT_GT(changed, 2000u);
