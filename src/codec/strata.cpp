@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/strata.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "codec/remember.h"
+#include "codec/strata_kernel.h"
+#include "codec/strata_memory.h"
+#include "codec/strata_payload.h"
+#include "codec/strata_values.h"
+#include "codec/strata_weights.h"
+
+namespace theatron::codec {
+namespace {
+
+using namespace strata;
+
+// Bits that these tokens cost with ideal tables; contexts apart.
+double ideal_bits(const Counts& counts) {
+    double bits = 0;
+    for (unsigned c = 0; c < coded_contexts; ++c) {
+        double total = 0;
+        for (unsigned t = 0; t < used_tokens; ++t) {
+            const double n = counts[std::size_t(c) * token_count + t];
+            if (n == 0)
+                continue;
+            total += n;
+            bits += n * (extra_bits(t) - std::log2(n));
+        }
+        if (total > 0)
+            bits += total * std::log2(total);
+    }
+    return bits;
+}
+
+// Which way of predicting pays is tried on an intra frame, on the first that
+// refers to it, and then now and again; other frames do as their reference.
+std::uint8_t next_age(bool delta, const Memory& before) {
+    constexpr int period = 8;
+    return delta ? std::uint8_t(before.head->age % period + 1) : std::uint8_t(0);
+}
+
+class Codec final : public StrataCodec {
+public:
+    explicit Codec(const StrataParams& params) {
+        tolerance_.constant = std::uint16_t(params.max_error_mm);
+        tolerance_.squared = std::uint16_t(params.noise_scaled);
+    }
+
+    bool lossless() const override { return tolerance_.lossless(); }
+    bool temporal() const override { return true; }
+    std::size_t max_encoded_size(Size size) const override {
+        return strata::max_payload_size(size);
+    }
+
+    void set_region(Region region) override {
+        assert(strata::is_valid(region));
+        region_ = std::move(region);
+    }
+
+    std::size_t encode(DepthView depth, const Reference* reference, std::span<std::byte> out,
+                       Reference* next) override;
+    Result<Size> read_size(ByteView encoded) const override {
+        const Result<Payload> payload = read_payload(encoded);
+        if (!payload)
+            return payload.error();
+        return payload->size;
+    }
+    Status decode(ByteView encoded, const Reference* reference, MutableDepthView out,
+                  Reference* next) override;
+
+private:
+    void prepare(Size size);
+    bool rank(DepthView depth, Values& values);
+    bool blend_pays(Model model);
+    void count(const CodedPixels& coded, std::size_t values);
+    const std::uint8_t* draw(const Region& region);
+
+    Tolerance tolerance_;
+    Region region_;
+
+    // Scratch memory.
+    Layout layout_;
+    std::vector<std::uint16_t> pixels_, tokens_, extras_, words_, moved_;
+    std::vector<std::uint8_t> region_rows_, region_steps_;
+    Region drawn_;
+    DepthImage ranks_;
+    RankTables tables_;
+    Bytes side_, own_memory_;
+    Counts counts_;
+    Frequencies frequencies_;
+    SlotTable slots_;
+};
+
+void Codec::prepare(Size size) {
+    if (layout_.size == size)
+        return;
+    layout_ = layout_of(size);
+    // Positions outside the image are read; they stay 0.
+    pixels_.assign(layout_.coded_values(), 0);
+    region_steps_.clear();
+    drawn_.clear();
+}
+
+// The region by step and lane.
+const std::uint8_t* Codec::draw(const Region& region) {
+    if (!region_steps_.empty() && drawn_ == region)
+        return region_steps_.data();
+    const auto [width, height] = layout_.size;
+    region_rows_.resize(layout_.size.area());
+    region_steps_.assign(layout_.coded_values(), 255);
+    drawn_ = region;
+    if (region.empty())
+        return region_steps_.data();
+    const View<std::uint8_t> rows{region_rows_.data(), layout_.size};
+    draw_region(region, rows);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t at = std::size_t(layout_.step_of(x, y)) * lane_count;
+            region_steps_[at + std::size_t(y % lane_count)] = rows.row(y)[x];
+        }
+    }
+    return region_steps_.data();
+}
+
+void Codec::count(const CodedPixels& coded, std::size_t values) {
+    // Four tables, so that equal tokens in a row do not wait for each other.
+    static thread_local std::array<Counts, 4> tables;
+    for (Counts& table : tables)
+        table.fill(0);
+    for (std::size_t i = 0; i < values; i += 4) {
+        for (std::size_t k = 0; k < 4; ++k)
+            ++tables[k][coded.token[i + k]];
+    }
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+        counts_[i] = tables[0][i] + tables[1][i] + tables[2][i] + tables[3][i];
+}
+
+// The ranks of an image, whose new values are added. False if there are too many.
+bool Codec::rank(DepthView depth, Values& values) {
+    ranks_.resize(depth.size);
+    if (tables_.to_ranks(depth, values, ranks_.view()))
+        return true;
+    return add_values(depth, values) && tables_.to_ranks(depth, values, ranks_.view());
+}
+
+// Tries both ways of predicting on 32 rows in the middle of the image.
+bool Codec::blend_pays(Model model) {
+    const int group = (layout_.groups - 1) / 2;
+    const std::size_t at = std::size_t(group) * std::size_t(layout_.pitch);
+    model.layout.size.height = std::min(lane_count, layout_.size.height - group * lane_count);
+    model.layout.groups = 1;
+    model.layout.steps = layout_.pitch + skew * (lane_count - 1);
+    if (model.reference_depth != nullptr) {
+        model.reference_depth += at * plane_stride;
+        model.reference_valid += at * plane_stride;
+    }
+    model.tolerance = {};
+    const CodedPixels coded{tokens_.data(), extras_.data()};
+    double bits[2];
+    for (const bool blend : {false, true}) {
+        model.blend = blend;
+        encode_model(model, pixels_.data() + at * lane_count, coded);
+        count(coded, model.layout.coded_values());
+        bits[blend] = ideal_bits(counts_);
+    }
+    return bits[true] < bits[false];
+}
+
+std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span<std::byte> out,
+                          Reference* next) {
+    assert(strata::is_codable(depth.size) && out.size() >= max_encoded_size(depth.size));
+    prepare(depth.size);
+    const std::size_t plane = layout_.plane_values();
+    tokens_.resize(layout_.coded_values());
+    extras_.resize(layout_.coded_values());
+    words_.resize(max_words(layout_) + 2 * word_slack);
+
+    Payload payload;
+    payload.size = depth.size;
+    payload.tolerance = tolerance_;
+    payload.region = lossless() ? Region{} : region_;
+    // Until a region is drawn the whole image is exact.
+    const bool lossy = !lossless() && !region_.empty();
+    if (!lossy)
+        payload.tolerance = {};
+
+    Memory before;
+    payload.delta = reference != nullptr && open_memory(layout_, reference->memory, before);
+    Values old_values, values;
+    if (payload.delta) {
+        old_values = values = before.values();
+        // Too many values: begin anew.
+        if (!values.empty() && !rank(depth, values))
+            payload.delta = false;
+    }
+    if (!payload.delta) {
+        old_values.clear();
+        values = lossy ? Values{} : find_values(depth);
+        if (!values.empty())
+            rank(depth, values);
+    }
+    payload.ranks = !values.empty();
+    const DepthView coded_depth = payload.ranks ? DepthView(ranks_.view()) : depth;
+    rows_to_steps(layout_, coded_depth, pixels_.data());
+
+    Memory after = make_memory(layout_, next != nullptr ? next->memory : own_memory_);
+    Model model;
+    model.layout = layout_;
+    model.depth = after.depth;
+    model.valid = after.valid;
+    model.tolerance = payload.tolerance;
+    if (lossy)
+        model.region = draw(payload.region);
+    if (payload.delta) {
+        model.reference_depth = before.depth;
+        model.reference_valid = before.valid;
+        if (old_values.size() != values.size()) {
+            moved_.resize(plane);
+            move_ranks(old_values, values, before.depth, plane, moved_.data());
+            model.reference_depth = moved_.data();
+        }
+    }
+    Equations equations;
+    sample_equations(model, pixels_.data(), payload.ranks ? 8 : 40, equations);
+    model.weights = solve(equations, payload.delta ? tap_count : intra_taps);
+    after.head->age = next_age(payload.delta, before);
+    model.blend = after.head->age <= 1 ? blend_pays(model) : before.head->blend != 0;
+    after.head->blend = model.blend;
+    payload.weights = model.weights;
+    payload.blend = model.blend;
+
+    const CodedPixels coded{tokens_.data(), extras_.data()};
+    encode_model(model, pixels_.data(), coded);
+    count(coded, layout_.coded_values());
+    const Levels& old_levels = payload.delta ? before.head->levels : standard_levels();
+    choose_levels(counts_, old_levels, after.head->levels);
+    make_frequencies(after.head->levels, frequencies_);
+
+    Stream stream;
+    stream.words = words_.data() + word_slack;
+    encode_tokens(layout_, coded, frequencies_, stream);
+
+    SideWriter side(side_);
+    if (payload.ranks)
+        put_values(old_values, values, side);
+    put_levels(after.head->levels, old_levels, side);
+    side.finish();
+
+    if (next != nullptr) {
+        after.head->value_count = std::uint16_t(values.size());
+        std::copy(values.begin(), values.end(), after.head->values.begin());
+        next->depth.resize(depth.size);
+        if (lossy)
+            steps_to_rows(layout_, pixels_.data(), next->depth.view());
+        else
+            remember(depth, next);
+    }
+    return put_payload(payload, side_, stream, out);
+}
+
+Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthView out,
+                     Reference* next) {
+    const Result<Payload> payload = read_payload(encoded);
+    if (!payload)
+        return payload.error();
+    if (payload->size != out.size)
+        return Status::size_mismatch;
+    prepare(out.size);
+
+    Memory before;
+    if (payload->delta &&
+        (reference == nullptr || !open_memory(layout_, reference->memory, before)))
+        return Status::missing_reference;
+    Values old_values, values;
+    if (payload->delta)
+        old_values = before.values();
+    if (payload->delta && payload->ranks == old_values.empty())
+        return Status::malformed;
+
+    Memory after = make_memory(layout_, next != nullptr ? next->memory : own_memory_);
+    SideReader side(payload->side);
+    if (payload->ranks && !get_values(old_values, values, side))
+        return Status::malformed;
+    if (!get_levels(payload->delta ? before.head->levels : standard_levels(), after.head->levels,
+                    side) ||
+        !side.ok())
+        return Status::malformed;
+
+    Model model;
+    model.layout = layout_;
+    model.depth = after.depth;
+    model.valid = after.valid;
+    model.weights = payload->weights;
+    model.blend = payload->blend;
+    after.head->blend = payload->blend;
+    after.head->age = next_age(payload->delta, before);
+    model.tolerance = payload->tolerance;
+    if (!payload->tolerance.lossless())
+        model.region = draw(payload->region);
+    if (payload->delta) {
+        model.reference_depth = before.depth;
+        model.reference_valid = before.valid;
+        if (old_values.size() != values.size()) {
+            const std::size_t plane = layout_.plane_values();
+            moved_.resize(plane);
+            move_ranks(old_values, values, before.depth, plane, moved_.data());
+            model.reference_depth = moved_.data();
+        }
+    }
+    make_frequencies(after.head->levels, frequencies_);
+    make_slots(frequencies_, slots_);
+
+    words_.resize(payload->words.size() / 2 + 2 * word_slack);
+    Stream stream;
+    stream.states = payload->states;
+    stream.words = words_.data() + word_slack;
+    stream.word_count = payload->words.size() / 2;
+    for (std::size_t i = 0; i < stream.word_count; ++i)
+        stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
+
+    tokens_.resize(layout_.coded_values());
+    if (!decode_steps(model, slots_, stream, tokens_.data()))
+        return Status::malformed;
+    steps_to_rows(layout_, tokens_.data(), out);
+    if (payload->ranks)
+        tables_.from_ranks(values, out);
+    if (next != nullptr) {
+        after.head->value_count = std::uint16_t(values.size());
+        std::copy(values.begin(), values.end(), after.head->values.begin());
+        remember(out, next);
+    }
+    return Status::ok;
+}
+
+}  // namespace
+
+std::unique_ptr<StrataCodec> make_strata(const StrataParams& params) {
+    return std::make_unique<Codec>(params);
+}
+
+Result<Region> read_strata_region(ByteView encoded) {
+    Result<Payload> payload = read_payload(encoded);
+    if (!payload)
+        return payload.error();
+    return std::move(payload->region);
+}
+
+}  // namespace theatron::codec

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strata: from rows to steps and back, and samples for the linear predictor.
+// Included once per instruction set.
+
+// No include guard: the namespace differs from one inclusion to the next.
+#include <algorithm>
+
+#include "codec/strata_kernel.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace theatron::codec::strata::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr int tile = 8;
+
+#if HWY_TARGET != HWY_SCALAR
+// Transposes 8 by 8 values: `load(i)` gives row i, `store(i, v)` takes column i.
+template <class Load, class Store>
+HWY_INLINE void transpose_tile(Load load, Store store) {
+    const hn::Full128<std::uint16_t> d;
+    const hn::Full128<std::uint32_t> d32;
+    const hn::Full128<std::uint64_t> d64;
+    using V = hn::Vec<decltype(d)>;
+    V a[8], b[8];
+    for (int i = 0; i < 8; ++i)
+        a[i] = load(i);
+    for (int i = 0; i < 4; ++i) {
+        b[2 * i] = hn::InterleaveLower(d, a[2 * i], a[2 * i + 1]);
+        b[2 * i + 1] = hn::InterleaveUpper(d, a[2 * i], a[2 * i + 1]);
+    }
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            const auto low = hn::BitCast(d32, b[4 * i + j]),
+                       high = hn::BitCast(d32, b[4 * i + 2 + j]);
+            a[4 * i + 2 * j] = hn::BitCast(d, hn::InterleaveLower(d32, low, high));
+            a[4 * i + 2 * j + 1] = hn::BitCast(d, hn::InterleaveUpper(d32, low, high));
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        const auto low = hn::BitCast(d64, a[i]), high = hn::BitCast(d64, a[4 + i]);
+        store(2 * i, hn::BitCast(d, hn::InterleaveLower(d64, low, high)));
+        store(2 * i + 1, hn::BitCast(d, hn::InterleaveUpper(d64, low, high)));
+    }
+}
+
+#endif
+
+// Calls on_tile(x, y, at) for tiles whose first row is y and starts at x, each
+// next row 4 pixels further left, and whose first step's first lane is at `at`;
+// on_pixel for the pixels outside such tiles.
+template <class OnTile, class OnPixel>
+HWY_INLINE void for_tiles(const Layout& layout, OnTile on_tile, OnPixel on_pixel) {
+    const auto [width, height] = layout.size;
+    const int lag = skew * (tile - 1);
+    for (int y = 0; y < height; y += tile) {
+        const int rows = std::min(tile, height - y);
+        const int lane = y % lane_count;
+        int x = lag;
+        if (rows == tile) {
+            for (; x + tile <= width; x += tile)
+                on_tile(x, y, std::size_t(layout.step_of(x, y)) * lane_count + lane);
+        }
+        for (int row = 0; row < rows; ++row) {
+            // Tiles cover [lag - skew * row, x - skew * row) of this row.
+            const int from = x > lag ? lag - skew * row : width;
+            const int to = x > lag ? x - skew * row : width;
+            std::size_t at = std::size_t(layout.step_of(0, y + row)) * lane_count + lane + row;
+            for (int i = 0; i < width; ++i, at += lane_count) {
+                if (i == from) {
+                    i = to;
+                    at += std::size_t(to - from) * lane_count;
+                    if (i >= width)
+                        break;
+                }
+                on_pixel(i, y + row, at);
+            }
+        }
+    }
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+template <class OnPixel>
+void for_pixels(const Layout& layout, OnPixel on_pixel) {
+    for (int y = 0; y < layout.size.height; ++y) {
+        for (int x = 0; x < layout.size.width; ++x)
+            on_pixel(x, y, std::size_t(layout.step_of(x, y)) * lane_count + y % lane_count);
+    }
+}
+void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
+    for_pixels(layout, [&](int x, int y, std::size_t at) { pixels[at] = depth.row(y)[x]; });
+}
+void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth) {
+    for_pixels(layout, [&](int x, int y, std::size_t at) { depth.row(y)[x] = pixels[at]; });
+}
+
+#else
+
+void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
+    const hn::Full128<std::uint16_t> d;
+    for_tiles(
+        layout,
+        [&](int x, int y, std::size_t at) HWY_ATTR {
+            transpose_tile(
+                [&](int i) HWY_ATTR { return hn::LoadU(d, depth.row(y + i) + x - skew * i); },
+                [&](int i, auto v) HWY_ATTR { hn::StoreU(v, d, pixels + at + i * lane_count); });
+        },
+        [&](int x, int y, std::size_t at) { pixels[at] = depth.row(y)[x]; });
+}
+
+void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth) {
+    const hn::Full128<std::uint16_t> d;
+    for_tiles(
+        layout,
+        [&](int x, int y, std::size_t at) HWY_ATTR {
+            transpose_tile(
+                [&](int i) HWY_ATTR { return hn::LoadU(d, pixels + at + i * lane_count); },
+                [&](int i, auto v) HWY_ATTR { hn::StoreU(v, d, depth.row(y + i) + x - skew * i); });
+        },
+        [&](int x, int y, std::size_t at) { depth.row(y)[x] = pixels[at]; });
+}
+
+#endif
+
+void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
+                      Equations& equations) {
+    // Lanes whose neighbours above are lanes of the same group.
+    constexpr int first = 8, sampled = 16;
+    constexpr int stride = 11;
+    const hn::CappedTag<float, sampled> d;
+    const hn::Rebind<std::int32_t, decltype(d)> di;
+    const hn::Rebind<std::uint16_t, decltype(d)> d16;
+    const std::size_t n = hn::Lanes(d);
+    const bool temporal = model.reference_depth != nullptr;
+    const int taps = temporal ? tap_count : intra_taps;
+    alignas(64) float sums[equation_count][hn::MaxLanes(d)] = {};
+
+    for (int t = 9; t + 9 < model.layout.steps; t += stride) {
+        for (int part = 0; part < sampled; part += int(n)) {
+            const int lane = first + part;
+            const auto pixel = [&](int ago, int up) HWY_ATTR {
+                const std::uint16_t* at = pixels + std::size_t(t - ago) * lane_count + lane - up;
+                return hn::BitCast(
+                    di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(d16, at)));
+            };
+            const auto before = [&](int ago, int up) HWY_ATTR {
+                const std::uint16_t* at = model.reference_depth +
+                                          std::size_t(t - ago + plane_margin) * plane_stride +
+                                          plane_origin + lane - up;
+                return hn::BitCast(
+                    di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(d16, at)));
+            };
+            const auto target = pixel(0, 0), left = pixel(1, 0), above = pixel(4, 1);
+            const auto mean = hn::ShiftRight<1>(hn::Add(hn::Add(left, above), hn::Set(di, 1)));
+            hn::Vec<decltype(di)> tap[tap_count] = {left,        pixel(5, 1), pixel(3, 1),
+                                                    pixel(2, 0), pixel(8, 2), pixel(2, 1)};
+            auto usable = hn::Ne(target, hn::Zero(di));
+            for (int i = 0; i < intra_taps; ++i)
+                usable = hn::And(usable, hn::Ne(tap[i], hn::Zero(di)));
+            usable = hn::And(usable, hn::Ne(above, hn::Zero(di)));
+            if (hn::AllFalse(di, usable))
+                continue;
+            if (temporal) {
+                tap[6] = before(0, 0);
+                tap[7] = before(1, 0);
+                tap[8] = before(4, 1);
+                tap[9] = before(-1, 0);
+                tap[10] = before(-4, -1);
+            }
+            auto most = hn::Zero(di);
+            for (int i = 0; i < taps; ++i) {
+                tap[i] = hn::Sub(tap[i], mean);
+                most = hn::Max(most, hn::Abs(tap[i]));
+            }
+            const auto goal = hn::Sub(target, mean);
+            usable = hn::And(usable, hn::Lt(hn::Max(most, hn::Abs(goal)), hn::Set(di, limit)));
+            const auto spread = hn::ConvertTo(d, most);
+            const auto weight = hn::IfThenElseZero(
+                hn::RebindMask(d, usable),
+                hn::Div(hn::Set(d, 1.0f), hn::MulAdd(hn::Mul(spread, spread), hn::Set(d, 1.0f / 16),
+                                                     hn::Set(d, 1.0f))));
+            hn::Vec<decltype(d)> value[tap_count + 1];
+            for (int i = 0; i < taps; ++i)
+                value[i] = hn::ConvertTo(d, tap[i]);
+            value[taps] = hn::ConvertTo(d, goal);
+            int at = 0;
+            for (int i = 0; i < taps; ++i) {
+                const auto weighted = hn::Mul(value[i], weight);
+                for (int j = i; j <= taps; ++j, ++at)
+                    hn::Store(hn::MulAdd(weighted, value[j], hn::Load(d, sums[at])), d, sums[at]);
+            }
+        }
+    }
+    for (int i = 0; i < equation_count; ++i) {
+        equations[i] = 0;
+        for (std::size_t lane = 0; lane < n; ++lane)
+            equations[i] += double(sums[i][lane]);
+    }
+}
+
+void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
+                 std::size_t bound_count, std::uint16_t* to) {
+    const hn::CappedTag<std::uint16_t, 8> d8;
+    const hn::ScalableTag<std::uint16_t> d;
+    const auto shift = [&](auto tag, std::size_t at) HWY_ATTR {
+        const auto rank = hn::LoadU(tag, from + at);
+        auto moved = rank;
+        for (std::size_t i = 0; i < bound_count; ++i) {
+            const auto below = hn::Lt(rank, hn::Set(tag, bounds[i]));
+            moved = hn::Add(moved, hn::IfThenZeroElse(below, hn::Set(tag, 1)));
+        }
+        hn::StoreU(moved, tag, to + at);
+    };
+    std::size_t at = 0;
+    for (; at + hn::Lanes(d) <= count; at += hn::Lanes(d))
+        shift(d, at);
+    for (; at < count; at += hn::Lanes(d8))
+        shift(d8, at);
+}
+
+}  // namespace theatron::codec::strata::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/strata.h"
+
+#include <gtest/gtest.h>
+
+#include <hwy/targets.h>
+
+#include "codec/strata_kernel.h"
+#include "codec/strata_reference.h"
+#include "codec/test_images.h"
+
+namespace theatron::codec {
+namespace {
+
+using namespace strata;
+
+// A chain of frames through an encoder and a decoder of their own.
+struct Chain {
+    explicit Chain(const StrataParams& params = {})
+        : encoder(make_strata(params)), decoder(make_strata({})) {}
+
+    // Encodes and decodes; a frame that is not kept is one that was skipped.
+    Status pass(const DepthImage& image, bool keep = true) {
+        encoded.resize(encoder->max_encoded_size(image.size));
+        encoded.resize(
+            encoder->encode(image.view(), has_reference ? &at_encoder : nullptr, encoded, &sent));
+        encoded = Bytes(encoded);
+        decoded = DepthImage(image.size);
+        const Status status = decoder->decode(encoded, has_reference ? &at_decoder : nullptr,
+                                              decoded.view(), &received);
+        EXPECT_EQ(sent.depth, received.depth);
+        EXPECT_EQ(sent.memory, received.memory);
+        if (keep) {
+            std::swap(at_encoder, sent);
+            std::swap(at_decoder, received);
+            has_reference = true;
+        }
+        return status;
+    }
+
+    std::unique_ptr<StrataCodec> encoder, decoder;
+    Reference at_encoder, at_decoder, sent, received;
+    bool has_reference = false;
+    Bytes encoded;
+    DepthImage decoded;
+};
+
+// Depths of a sensor that measures disparities.
+DepthImage disparities(Size size, unsigned frame) {
+    DepthImage image = scene(size, frame);
+    for (auto& pixel : image.pixels) {
+        if (pixel != 0 && pixel != 0xffff)
+            pixel = std::uint16_t(2'000'000 / (2'000'000 / (pixel + 500)) % 60000);
+    }
+    return image;
+}
+
+TEST(Strata, RoundTripsAnyImageOfAnySize) {
+    const Size sizes[] = {{1, 1},    {1, 7},    {7, 1},   {31, 33},
+                          {129, 32}, {200, 70}, {640, 3}, {3, 300}};
+    for (const Size size : sizes) {
+        SCOPED_TRACE(testing::Message() << size.width << " x " << size.height);
+        Chain chain;
+        for (unsigned frame = 0; frame < 3; ++frame) {
+            for (const DepthImage& image :
+                 {scene(size, frame), noise(size, frame), disparities(size, frame)}) {
+                ASSERT_EQ(chain.pass(image), Status::ok);
+                ASSERT_EQ(chain.decoded, image);
+            }
+        }
+    }
+}
+
+TEST(Strata, RoundTripsImagesOfOneValue) {
+    for (const int value : {0, 1, 1000, 32768, 65534, 65535}) {
+        Chain chain;
+        DepthImage image({150, 40});
+        image.pixels.assign(image.pixels.size(), std::uint16_t(value));
+        for (int frame = 0; frame < 2; ++frame) {
+            ASSERT_EQ(chain.pass(image), Status::ok);
+            ASSERT_EQ(chain.decoded, image);
+        }
+        // Parameters, states and tables remain.
+        EXPECT_LT(chain.encoded.size(), 400u);
+    }
+}
+
+TEST(Strata, FramesMayBeSkipped) {
+    Chain chain;
+    for (unsigned frame = 0; frame < 12; ++frame) {
+        const DepthImage image =
+            frame < 6 ? disparities({140, 50}, frame) : scene({140, 50}, frame);
+        ASSERT_EQ(chain.pass(image, frame % 3 == 0), Status::ok);
+        ASSERT_EQ(chain.decoded, image);
+    }
+}
+
+TEST(Strata, NeverExceedsItsBound) {
+    for (const Size size : {Size{1, 1}, Size{64, 64}, Size{300, 100}}) {
+        Chain chain;
+        ASSERT_EQ(chain.pass(noise(size, 3)), Status::ok);
+        EXPECT_LE(chain.encoded.size(), chain.encoder->max_encoded_size(size));
+    }
+}
+
+TEST(Strata, EncodesRowsWithAStride) {
+    const DepthImage wide = scene({160, 40}, 1);
+    const DepthView part{wide.pixels.data() + 7, {133, 40}, 160};
+    const auto codec = make_strata({});
+    Bytes encoded(codec->max_encoded_size(part.size));
+    encoded.resize(codec->encode(part, nullptr, encoded, nullptr));
+    DepthImage out({160, 40});
+    const MutableDepthView target{out.pixels.data() + 7, {133, 40}, 160};
+    ASSERT_EQ(codec->decode(encoded, nullptr, target, nullptr), Status::ok);
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 133; ++x)
+            ASSERT_EQ(target.row(y)[x], part.row(y)[x]);
+    }
+}
+
+TEST(Strata, RefusesEveryTruncation) {
+    Chain chain;
+    ASSERT_EQ(chain.pass(scene({24, 9}, 1)), Status::ok);
+    ASSERT_EQ(chain.pass(scene({24, 9}, 2), false), Status::ok);
+    DepthImage out({24, 9});
+    for (std::size_t n = 0; n < chain.encoded.size(); ++n) {
+        const Bytes part(chain.encoded.begin(), chain.encoded.begin() + std::ptrdiff_t(n));
+        EXPECT_NE(chain.decoder->decode(part, &chain.at_decoder, out.view(), nullptr), Status::ok);
+    }
+    chain.encoded.push_back(std::byte{0});
+    EXPECT_EQ(chain.decoder->decode(chain.encoded, &chain.at_decoder, out.view(), nullptr),
+              Status::trailing_bytes);
+}
+
+TEST(Strata, SaysWhatIsWrongWithAHeader) {
+    Chain chain;
+    const DepthImage image = scene({24, 9}, 1);
+    ASSERT_EQ(chain.pass(image), Status::ok);
+    const auto with = [&](std::size_t at, int value) {
+        Bytes changed = chain.encoded;
+        changed[at] = std::byte(value);
+        DepthImage out(image.size);
+        return chain.decoder->decode(changed, nullptr, out.view(), nullptr);
+    };
+    EXPECT_EQ(with(0, 7), Status::malformed);
+    EXPECT_EQ(with(1, 2), Status::unsupported_version);
+    EXPECT_EQ(with(2, 16), Status::malformed);
+    EXPECT_EQ(with(3, 1), Status::malformed);
+    EXPECT_EQ(with(4, 25), Status::size_mismatch);
+    EXPECT_EQ(with(5, 255), Status::too_large);
+    ASSERT_EQ(chain.pass(image), Status::ok);
+    DepthImage out(image.size);
+    EXPECT_EQ(chain.decoder->decode(chain.encoded, nullptr, out.view(), nullptr),
+              Status::missing_reference);
+    const Reference foreign{image, {}};
+    EXPECT_EQ(chain.decoder->decode(chain.encoded, &foreign, out.view(), nullptr),
+              Status::missing_reference);
+}
+
+TEST(Strata, EncodesAgainstAReferenceOfAnotherCodecAsAnIntraFrame) {
+    const auto codec = make_strata({});
+    const DepthImage image = scene({40, 20}, 1);
+    const Reference foreign{image, {}};
+    Bytes encoded(codec->max_encoded_size(image.size));
+    encoded.resize(codec->encode(image.view(), &foreign, encoded, nullptr));
+    DepthImage out(image.size);
+    ASSERT_EQ(codec->decode(encoded, nullptr, out.view(), nullptr), Status::ok);
+    EXPECT_EQ(out, image);
+}
+
+int error_bound(const StrataParams& params, int depth) {
+    const int square = int((std::uint32_t(depth) * std::uint32_t(depth)) >> 16) >> 4;
+    return std::min(2047, params.max_error_mm + params.noise_scaled * square);
+}
+
+TEST(Strata, KeepsToTheDeclaredErrorAndNeverChangesValidity) {
+    for (const StrataParams params :
+         {StrataParams{1, 0}, StrataParams{5, 2}, StrataParams{0, 3}, StrataParams{255, 15}}) {
+        Chain chain(params);
+        chain.encoder->set_region({box(0, 0, 1, 1)});
+        for (unsigned frame = 0; frame < 4; ++frame) {
+            const DepthImage image = frame == 3 ? noise({150, 70}, frame) : scene({150, 70}, frame);
+            ASSERT_EQ(chain.pass(image), Status::ok);
+            for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+                const int before = image.pixels[i], after = chain.decoded.pixels[i];
+                ASSERT_EQ(before == 0, after == 0);
+                ASSERT_EQ(before == 0xffff, after == 0xffff);
+                const bool measured = before != 0 && before != 0xffff;
+                const int bound = measured ? error_bound(params, before) : 0;
+                ASSERT_LE(std::abs(before - after), bound) << before;
+            }
+            EXPECT_EQ(chain.decoded, chain.at_encoder.depth);
+        }
+    }
+}
+
+TEST(Strata, StaysExactWhereTheRegionIs) {
+    Chain chain({20, 0});
+    const DepthImage image = scene({150, 70}, 0);
+    // Nothing drawn: the whole image is exact.
+    ASSERT_EQ(chain.pass(image), Status::ok);
+    EXPECT_EQ(chain.decoded, image);
+    EXPECT_TRUE(read_strata_region(chain.encoded)->empty());
+
+    const Region region = {box(10, 5, 60, 40), {{100, 10}, {140, 60}, {90, 60}}};
+    chain.encoder->set_region(region);
+    for (unsigned frame = 1; frame < 4; ++frame) {
+        const DepthImage next = scene({150, 70}, frame);
+        ASSERT_EQ(chain.pass(next), Status::ok);
+        EXPECT_EQ(read_strata_region(chain.encoded).value(), region);
+        std::vector<std::uint8_t> inside(next.pixels.size());
+        draw_region(region, {inside.data(), next.size});
+        std::size_t exact = 0, changed = 0;
+        for (std::size_t i = 0; i < next.pixels.size(); ++i) {
+            const bool equal = chain.decoded.pixels[i] == next.pixels[i];
+            ASSERT_TRUE(equal || inside[i] == 0) << i;
+            exact += inside[i] != 0;
+            changed += !equal;
+        }
+        EXPECT_GT(exact, 2000u);
+        EXPECT_GT(changed, 2000u);
+    }
+}
+
+TEST(StrataRegion, DrawsThePixelsWhoseCentreIsInside) {
+    std::vector<std::uint8_t> drawn(6 * 4);
+    const View<std::uint8_t> view{drawn.data(), {6, 4}};
+    draw_region({box(1, 1, 3, 3)}, view);
+    const std::vector<std::uint8_t> square = {0, 0,   0,   0, 0, 0,  //
+                                              0, 255, 255, 0, 0, 0,  //
+                                              0, 255, 255, 0, 0, 0,  //
+                                              0, 0,   0,   0, 0, 0};
+    EXPECT_EQ(drawn, square);
+    draw_region({{{0, 0}, {6, 0}, {0, 4}}}, view);
+    const std::vector<std::uint8_t> triangle = {255, 255, 255, 255, 255, 0,  //
+                                                255, 255, 255, 255, 0,   0,  //
+                                                255, 255, 0,   0,   0,   0,  //
+                                                255, 0,   0,   0,   0,   0};
+    EXPECT_EQ(drawn, triangle);
+    draw_region({box(0, 0, 9000, 9000)}, view);
+    EXPECT_EQ(drawn, std::vector<std::uint8_t>(24, 255));
+}
+
+// All that a model needs, as planes of its own.
+struct Planes {
+    explicit Planes(Size size)
+        : layout(layout_of(size)),
+          depth(layout.plane_values()),
+          valid(layout.plane_values()),
+          pixels(layout.coded_values()),
+          token(layout.coded_values()),
+          extra(layout.coded_values()) {}
+
+    void encode(const DepthImage& image, const Planes* before, const Weights& weights, bool blend) {
+        Model model;
+        model.layout = layout;
+        model.depth = depth.data();
+        model.valid = valid.data();
+        model.weights = weights;
+        model.blend = blend;
+        if (before != nullptr) {
+            model.reference_depth = before->depth.data();
+            model.reference_valid = before->valid.data();
+        }
+        rows_to_steps(layout, image.view(), pixels.data());
+        encode_model(model, pixels.data(), {token.data(), extra.data()});
+    }
+
+    Layout layout;
+    std::vector<std::uint16_t> depth;
+    std::vector<std::uint8_t> valid;
+    std::vector<std::uint16_t> pixels, token, extra;
+};
+
+// Runs `test` once per instruction set of this machine.
+template <class Test>
+void on_every_target(Test test) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        SCOPED_TRACE(hwy::TargetName(target));
+        test();
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST(StrataKernel, EveryTargetEqualsTheReference) {
+    const Weights weights = {9000, -3000, 4000, -2000, 1000, 500, 12000, -4000, -3000, 2000, 1500};
+    on_every_target([&] {
+        for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}}) {
+            for (const bool blend : {false, true}) {
+                Planes first(size), second(size);
+                ReferenceModel plain_first(size, weights, blend),
+                    plain_second(size, weights, blend);
+                const Planes* before = nullptr;
+                const ReferenceModel* plain_before = nullptr;
+                unsigned seed = 0;
+                for (auto [planes, plain] :
+                     {std::pair{&first, &plain_first}, std::pair{&second, &plain_second}}) {
+                    const DepthImage image =
+                        ++seed == 2 && size.width == 40 ? noise(size, seed) : scene(size, seed);
+                    planes->encode(image, before, weights, blend);
+                    const auto expected = plain->encode(image.view(), plain_before);
+                    for (int y = 0; y < size.height; ++y) {
+                        for (int x = 0; x < size.width; ++x) {
+                            const std::size_t at =
+                                std::size_t(planes->layout.step_of(x, y)) * lane_count +
+                                std::size_t(y % lane_count);
+                            const auto& e = expected[std::size_t(y * size.width + x)];
+                            ASSERT_EQ(planes->token[at], e.token) << x << ' ' << y;
+                            ASSERT_EQ(planes->extra[at], e.extra) << x << ' ' << y;
+                        }
+                    }
+                    before = planes;
+                    plain_before = plain;
+                }
+            }
+        }
+    });
+}
+
+TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
+    std::vector<Bytes> encoded;
+    const DepthImage images[] = {scene({170, 66}, 0), scene({170, 66}, 1), noise({170, 66}, 2)};
+    on_every_target([&] {
+        Chain lossless, lossy({6, 1});
+        lossy.encoder->set_region({box(20, 10, 60, 50)});
+        std::vector<Bytes> now;
+        for (const DepthImage& image : images) {
+            ASSERT_EQ(lossless.pass(image), Status::ok);
+            ASSERT_EQ(lossless.decoded, image);
+            ASSERT_EQ(lossy.pass(image), Status::ok);
+            ASSERT_EQ(lossy.decoded, lossy.at_encoder.depth);
+            now.push_back(lossy.encoded);
+        }
+        if (encoded.empty())
+            encoded = now;
+    });
+    // What one target wrote, the others read.
+    on_every_target([&] {
+        const auto decoder = make_strata({});
+        Reference reference, next;
+        for (std::size_t i = 0; i < encoded.size(); ++i) {
+            DepthImage out(images[i].size);
+            ASSERT_EQ(decoder->decode(encoded[i], i > 0 ? &reference : nullptr, out.view(), &next),
+                      Status::ok);
+            std::swap(reference, next);
+        }
+    });
+}
+
+}  // namespace
+}  // namespace theatron::codec
