@@ -98,6 +98,28 @@ void add_body(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, do
         influences.push_back(influence_at(gown, p, first));
     out.append(cloth, influences);
 
+    // The belt, tied behind.
+    std::vector<F3> around;
+    for (int i = 0; i <= 40; ++i) {
+        const float a = 2 * pi * float(i) / 40;
+        const F3 out{std::sin(a), 0, -std::cos(a)};
+        float r = 0.1f;
+        for (int k = 0; k < 12; ++k)  // towards the surface
+            r -= gown.whole(out * r + F3{0, 1.03f, 0}) * 0.8f;
+        around.push_back(out * (r + 0.001f) + F3{0, 1.03f, 0});
+    }
+    Mesh belt = make_tube(around, {0.004f}, 8, looks.gown, 4, {0, 0, 1});
+    const F3 knot = around[0] + F3{0, 0, -0.006f};
+    belt.append(make_ball({0.016f, 0.013f, 0.011f}, 12, looks.gown), translation(knot));
+    for (const float s : {-1.0f, 1.0f})
+        belt.append(make_tube(
+            {knot, knot + F3{s * 0.02f, -0.08f, -0.012f}, knot + F3{s * 0.035f, -0.2f, -0.004f}},
+            {0.005f, 0.009f, 0.011f}, 8, looks.gown, 0.3f, {1, 0, 0}));
+    std::vector<Influence> belt_influences;
+    for (const F3 p : belt.positions)
+        belt_influences.push_back(influence_at(gown, {p.x, 1.03f, p.z}, first));
+    out.append(belt, belt_influences);
+
     Mesh legs;
     for (const float s : {-1.0f, 1.0f}) {
         const float x = 0.105f * s;
