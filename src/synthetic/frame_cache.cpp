@@ -42,7 +42,12 @@ private:
     std::uint64_t sum_ = 0x243f6a8885a308d3u;
 };
 
-std::string key_of(const LoopOptions& o, std::size_t frames) {
+std::size_t frames_of(const LoopOptions& o) {
+    const double frames = double(o.scene.loop.count()) * 1e-6 * o.frames_per_second;
+    return std::size_t(std::max<std::int64_t>(1, std::llround(frames)));
+}
+
+std::string key_of(const LoopOptions& o) {
     std::string key = "scene=" + std::to_string(scene_version);
     const auto add = [&](const char* name, auto value) {
         key += std::string(" ") + name + "=" + std::to_string(value);
@@ -56,7 +61,7 @@ std::string key_of(const LoopOptions& o, std::size_t frames) {
     add("color_width", o.color.width);
     add("color_height", o.color.height);
     add("depth_divisor", o.depth_divisor);
-    add("frames", frames);
+    add("frames", frames_of(o));
     add("noise", int(o.noise));
     return key;
 }
@@ -203,13 +208,17 @@ Calibration loop_calibration(const LoopOptions& options) {
     return c;
 }
 
+fs::path loop_path(const LoopOptions& options) {
+    return (options.folder.empty() ? default_cache_folder() : options.folder) /
+           file_name(key_of(options));
+}
+
 FrameLoop::FrameLoop(const LoopOptions& options, const Progress& progress)
     : calibration_(loop_calibration(options)) {
-    const auto frames = std::size_t(std::max<std::int64_t>(
-        1, std::llround(double(options.scene.loop.count()) * 1e-6 * options.frames_per_second)));
-    const fs::path folder = options.folder.empty() ? default_cache_folder() : options.folder;
-    const std::string key = key_of(options, frames);
-    path_ = folder / file_name(key);
+    const std::size_t frames = frames_of(options);
+    const std::string key = key_of(options);
+    path_ = loop_path(options);
+    const fs::path folder = path_.parent_path();
     was_cached_ = open(key);
     if (was_cached_ && frames == index_.size())
         return;

@@ -39,6 +39,9 @@ using Progress = std::function<void(std::string_view what, double done)>;
 // The camera's calibration, without rendering anything.
 Calibration loop_calibration(const LoopOptions& options);
 
+// The file that holds this loop, there or not.
+std::filesystem::path loop_path(const LoopOptions& options);
+
 // An opened loop. Used by one thread at a time.
 class FrameLoop {
 public:

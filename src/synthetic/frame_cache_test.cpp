@@ -103,14 +103,21 @@ TEST_F(FrameCache, DamagedFilesAreRenderedAgain) {
 }
 
 TEST_F(FrameCache, EveryOptionHasItsOwnFile) {
-    const FrameLoop plain(options_);
-    LoopOptions other = options_;
-    other.noise = true;
-    const FrameLoop noisy(other);
-    EXPECT_NE(plain.path(), noisy.path());
-    other = options_;
-    other.camera = 1;
-    EXPECT_NE(plain.path(), FrameLoop(other).path());
+    const auto differs = [&](auto change) {
+        LoopOptions other = options_;
+        change(other);
+        EXPECT_NE(loop_path(options_), loop_path(other));
+    };
+    differs([](LoopOptions& o) { o.noise = true; });
+    differs([](LoopOptions& o) { o.camera = 1; });
+    differs([](LoopOptions& o) { o.cameras = 3; });
+    differs([](LoopOptions& o) { o.variant = Variant::surgeon; });
+    differs([](LoopOptions& o) { o.scene.seed = 9; });
+    differs([](LoopOptions& o) { o.scene.detail = 1; });
+    differs([](LoopOptions& o) { o.scene.loop = 3s; });
+    differs([](LoopOptions& o) { o.color = {}; });
+    differs([](LoopOptions& o) { o.depth_divisor = 2; });
+    differs([](LoopOptions& o) { o.frames_per_second = 3; });
 }
 
 }  // namespace

@@ -16,26 +16,41 @@ const SampleGrid& map_grid() {
     return grid;
 }
 
-// A running mean over 2 * radius + 1 values along rows, then columns, twice: near a bell curve.
+// A running mean over 2 * radius + 1 values along columns, then rows, twice: near a bell curve.
 void blur(std::vector<float>& image, int radius) {
-    std::vector<float> line(map_side);
-    const auto pass = [&](float* first, std::ptrdiff_t step) {
-        double sum = 0;
-        const auto get = [&](int i) { return first[std::clamp(i, 0, map_side - 1) * step]; };
-        for (int i = -radius; i <= radius; ++i)
-            sum += get(i);
-        for (int i = 0; i < map_side; ++i) {
-            line[std::size_t(i)] = float(sum / (2 * radius + 1));
-            sum += get(i + radius + 1) - get(i - radius);
-        }
-        for (int i = 0; i < map_side; ++i)
-            first[i * step] = line[std::size_t(i)];
-    };
+    const float share = 1 / float(2 * radius + 1);
+    std::vector<float> source, sums(map_side);
     for (int repeat = 0; repeat < 2; ++repeat) {
-        for (int y = 0; y < map_side; ++y)
-            pass(image.data() + y * map_side, 1);
-        for (int x = 0; x < map_side; ++x)
-            pass(image.data() + x, map_side);
+        source = image;
+        const auto row = [&](int y) {
+            return source.data() + std::clamp(y, 0, map_side - 1) * map_side;
+        };
+        std::fill(sums.begin(), sums.end(), 0.0f);
+        for (int y = -radius; y <= radius; ++y)
+            for (int x = 0; x < map_side; ++x)
+                sums[std::size_t(x)] += row(y)[x];
+        for (int y = 0; y < map_side; ++y) {
+            const float *enter = row(y + radius + 1), *leave = row(y - radius);
+            float* out = image.data() + y * map_side;
+            for (int x = 0; x < map_side; ++x) {
+                out[x] = sums[std::size_t(x)] * share;
+                sums[std::size_t(x)] += enter[x] - leave[x];
+            }
+        }
+        for (int y = 0; y < map_side; ++y) {
+            float* line = image.data() + y * map_side;
+            std::copy(line, line + map_side, sums.begin());
+            const auto at = [&](int x) {
+                return sums[std::size_t(std::clamp(x, 0, map_side - 1))];
+            };
+            float sum = 0;
+            for (int x = -radius; x <= radius; ++x)
+                sum += at(x);
+            for (int x = 0; x < map_side; ++x) {
+                line[x] = std::max(sum * share, 0.0f);
+                sum += at(x + radius + 1) - at(x - radius);
+            }
+        }
     }
 }
 

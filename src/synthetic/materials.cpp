@@ -39,8 +39,8 @@ std::array<LookTraits, std::size_t(Look::count)> make_table() {
     set(Look::lamp_glass, {glass, srgb(240, 240, 235), 0.2f, 0.4f, 80, 0.1f});
     set(Look::drape, {drape, srgb(70, 136, 170), 0.58f, 0.05f, 8});
     set(Look::tray_cloth, {drape, srgb(62, 132, 116), 0.56f, 0.05f, 8});
-    set(Look::gown, {gown, srgb(74, 136, 160), 0.55f, 0.04f, 8});
-    set(Look::gown_assistant, {gown, srgb(104, 164, 158), 0.55f, 0.04f, 8});
+    set(Look::gown, {gown, srgb(98, 158, 186), 0.55f, 0.04f, 8});
+    set(Look::gown_assistant, {gown, srgb(118, 176, 168), 0.55f, 0.04f, 8});
     set(Look::cuff, {gown, srgb(222, 224, 220), 0.68f});
     set(Look::cap, {cap, srgb(44, 104, 122), 0.5f, 0.03f, 8});
     set(Look::cap_assistant, {cap, srgb(70, 132, 150), 0.52f, 0.03f, 8});

@@ -27,7 +27,7 @@ void add_arm(Mesh& still, F3 ceiling_point, F3 screen) {
 }  // namespace
 
 void add_monitor(Mesh& still) {
-    const F3 left{-1.75f, 1.62f, 1.35f}, right{1.6f, 1.66f, -1.45f};
+    const F3 left{-1.75f, 1.62f, 1.35f}, right{0.3f, 1.74f, -1.8f};
     const F3 watched{0, 1.5f, 0};
     for (const F3 at : {left, right}) {
         const F3 forward = normalized(F3{watched.x - at.x, -0.05f, watched.z - at.z});

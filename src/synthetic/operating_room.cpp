@@ -55,11 +55,18 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     add_bricks(still, options.seed);
     add_monitor(still);
     add_patient(still, scene->moving, options.detail);
+    const Mesh cover = scene->moving.mesh;  // moves a little, but lies among what does not
     add_situs(still, scene->moving, options.detail);
     add_people(scene->moving, options.detail, options.seed);
     add_tools(scene->moving);
     split_long_edges(still, 0.16f);
-    bake_openness(still, options.detail >= 1 ? 96 : options.detail > 0.1 ? 12 : 3);
+    Mesh together = still;
+    together.append(cover);
+    bake_openness(together, options.detail >= 1 ? 96 : options.detail > 0.1 ? 12 : 3);
+    const auto first = together.openness.begin();
+    const auto seam = first + std::ptrdiff_t(still.openness.size());
+    std::copy(first, seam, still.openness.begin());
+    std::copy(seam, together.openness.end(), scene->moving.mesh.openness.begin());
     for (const Lamp& lamp : lamps())
         scene->still_shadows.emplace_back(lamp, still.positions, still.triangles);
     scene_ = std::move(scene);

@@ -168,6 +168,14 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
     still.append(make_box({0.3f, 0.08f, 0.3f}, 0.035f, Look::mattress),
                  translation(head + F3{-0.02f, -0.075f, 0}));
     still.append(make_ball({0.11f, 0.095f, 0.078f}, 28, Look::patient_face), translation(head));
+    still.append(make_ball({0.026f, 0.022f, 0.013f}, 16, Look::patient_face),
+                 translation(head + F3{0.022f, 0.092f, 0}));
+    for (const float s : {-1.0f, 1.0f}) {
+        still.append(make_ball({0.028f, 0.018f, 0.009f}, 14, Look::patient_face),
+                     translation(head + F3{-0.005f, 0.005f, s * 0.079f}));
+        still.append(make_ball({0.008f, 0.009f, 0.014f}, 12, Look::patient_face),
+                     translation(head + F3{-0.012f, 0.085f, s * 0.031f}));
+    }
     still.append(make_ball({0.085f, 0.1f, 0.084f}, 28, Look::cap_assistant),
                  translation(head + F3{-0.04f, -0.004f, 0}));
     still.append(make_ball({0.04f, 0.02f, 0.034f}, 20, Look::clear_bag),

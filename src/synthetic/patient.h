@@ -21,7 +21,7 @@ float body_height(float x, float z);
 
 // How much a place rises when the patient breathes in, 0 … 1.
 inline float breath_lift(F3 p) {
-    return smoothstep(0.55f, 0.05f, std::abs(p.x + 0.08f)) *
+    return smoothstep(0.44f, 0.06f, std::abs(p.x + 0.02f)) *
            smoothstep(0.42f, 0.12f, std::abs(p.z)) * smoothstep(0.9f, 1.04f, p.y);
 }
 

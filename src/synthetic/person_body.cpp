@@ -30,8 +30,11 @@ struct Gown {
         const float t = clamp01((1.0f - p.y) / 0.72f);
         const float rx = mix(0.178f, 0.25f, t), rz = mix(0.15f, 0.215f, t);
         const float turn = std::atan2(p.x / rx, p.z / rz);
-        const float folds = std::sin(turn * 9 + 2 * noise({turn * 1.5f, p.y * 2, seed})) +
-                            0.5f * std::sin(turn * 17 + 3 * noise({turn * 2, p.y * 3, seed + 5}));
+        const float folds =
+            std::sin(turn * 9 +
+                     2 * noise({2 * std::sin(turn), p.y * 2, 2 * std::cos(turn) + seed})) +
+            0.5f * std::sin(turn * 17 +
+                            3 * noise({3 * std::sin(turn), p.y * 3, 3 * std::cos(turn) + seed}));
         const float k = std::hypot(p.x / rx, p.z / rz) - 1;
         const float side =
             k * std::min(rx, rz) * 0.95f - folds * 0.014f * smoothstep(0.05f, 0.8f, t);
@@ -50,9 +53,9 @@ struct Gown {
         // Creases around the sleeve, deepest at the elbow.
         const F3 q = p - (a + d * dot(p - a, d));
         const float turn = std::atan2(q.y, q.x);
-        const float crease = std::sin(along * 62 + 1.6f * std::sin(turn + side + seed) +
-                                      2.5f * noise({along * 7, turn, seed + side}));
-        const float deep = 0.0022f + 0.0042f * std::exp(-std::pow((along - 0.53f) / 0.13f, 2.0f));
+        const float crease = std::sin(along * 48 + 1.6f * std::sin(turn + side + seed) +
+                                      4.5f * noise({along * 7, turn, seed + side}));
+        const float deep = 0.0016f + 0.0034f * std::exp(-std::pow((along - 0.53f) / 0.13f, 2.0f));
         return r - width - deep * crease * smoothstep(0.9f, 0.8f, along) -
                0.004f * noise(p * 13.0f + F3{seed, 0, 0});
     }
@@ -74,7 +77,7 @@ Influence influence_at(const Gown& gown, F3 p, std::uint16_t first) {
     const float arm_share = smoothstep(-0.025f, 0.05f, gown.torso(p) - std::min(left, right)) *
                             smoothstep(0.0f, 0.2f, along);
     const float bend = smoothstep(0.42f, 0.64f, along);
-    const float upright = smoothstep(0.9f, 1.2f, p.y);
+    const float upright = smoothstep(0.84f, 1.26f, p.y);
     const auto bone = [&](int b) { return std::uint16_t(first + b); };
     return {{bone(lower), bone(chest), bone(is_left ? upper_arm_left : upper_arm_right),
              bone(is_left ? forearm_left : forearm_right)},
@@ -97,6 +100,28 @@ void add_body(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, do
     for (const F3 p : cloth.positions)
         influences.push_back(influence_at(gown, p, first));
     out.append(cloth, influences);
+
+    // The belt, tied behind.
+    std::vector<F3> around;
+    for (int i = 0; i <= 40; ++i) {
+        const float a = 2 * pi * float(i) / 40;
+        const F3 outwards{std::sin(a), 0, -std::cos(a)};
+        float r = 0.1f;
+        for (int k = 0; k < 12; ++k)  // towards the surface
+            r -= gown.whole(outwards * r + F3{0, 1.03f, 0}) * 0.8f;
+        around.push_back(outwards * (r + 0.001f) + F3{0, 1.03f, 0});
+    }
+    Mesh belt = make_tube(around, {0.0026f}, 8, looks.gown, 5, {0, 0, 1});
+    const F3 knot = around[0] + F3{0, 0, -0.006f};
+    belt.append(make_ball({0.016f, 0.013f, 0.011f}, 12, looks.gown), translation(knot));
+    for (const float s : {-1.0f, 1.0f})
+        belt.append(make_tube(
+            {knot, knot + F3{s * 0.02f, -0.08f, -0.012f}, knot + F3{s * 0.035f, -0.2f, -0.004f}},
+            {0.005f, 0.009f, 0.011f}, 8, looks.gown, 0.3f, {1, 0, 0}));
+    std::vector<Influence> belt_influences;
+    for (const F3 p : belt.positions)
+        belt_influences.push_back(influence_at(gown, {p.x, 1.03f, p.z}, first));
+    out.append(belt, belt_influences);
 
     Mesh legs;
     for (const float s : {-1.0f, 1.0f}) {

@@ -27,7 +27,7 @@ float face(F3 p, float build) {
     // Lids over the eyeballs, open in front.
     const F3 e = m - rest::eye;
     const float lid =
-        std::max(length(e) - 0.0142f, 0.0052f - std::abs(e.y - 0.0015f) -
+        std::max(length(e) - 0.0142f, 0.0044f - std::abs(e.y + 0.0012f) -
                                           0.16f * std::max(0.0f, std::abs(e.x) - 0.004f));
     d = blend(d, lid, 0.004f);
     d = blend(d, ball(p, {0, 0.012f, 0.084f}, 0.014f), 0.025f);  // chin
@@ -92,7 +92,7 @@ Mesh loupes() {
 }  // namespace
 
 void add_head(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, double detail) {
-    const float cell = 0.0042f / float(std::sqrt(detail));
+    const float cell = 0.0033f / float(std::sqrt(detail));
     const float seed = float(looks.seed % 31);
     const float build = 0.002f * float(looks.seed % 3) - 0.002f;
     const F3 low{-0.11f, -0.1f, -0.13f}, high{0.11f, 0.27f, 0.15f};
@@ -100,11 +100,15 @@ void add_head(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, do
     m.append(make_surface([&](F3 p) { return cap_shape(p, seed); }, low, high, cell, looks.cap));
     m.append(make_surface([&](F3 p) { return mask_shape(p, build); }, low, high, cell, Look::mask));
     for (const float s : {-1.0f, 1.0f})
-        for (const float y : {0.09f, 0.012f})
-            m.append(make_tube({{s * 0.063f, y, 0.03f},
-                                {s * 0.082f, y + 0.012f, 0.0f},
-                                {s * 0.084f, 0.1f, -0.03f}},
+        for (const bool upper : {true, false}) {
+            const F3 from = upper ? F3{0.066f, 0.085f, 0.03f} : F3{0.05f, 0.02f, 0.03f};
+            const F3 middle = upper ? F3{0.078f, 0.098f, 0.012f} : F3{0.067f, 0.05f, 0.0f};
+            const F3 ear{0.083f, upper ? 0.115f : 0.085f, -0.016f};
+            m.append(make_tube({{s * from.x, from.y, from.z},
+                                {s * middle.x, middle.y, middle.z},
+                                {s * ear.x, ear.y, ear.z}},
                                {0.0018f}, 6, Look::strap));
+        }
     if (looks.loupes)
         m.append(loupes());
     out.append(m, std::uint16_t(first + head));

@@ -105,10 +105,20 @@ struct Raster {
     }
 };
 
+void bound_rays(SampleGrid& grid) {
+    for (const Ray& r : grid.rays.pixels)
+        if (r.x != no_ray) {
+            grid.side_x = std::max(grid.side_x, std::abs(r.x));
+            grid.side_y = std::max(grid.side_y, std::abs(r.y));
+        }
+}
+
 }  // namespace
 
 SampleGrid make_grid(const CameraModel& camera) {
-    return {camera, 1, make_ray_table(camera)};
+    SampleGrid grid{camera, 1, make_ray_table(camera)};
+    bound_rays(grid);
+    return grid;
 }
 
 SampleGrid make_fine_grid(const CameraModel& camera, const Image<Ray>& centres, int per_side,
@@ -134,6 +144,7 @@ SampleGrid make_fine_grid(const CameraModel& camera, const Image<Ray>& centres, 
             out.x = mix(mix(upper[0].x, upper[1].x, fx), mix(lower[0].x, lower[1].x, fx), fy);
             out.y = mix(mix(upper[0].y, upper[1].y, fx), mix(lower[0].y, lower[1].y, fx), fy);
         }
+    bound_rays(grid);
     return grid;
 }
 
@@ -165,13 +176,7 @@ void rasterise(const SampleGrid& grid, std::span<const F3> points,
             bounds[i] = {bound_projection(grid.camera, points[i], pulled), pulled * 4};
     }
     Raster raster{grid, seen};
-    // Everything seen lies within this pyramid.
-    float side_x = 0, side_y = 0;
-    for (const Ray& r : grid.rays.pixels)
-        if (r.x != no_ray) {
-            side_x = std::max(side_x, std::abs(r.x));
-            side_y = std::max(side_y, std::abs(r.y));
-        }
+    const float side_x = grid.side_x, side_y = grid.side_y;
     const auto outside = [&](F3 a, F3 b, F3 c) {
         const auto right = [&](F3 p) { return p.x > side_x * p.z; };
         const auto left = [&](F3 p) { return -p.x > side_x * p.z; };

@@ -24,6 +24,8 @@ struct SampleGrid {
     CameraModel camera;
     int per_side = 1;
     Image<Ray> rays;  // camera.size times per_side
+    // All rays lie within this pyramid.
+    float side_x = 0, side_y = 0;
 };
 
 // One sample a pixel, exactly at its centre.

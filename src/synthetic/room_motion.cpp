@@ -184,11 +184,11 @@ std::vector<Affine> pose_bones(double phase, double, std::uint32_t seed) {
 
     // The step back, with a look at the monitor.
     const float back = smoothstep(18.6f, 20.0f, beat) - smoothstep(21.6f, 23.2f, beat);
-    const F3 situs{0.0f, 1.04f, 0.01f}, monitor{1.5f, 1.62f, -1.4f};
+    const F3 situs{0.0f, 1.04f, 0.01f}, monitor{0.3f, 1.7f, -1.8f};
 
     PersonPose surgeon;
     surgeon.root = translation({0.015f + 0.008f * swing(phase, 2, 0.2f), 0, 0.555f + 0.1f * back}) *
-                   rotation({0, 1, 0}, pi + 0.04f * swing(phase, 3, 0) - 0.12f * back);
+                   rotation({0, 1, 0}, pi + 0.04f * swing(phase, 3, 0) - 0.05f * back);
     surgeon.lean = 0.33f - 0.16f * back + 0.015f * swing(phase, 5, 0.4f);
     surgeon.sway = 0.015f * swing(phase, 3, 0.15f);
     surgeon.breath = swing(phase, 5, 0.6f);

@@ -168,7 +168,7 @@ void add_room_furniture(Mesh& still) {
     still.append(double_door(), facing({-half_x + 0.02f, 0, 1.3f}, {-1, 0, 0}, {0, 1, 0}));
     still.append(cupboard(), facing({-1.1f, 0, half_z - 0.23f}, {0, 0, 1}, {0, 1, 0}));
     still.append(cupboard(), facing({half_x - 0.23f, 0, -0.5f}, {1, 0, 0}, {0, 1, 0}));
-    still.append(cupboard(), facing({-0.4f, 0, -half_z + 0.23f}, {0, 0, -1}, {0, 1, 0}));
+    still.append(cupboard(), facing({-0.55f, 0, -half_z + 0.23f}, {0, 0, -1}, {0, 1, 0}));
     still.append(anaesthesia_machine(), facing({-1.75f, 0, -0.55f}, {0.8f, 0, 0.45f}, {0, 1, 0}));
     still.append(drip_stand(), translation({-1.15f, 0, -0.85f}));
     still.append(bin(Look::brick_yellow), translation({1.75f, 0, 1.2f}));
@@ -192,7 +192,7 @@ void add_room_furniture(Mesh& still) {
     put_box(side, {0.32f, 0.96f, 0}, {0.3f, 0.1f, 0.22f}, Look::steel, 0.01f);
     side.append(make_picture(0.18f, 0.09f, int(PictureNumber::label), Look::paper),
                 translation({0.32f, 0.96f, 0.112f}));
-    still.append(side, facing({1.45f, 0, -1.9f}, {-0.35f, 0, 1}, {0, 1, 0}));
+    still.append(side, facing({1.75f, 0, -1.75f}, {-0.5f, 0, 1}, {0, 1, 0}));
     still.append(side, facing({-0.55f, 0, 1.95f}, {0.2f, 0, -1}, {0, 1, 0}));
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes pictures of the synthetic operating room, to look at:
 //
-//     synthetic_pictures DIR [seconds] [room|surgeon] [detail]
+//     synthetic_pictures DIR [seconds] [room|surgeon] [detail] [ex ey ez tx ty tz fov]...
 //
-// Each of two cameras' colour and depth, and a free viewpoint, as PNG.
+// Each of two cameras' colour and depth, a free viewpoint and further ones (eye,
+// target and field of view in degrees), as PNG.
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -45,7 +46,10 @@ double now() {
 
 int main(int count, char** arguments) {
     if (count < 2) {
-        std::fputs("usage: synthetic_pictures DIR [seconds] [room|surgeon] [detail]\n", stderr);
+        std::fputs(
+            "usage: synthetic_pictures DIR [seconds] [room|surgeon] [detail] [ex ey ez tx ty tz "
+            "fov]...\n",
+            stderr);
         return 2;
     }
     const std::string folder = arguments[1];
@@ -82,8 +86,13 @@ int main(int count, char** arguments) {
                     Duration(std::int64_t(seconds * 1e6)), color_only);
     lap("free view");
     files::write_png(prefix + "_free_view.png", free.color.view());
-    const GroundTruth close =
-        room.render(free_viewpoint({0.32, 1.75, -0.42}, {0, 1.05, 0}, {1280, 720}, 50),
-                    Duration(std::int64_t(seconds * 1e6)), color_only);
-    files::write_png(prefix + "_situs.png", close.color.view());
+    // More views: each seven numbers, eye, target and field of view.
+    for (int i = 5; i + 6 < count; i += 7) {
+        const auto n = [&](int k) { return std::stod(arguments[i + k]); };
+        const GroundTruth truth =
+            room.render(free_viewpoint({n(0), n(1), n(2)}, {n(3), n(4), n(5)}, {1280, 720}, n(6)),
+                        Duration(std::int64_t(seconds * 1e6)), color_only);
+        files::write_png(prefix + "_view" + std::to_string((i - 5) / 7) + ".png",
+                         truth.color.view());
+    }
 }
