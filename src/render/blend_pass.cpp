@@ -15,9 +15,10 @@ constexpr int layer_colors_unit = 5, layer_depths_unit = 6;
 class BlendPass final : public CloudPass {
 public:
     BlendPass()
-        : layer_program_(make_cloud_program(
-              {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "quality.glsl", "mesh.vert"},
-              {"cloud.glsl", "color.glsl", "torn.glsl", "blend_layer.frag"})),
+        : layer_program_(
+              make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl",
+                                  "quality.glsl", "set_back.glsl", "mesh.vert"},
+                                 {"cloud.glsl", "color.glsl", "torn.glsl", "blend_layer.frag"})),
           blend_program_(make_cloud_program({"full_picture.vert"}, {"output.glsl", "blend.frag"})),
           columns_(layer_program_.uniform("columns")),
           first_camera_(layer_program_.uniform("first_camera")),
@@ -75,14 +76,13 @@ private:
             presence.push_back(float(source.presence));
             all_present = all_present && source.presence == 1;
         }
-        const double n = frame.view.near_m, f = frame.view.far_m;
         const DrawTarget& target = frame.target;
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glViewport(target.x, target.y, target.size.width, target.size.height);
         bind_layers(colors_->name(), depths_->name());
         blend_program_.use();
         glUniform1i(layer_count_, count_);
-        glUniform2f(depth_from_w_, float(f / (f - n)), float(-f * n / (f - n)));
+        set_depth_from_w(frame.view, depth_from_w_);
         glUniform2i(picture_corner_, target.x, target.y);
         glUniform1fv(presence_, GLsizei(presence.size()), presence.data());
         if (!all_present) {

@@ -62,12 +62,11 @@ public:
 
     void draw(const CloudFrame& frame) override {
         const Size size = frame.textures.depth_size(), picture = frame.target.size;
-        const double n = frame.view.near_m, f = frame.view.far_m;
         program_.use();
         glUniform1i(columns_, size.width);
         glUniform2f(half_picture_, float(picture.width / 2.0), float(picture.height / 2.0));
         glUniform1f(pixels_per_tan_, float(picture.width / (frame.view.right - frame.view.left)));
-        glUniform2f(depth_from_w_, float(f / (f - n)), float(-f * n / (f - n)));
+        set_depth_from_w(frame.view, depth_from_w_);
         glDrawArraysInstanced(GL_POINTS, 0, GLsizei(size.area()),
                               GLsizei(frame.textures.sources().size()));
     }
@@ -88,32 +87,39 @@ public:
     void draw(const CloudFrame& frame) override {
         program_.use();
         glUniform1i(columns_, frame.textures.depth_size().width);
+        glUniform1i(sets_back_, 1);
+        set_depth_from_w(frame.view, depth_from_w_);
         frame.grid.draw(frame.textures.depth_size(), int(frame.textures.sources().size()));
     }
 
 private:
     Program program_;
     GLint columns_ = program_.uniform("columns");
+    GLint sets_back_ = program_.uniform("sets_back");
+    GLint depth_from_w_ = program_.uniform("depth_from_w");
 };
 
 }  // namespace
 
 std::unique_ptr<CloudPass> make_splat_pass() {
-    return std::make_unique<PointPass>(make_cloud_program(
-        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "splat.vert"},
-        {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
+    return std::make_unique<PointPass>(
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl",
+                            "set_back.glsl", "splat.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_disc_pass() {
-    return std::make_unique<PointPass>(make_cloud_program(
-        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl", "disc.vert"},
-        {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
+    return std::make_unique<PointPass>(
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl",
+                            "set_back.glsl", "disc.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
-    return std::make_unique<GridPass>(make_cloud_program(
-        {"cloud.glsl", "color_place.glsl", "neighbours.glsl", "quality.glsl", "mesh.vert"},
-        {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}));
+    return std::make_unique<GridPass>(
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "quality.glsl",
+                            "set_back.glsl", "mesh.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_bare_grid_pass() {
@@ -143,6 +149,11 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("edge_distances", EdgeMaps::texture_unit);
     program.bind_block("Cameras", CameraBlock::binding);
     return program;
+}
+
+void set_depth_from_w(const CameraView& view, GLint uniform) {
+    const double n = view.near_m, f = view.far_m;
+    glUniform2f(uniform, float(f / (f - n)), float(-f * n / (f - n)));
 }
 
 }  // namespace theatron::render

@@ -52,4 +52,8 @@ private:
 // CameraBlock::bind do.
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
+// Sets the current program's uniform depth_from_w, with which shaders turn distance
+// into window depth and back.
+void set_depth_from_w(const CameraView& view, GLint uniform);
+
 }  // namespace theatron::render

@@ -314,6 +314,17 @@ TEST_P(CloudSceneTest, CamerasOfDifferentSizesAreDrawnTogether) {
     EXPECT_EQ(render(own_view(far), far.depth.size).depth_mm.view().row(20)[80], 1500);
 }
 
+TEST_P(CloudSceneTest, WhatHasItsColorWinsOverWhatHasNone) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    scene->set_camera(second_camera, calibration);
+    DepthImage nearer = wall_and_board(calibration.depth.size);
+    for (std::uint16_t& mm : nearer.pixels)
+        mm = std::uint16_t(mm > 0 ? mm - 5 : 0);
+    ASSERT_EQ(scene->upload(second_camera, nearer.view(), {}), Status::ok);
+    EXPECT_NEAR(render(own_view(calibration)).color.view().row(40)[75].r, 75, 1);
+}
+
 TEST_P(CloudSceneTest, DepthUnitsAreThoseOfTheCalibration) {
     Calibration calibration = simple_calibration();
     calibration.depth_unit_mm = 0.25;

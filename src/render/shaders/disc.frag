@@ -4,7 +4,7 @@ uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
 
 flat in vec4 v_place;
 flat in vec3 v_ellipse;
-flat in vec3 v_plane;
+flat in vec4 v_plane;
 
 void main() {
     // The point's own axes: x to the right, y up, as in clip coordinates.
@@ -14,6 +14,6 @@ void main() {
         discard;
     float w = max(v_plane.x + dot(v_plane.yz, d), 0.001);
     // Where discs of one surface overlap, the one whose centre is nearer shows.
-    gl_FragDepth = depth_from_w.x + depth_from_w.y / (w * (1.0 + 0.001 * rim));
+    gl_FragDepth = depth_from_w.x + depth_from_w.y / (w * (1.0 + 0.001 * rim) + v_plane.w);
     write_surface(color_at(int(v_place.z), v_place.xy), w);
 }

@@ -5,7 +5,8 @@
 
 flat out vec4 v_place;    // colour pixel, camera, diameter
 flat out vec3 v_ellipse;  // a, b, c of a x^2 + b x y + c y^2 <= 1, in picture pixels
-flat out vec3 v_plane;    // distance at the centre, its change to the right, downwards
+flat out vec4 v_plane;    // distance at the centre, its change to the right, upwards; how much
+                          // further back it is tested
 
 void main() {
     int camera = gl_InstanceID;
@@ -35,7 +36,8 @@ void main() {
     float determinant_j = determinant(j);
     // Seen edge on, a disc has no slope that means anything.
     vec2 slope = abs(determinant_j) > 0.1 ? inverse(transpose(j)) * change : vec2(0.0);
-    v_plane = vec3(clip.w, slope);
+    vec3 color = color_place(camera, point);
+    v_plane = vec4(clip.w, slope, set_back_m(color.z));
     gl_Position = clip;
-    v_place = vec4(color_place(camera, point).xy, float(camera), gl_PointSize);
+    v_place = vec4(color.xy, float(camera), gl_PointSize);
 }

@@ -9,6 +9,7 @@
 
 uniform int columns;       // of the depth images
 uniform int first_camera;  // of those drawn by this call
+uniform bool sets_back;    // whether set_back.glsl is asked
 
 out vec4 v_place;       // colour pixel, place in the depth image
 out float v_support;    // how many neighbours are connected, 1: all
@@ -68,8 +69,10 @@ void main() {
         z = borrowed_depth(camera, pixel);
     }
     vec3 point = point_at(camera, pixel, z);
-    gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
     vec3 color = color_place(camera, point);
+    gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
+    if (sets_back)
+        gl_Position = set_back(gl_Position, color.z);
     v_place = vec4(color.xy, vec2(pixel));
     v_quality = quality_at(camera, pixel, point, steepness, color.z);
     v_cell = ivec4(pixel, camera, kept);

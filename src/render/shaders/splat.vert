@@ -25,7 +25,8 @@ void main() {
     // Where a surface is steep a round point as wide as the gap would stand out from it.
     float upright = footprint_m(camera, z) * pixels_per_tan / clip.w;
     float gap = min(max(length(steps[0]), length(steps[1])), 3.0 * upright);
-    gl_Position = clip;
+    vec3 color = color_place(camera, point);
+    gl_Position = set_back(clip, color.z);
     gl_PointSize = clamp(gap * overlap, 1.0, 64.0);
-    v_place = vec4(color_place(camera, point).xy, float(camera), gl_PointSize);
+    v_place = vec4(color.xy, float(camera), gl_PointSize);
 }

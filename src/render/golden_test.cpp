@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small pictures of every renderer, compared with those in tests/golden. To
+// accept a wanted change run this test with THEATRON_WRITE_GOLDEN=1 and look at
+// the new pictures before keeping them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "render/ball_scene.h"
+#include "render/cloud_scene.h"
+#include "render/test_context.h"
+
+namespace theatron::render {
+namespace {
+
+constexpr Size picture_size{80, 60};
+
+std::string header(Size size) {
+    return "P6\n" + std::to_string(size.width) + " " + std::to_string(size.height) + "\n255\n";
+}
+
+void write_ppm(const std::string& file, const ColorImage& image) {
+    std::ofstream out(file, std::ios::binary);
+    out << header(image.size);
+    out.write(reinterpret_cast<const char*>(image.pixels.data()),
+              std::streamsize(image.pixels.size() * sizeof(Rgb)));
+    ASSERT_TRUE(out.flush()) << file;
+}
+
+// Reads what write_ppm wrote; an empty image if that is not there.
+ColorImage read_ppm(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    const std::string expected = header(picture_size);
+    ColorImage image(picture_size);
+    if (bytes.size() != expected.size() + image.pixels.size() * sizeof(Rgb) ||
+        bytes.compare(0, expected.size(), expected) != 0)
+        return {};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const auto at = [&](std::size_t c) {
+            return std::uint8_t(bytes[expected.size() + 3 * i + c]);
+        };
+        image.pixels[i] = {at(0), at(1), at(2)};
+    }
+    return image;
+}
+
+class GoldenTest : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(EveryRenderer, GoldenTest, ::testing::ValuesIn(renderer_names()),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(GoldenTest, DrawsThePictureThatWasLookedAt) {
+    test_context();
+    CloudScene scene;
+    for (int i = 0; i < 2; ++i) {
+        const Calibration camera = ball_scene_camera(i, 2, 80, {160, 144}, {320, 180});
+        const BallSceneImages images = ball_scene_images(camera, 0, 0);
+        scene.set_camera(CameraId(i), camera);
+        ASSERT_EQ(scene.upload(CameraId(i), images.depth.view(), images.color.view()), Status::ok);
+    }
+    const CameraView view = view_towards({-0.2, 1.6, 1.7}, ball_scene_middle, 50, picture_size);
+    const ColorImage drawn = scene.render(view, picture_size, GetParam()).color;
+
+    const std::string file = "tests/golden/render_" + GetParam() + ".ppm";
+    if (std::getenv("THEATRON_WRITE_GOLDEN"))
+        write_ppm(file, drawn);
+    const ColorImage golden = read_ppm(file);
+    ASSERT_EQ(golden.size, picture_size) << "cannot read " << file;
+
+    // Drivers round differently, which shows where two surfaces are equally near and at
+    // outlines. A wrong place, size or colour changes far more.
+    double sum = 0;
+    int different = 0;
+    for (std::size_t i = 0; i < golden.pixels.size(); ++i) {
+        const Rgb a = drawn.pixels[i], b = golden.pixels[i];
+        const int difference = std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+        sum += difference / 3.0;
+        different += difference > 60;
+    }
+    EXPECT_LT(sum / double(golden.pixels.size()), 2.5);
+    EXPECT_LT(different, int(golden.pixels.size()) / 25);
+}
+
+}  // namespace
+}  // namespace theatron::render
