@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "geometry/camera_model.h"
@@ -44,11 +45,32 @@ void upload(CloudScene& scene, int id, const RenderBenchCamera& camera) {
         throw Error("A camera's images do not have the size of its calibration.");
 }
 
-bool shown_near(const DepthImage& drawn, Vec2 place, double mm) {
+// The colour that the camera's own picture has for a point, if it shows it.
+std::optional<Rgb> color_of(const RenderBenchCamera& camera, Vec3 point) {
+    if (camera.color.empty())
+        return std::nullopt;
+    const CameraModel lens = scaled(camera.calibration.color, camera.color.size);
+    const auto pixel = project(lens, camera.calibration.color_from_depth * point);
+    if (!pixel)
+        return std::nullopt;
+    const int x = int(std::lround(pixel->x)), y = int(std::lround(pixel->y));
+    if (x < 0 || y < 0 || x >= lens.size.width || y >= lens.size.height)
+        return std::nullopt;
+    return camera.color.view().row(y)[x];
+}
+
+bool alike(Rgb a, std::optional<Rgb> b) {
+    return !b || std::abs(a.r - b->r) + std::abs(a.g - b->g) + std::abs(a.b - b->b) < 30;
+}
+
+// Whether the picture has this depth and colour within two pixels of `place`.
+bool shown_near(const Picture& drawn, Vec2 place, double mm, std::optional<Rgb> color) {
+    const Size size = drawn.color.size;
     const int x0 = int(std::lround(place.x)), y0 = int(std::lround(place.y));
-    for (int y = std::max(0, y0 - 2); y <= std::min(drawn.size.height - 1, y0 + 2); ++y)
-        for (int x = std::max(0, x0 - 2); x <= std::min(drawn.size.width - 1, x0 + 2); ++x)
-            if (std::abs(drawn.view().row(y)[x] - mm) <= 5)
+    for (int y = std::max(0, y0 - 2); y <= std::min(size.height - 1, y0 + 2); ++y)
+        for (int x = std::max(0, x0 - 2); x <= std::min(size.width - 1, x0 + 2); ++x)
+            if (std::abs(drawn.depth_mm.view().row(y)[x] - mm) <= 5 &&
+                alike(drawn.color.view().row(y)[x], color))
                 return true;
     return false;
 }
@@ -81,7 +103,8 @@ void check_renderer(const RenderBenchCamera& camera, const std::string& renderer
                 place.y > lens.size.height - 1)
                 continue;
             ++valid;
-            shown += shown_near(drawn.depth_mm, place, mm);
+            const double z = mm / 1000;
+            shown += shown_near(drawn, place, mm, color_of(camera, {ray->x * z, ray->y * z, z}));
         }
     if (double(shown) < 0.95 * double(valid))
         throw Error("The renderer " + renderer + " shows only " + std::to_string(shown) + " of " +

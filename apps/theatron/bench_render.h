@@ -31,7 +31,8 @@ struct RenderBench {
 
 // Draws with each renderer what all cameras see, every time with newly uploaded images.
 // Before that each renderer must show the first camera's picture as the camera saw
-// it: at least 95 % of its depth pixels within 5 mm and two pixels.
+// it: at least 95 % of its depth pixels within 5 mm and two pixels, in their colour. The
+// bare grid is held to it, too.
 //
 // Returns {gl_renderer, width, height, cameras, renderers: [{name, frame_ms, upload_ms}]}:
 // medians of the wall clock around glFinish, uploads per camera (depth and colour). The row
