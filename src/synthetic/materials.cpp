@@ -19,18 +19,19 @@ using enum Material;
 std::array<LookTraits, std::size_t(Look::count)> make_table() {
     std::array<LookTraits, std::size_t(Look::count)> t;
     const auto set = [&](Look look, LookTraits v) { t[std::size_t(look)] = v; };
+    // Paint, vinyl and plastic send back more infrared light than their colour shows.
     //                      material, colour, infrared, specular, gloss, mirror
-    set(Look::wall, {wall, srgb(196, 208, 204), 0.62f, 0.03f, 12});
-    set(Look::wall_panel, {wall, srgb(150, 184, 178), 0.55f, 0.06f, 20});
-    set(Look::ceiling, {wall, srgb(226, 228, 226), 0.7f});
-    set(Look::floor, {floor, srgb(150, 166, 168), 0.38f, 0.16f, 30, 0.05f});
-    set(Look::door, {door, srgb(172, 178, 176), 0.5f, 0.12f, 30, 0.03f});
+    set(Look::wall, {wall, srgb(196, 208, 204), 0.9f, 0.03f, 12});
+    set(Look::wall_panel, {wall, srgb(150, 184, 178), 0.88f, 0.06f, 20});
+    set(Look::ceiling, {wall, srgb(226, 228, 226), 0.9f});
+    set(Look::floor, {floor, srgb(150, 166, 168), 0.74f, 0.16f, 30, 0.05f});
+    set(Look::door, {door, srgb(172, 178, 176), 0.8f, 0.12f, 30, 0.03f});
     set(Look::window, {glass, srgb(50, 66, 74), 0.08f, 0.6f, 90, 0.25f});
-    set(Look::white_plastic, {plastic, srgb(224, 224, 218), 0.68f, 0.2f, 36, 0.03f});
+    set(Look::white_plastic, {plastic, srgb(224, 224, 218), 0.85f, 0.2f, 36, 0.03f});
     set(Look::grey_plastic, {plastic, srgb(142, 148, 152), 0.42f, 0.15f, 28, 0.02f});
     set(Look::dark_plastic, {plastic, srgb(34, 36, 40), 0.1f, 0.25f, 40, 0.03f});
     set(Look::blue_plastic, {plastic, srgb(44, 96, 160), 0.4f, 0.2f, 36, 0.02f});
-    set(Look::painted_metal, {metal, srgb(206, 208, 206), 0.5f, 0.25f, 50, 0.06f});
+    set(Look::painted_metal, {metal, srgb(206, 208, 206), 0.8f, 0.25f, 50, 0.06f});
     set(Look::steel, {metal, srgb(150, 154, 158), 0.3f, 0.7f, 60, 0.4f});
     set(Look::instrument, {polished, srgb(118, 122, 126), 0.25f, 0.7f, 90, 0.42f});
     set(Look::gold, {polished, srgb(206, 168, 84), 0.35f, 0.8f, 60, 0.4f});

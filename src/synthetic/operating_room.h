@@ -157,6 +157,6 @@ Calibration free_viewpoint(Vec3 eye, Vec3 target, Size size, double horizontal_f
 bool inside_hexagon(Size image, int x, int y);
 
 // Changes whenever the pictures do: part of the key of anything that is cached.
-inline constexpr int scene_version = 1;
+inline constexpr int scene_version = 2;
 
 }  // namespace theatron::synthetic
