@@ -7,6 +7,13 @@ namespace {
 constexpr int map_side = 384;
 constexpr float map_fov = 84;  // degrees
 
+// Nearer than this is the lamp's own body.
+constexpr float lamp_body = 0.3f;
+
+Affine from_lamp(const Lamp& lamp) {
+    return to_affine(inverse(look_at(to_vec3(lamp.position), to_vec3(lamp.target), {0, 0, -1})));
+}
+
 CameraModel map_camera() {
     return pinhole({map_side, map_side}, map_fov);
 }
@@ -77,25 +84,47 @@ const std::array<Lamp, lamp_count>& lamps() {
 }
 
 ShadowMap::ShadowMap(const Lamp& lamp, std::span<const F3> points,
-                     std::span<const Triangle> triangles) {
-    lamp_from_room_ =
-        to_affine(inverse(look_at(to_vec3(lamp.position), to_vec3(lamp.target), {0, 0, -1})));
+                     std::span<const Triangle> triangles)
+    : lamp_from_room_(from_lamp(lamp)) {
     std::vector<F3> local;
     transform(points, lamp_from_room_, local);
-    // The lamp's own body does not count.
     for (F3& p : local)
-        if (p.z < 0.3f)
+        if (p.z < lamp_body)
             p.z = 0;
     Visibility seen;
     seen.clear({map_side, map_side});
     rasterise(map_grid(), local, triangles, 0, seen);
+    spread(seen.depth);
+}
 
-    Layer sharp{std::vector<float>(seen.depth.pixels.size()),
-                std::vector<float>(seen.depth.pixels.size())};
-    for (std::size_t i = 0; i < seen.depth.pixels.size(); ++i)
-        if (seen.depth.pixels[i] < nothing_seen) {
+ShadowMap::ShadowMap(const Lamp& lamp, std::span<const F3> dense_points)
+    : lamp_from_room_(from_lamp(lamp)) {
+    Image<float> depth({map_side, map_side});
+    std::fill(depth.pixels.begin(), depth.pixels.end(), nothing_seen);
+    const CameraModel& camera = map_grid().camera;
+    for (const F3 point : dense_points) {
+        const F3 p = lamp_from_room_ * point;
+        if (p.z < lamp_body)
+            continue;
+        const int x = int(p.x / p.z * float(camera.fx) + float(camera.cx));
+        const int y = int(p.y / p.z * float(camera.fy) + float(camera.cy));
+        if (x < 0 || y < 0 || x >= map_side - 1 || y >= map_side - 1)
+            continue;
+        for (const int dy : {0, 1})
+            for (const int dx : {0, 1}) {
+                float& d = depth.view().row(y + dy)[x + dx];
+                d = std::min(d, p.z);
+            }
+    }
+    spread(depth);
+}
+
+void ShadowMap::spread(const Image<float>& depth) {
+    Layer sharp{std::vector<float>(depth.pixels.size()), std::vector<float>(depth.pixels.size())};
+    for (std::size_t i = 0; i < depth.pixels.size(); ++i)
+        if (depth.pixels[i] < nothing_seen) {
             sharp.cover[i] = 1;
-            sharp.covered_depth[i] = seen.depth.pixels[i];
+            sharp.covered_depth[i] = depth.pixels[i];
         }
     static constexpr int radii[3] = {2, 7, 24};
     for (std::size_t i = 0; i < layers_.size(); ++i) {

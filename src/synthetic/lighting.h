@@ -26,6 +26,8 @@ class ShadowMap {
 public:
     // `points` in the room.
     ShadowMap(const Lamp& lamp, std::span<const F3> points, std::span<const Triangle> triangles);
+    // Of bodies whose points lie closer together than the map's (6 mm): quicker.
+    ShadowMap(const Lamp& lamp, std::span<const F3> dense_points);
 
     struct Shadow {
         float lit = 1;   // share of the lamp's light that arrives
@@ -38,6 +40,8 @@ private:
         std::vector<float> cover;
         std::vector<float> covered_depth;  // cover times depth
     };
+    void spread(const Image<float>& depth);
+
     Affine lamp_from_room_;
     std::array<Layer, 3> layers_;
 };

@@ -91,11 +91,12 @@ F3 bumped(F3 normal, F3 p, float step, const Height& height) {
 void weave(Appearance& a, F3 p, float footprint, float crease) {
     // Soft creases, a slight unevenness of the dye, the weave where it is seen.
     a.normal = bumped(a.normal, p, 0.006f, [&](F3 q) {
-        return crease * (0.0035f * fractal(F3{q.x * 14 + q.y * 5, q.y * 6, q.z * 14}, 2) +
-                         0.0004f * noise(q * 95.0f));
+        const F3 drawn{q.x * 14 + q.y * 5, q.y * 6, q.z * 14};
+        const float coarse = 0.0024f * noise(drawn);
+        return crease * (footprint > 0.0025f ? coarse : coarse + 0.0008f * noise(drawn * 2.7f));
     });
     const float fine = smoothstep(0.004f, 0.001f, footprint);
-    a.color = a.color * (1 + 0.035f * fractal(p * 7.0f, 2) + 0.08f * fine * noise(p * 900.0f));
+    a.color = a.color * (1 + 0.02f * noise(p * 7.0f) + 0.08f * fine * noise(p * 900.0f));
 }
 
 void wet(Appearance& a, F3 p, float relief, float scale) {

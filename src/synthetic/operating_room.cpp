@@ -35,7 +35,7 @@ PosedMoment::PosedMoment(const SceneData& scene, Duration time) : time_(time) {
         normals[i] = normalized(n);
     }
     for (const Lamp& lamp : lamps())
-        shadows.emplace_back(lamp, positions, rest.triangles);
+        shadows.emplace_back(lamp, positions);
 }
 
 struct OperatingRoom::Scene : SceneData {};
@@ -62,7 +62,7 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     split_long_edges(still, 0.16f);
     Mesh together = still;
     together.append(cover);
-    bake_openness(together, options.detail >= 1 ? 96 : options.detail > 0.1 ? 12 : 3);
+    bake_openness(together, options.detail >= 1 ? 64 : options.detail > 0.1 ? 12 : 3);
     const auto first = together.openness.begin();
     const auto seam = first + std::ptrdiff_t(still.openness.size());
     std::copy(first, seam, still.openness.begin());

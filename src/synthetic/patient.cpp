@@ -89,7 +89,7 @@ float body_height(float x, float z) {
 }
 
 void add_patient(Mesh& still, MovingMesh& moving, double detail) {
-    const int nu = int(420 * std::sqrt(detail)), nv = int(400 * std::sqrt(detail));
+    const int nu = int(300 * std::sqrt(detail)), nv = int(280 * std::sqrt(detail));
     // Finer towards the window.
     const auto warp_u = [](float u) {
         constexpr float c = 0.32f;  // the window's place

@@ -38,10 +38,10 @@ struct Raster {
             std::max({std::abs(pa.x - pb.x), std::abs(pb.x - pc.x), std::abs(pc.x - pa.x),
                       std::abs(pa.y - pb.y), std::abs(pb.y - pc.y), std::abs(pc.y - pa.y)});
         // Straight edges bulge under distortion, by a share of their length.
-        margin += 0.3f + 0.0004f * spread * spread;
+        margin += 0.05f + grid.shift + 0.0004f * spread * spread;
         const Size size = seen.depth.size;
-        const auto low = [&](float v) { return int(std::floor((v - margin + 0.5f) * s)); };
-        const auto high = [&](float v) { return int(std::ceil((v + margin + 0.5f) * s)); };
+        const auto low = [&](float v) { return int(std::ceil((v - margin + 0.5f) * s - 0.5f)); };
+        const auto high = [&](float v) { return int(std::floor((v + margin + 0.5f) * s - 0.5f)); };
         const int x0 = std::max(0, low(std::min({pa.x, pb.x, pc.x})));
         const int x1 = std::min(size.width - 1, high(std::max({pa.x, pb.x, pc.x})));
         const int y0 = std::max(0, low(std::min({pa.y, pb.y, pc.y})));
@@ -125,6 +125,7 @@ SampleGrid make_fine_grid(const CameraModel& camera, const Image<Ray>& centres, 
                           Vec2 shift) {
     const Size size = camera.size;
     SampleGrid grid{camera, per_side, Image<Ray>({size.width * per_side, size.height * per_side})};
+    grid.shift = float(std::max(std::abs(shift.x), std::abs(shift.y))) / float(per_side);
     const auto step = 1.0f / float(per_side);
     for (int y = 0; y < grid.rays.size.height; ++y)
         for (int x = 0; x < grid.rays.size.width; ++x) {

@@ -24,6 +24,7 @@ struct SampleGrid {
     CameraModel camera;
     int per_side = 1;
     Image<Ray> rays;  // camera.size times per_side
+    float shift = 0;  // how far the samples lie beside their even places, pixels
     // All rays lie within this pyramid.
     float side_x = 0, side_y = 0;
 };
