@@ -167,7 +167,7 @@ TEST_P(EveryDepthCodec, SurvivesDamagedBytes) {
 INSTANTIATE_TEST_SUITE_P(DepthCodecs, EveryDepthCodec,
                          ::testing::Values("raw", "rvl", "trvl", "zstd", "zstd:level=3",
                                            "zstd:delta=1", "ans", "ans:delta=1", "lz4",
-                                           "lz4:delta=1"),
+                                           "lz4:delta=1", "strata"),
                          [](const auto& instance) {
                              std::string name = instance.param;
                              for (char& c : name)

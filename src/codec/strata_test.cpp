@@ -174,12 +174,15 @@ int error_bound(const StrataParams& params, int depth) {
 }
 
 TEST(Strata, KeepsToTheDeclaredErrorAndNeverChangesValidity) {
-    for (const StrataParams params :
-         {StrataParams{1, 0}, StrataParams{5, 2}, StrataParams{0, 3}, StrataParams{255, 15}}) {
+    for (const StrataParams params : {StrataParams{1, 0, true}, StrataParams{5, 2, true},
+                                      StrataParams{0, 3, true}, StrataParams{255, 15, true}}) {
         Chain chain(params);
-        chain.encoder->set_region({box(0, 0, 1, 1)});
-        for (unsigned frame = 0; frame < 4; ++frame) {
-            const DepthImage image = frame == 3 ? noise({150, 70}, frame) : scene({150, 70}, frame);
+        for (unsigned frame = 0; frame < 6; ++frame) {
+            const Size size{150, 70};
+            const DepthImage image = frame == 2   ? noise(size, frame)
+                                     : frame == 3 ? disparities(size, frame)
+                                                  : scene(size, frame);
+            chain.has_reference &= frame != 3;
             ASSERT_EQ(chain.pass(image), Status::ok);
             for (std::size_t i = 0; i < image.pixels.size(); ++i) {
                 const int before = image.pixels[i], after = chain.decoded.pixels[i];
@@ -200,14 +203,15 @@ TEST(Strata, StaysExactWhereTheRegionIs) {
     // Nothing drawn: the whole image is exact.
     ASSERT_EQ(chain.pass(image), Status::ok);
     EXPECT_EQ(chain.decoded, image);
-    EXPECT_TRUE(read_strata_region(chain.encoded)->empty());
+    EXPECT_TRUE(read_strata_exactness(chain.encoded)->whole_image);
 
     const Region region = {box(10, 5, 60, 40), {{100, 10}, {140, 60}, {90, 60}}};
     chain.encoder->set_region(region);
     for (unsigned frame = 1; frame < 4; ++frame) {
         const DepthImage next = scene({150, 70}, frame);
         ASSERT_EQ(chain.pass(next), Status::ok);
-        EXPECT_EQ(read_strata_region(chain.encoded).value(), region);
+        EXPECT_FALSE(read_strata_exactness(chain.encoded)->whole_image);
+        EXPECT_EQ(read_strata_exactness(chain.encoded)->region, region);
         std::vector<std::uint8_t> inside(next.pixels.size());
         draw_region(region, {inside.data(), next.size});
         std::size_t exact = 0, changed = 0;
