@@ -7,6 +7,7 @@
 #include "codec/library_codec.h"
 #include "codec/quantise.h"
 #include "codec/simple_codecs.h"
+#include "codec/strata.h"
 
 namespace theatron::codec {
 namespace {
@@ -17,6 +18,7 @@ struct Parameters {
     int level = 1;
     int quant_mm = 1;
     int layers = 1;
+    StrataParams strata;
 };
 
 // One member of the family.
@@ -52,6 +54,13 @@ bool read_lz4(Options& options, Parameters& parameters) {
     return read_delta(options, parameters);
 }
 
+bool read_strata(Options& options, Parameters& parameters) {
+    parameters.strata.max_error_mm = options.take_int("max_error_mm", 0, 0, 255);
+    parameters.strata.noise_scaled = options.take_int("noise_scaled", 0, 0, 15);
+    parameters.strata.everywhere = options.take_flag("everywhere");
+    return parameters.delta = true;
+}
+
 std::unique_ptr<DepthCodec> make_zstd(const Parameters& p) {
     return make_library_codec(DepthCodecId::zstd, make_zstd_compressor(p.level), p.delta, 1);
 }
@@ -70,6 +79,8 @@ const std::vector<Kind>& kinds() {
         {"zstd", DepthCodecId::zstd, has_zstd(), read_zstd, make_zstd},
         {"lz4", DepthCodecId::lz4, has_lz4(), read_lz4, make_lz4},
         {"ans", DepthCodecId::ans, true, read_delta, [](P p) { return make_ans(p.delta); }},
+        {"strata", DepthCodecId::strata, true, read_strata,
+         [](P p) -> std::unique_ptr<DepthCodec> { return make_strata(p.strata); }},
     };
     return all;
 }
@@ -99,9 +110,13 @@ std::string spelling(const Kind& kind, const Parameters& p) {
         text += separator + std::string(key) + "=" + std::to_string(value);
         separator = ',';
     };
-    add("delta", p.delta, kind.id == DepthCodecId::trvl);
+    const bool always_temporal = kind.id == DepthCodecId::trvl || kind.id == DepthCodecId::strata;
+    add("delta", p.delta, always_temporal);
+    add("everywhere", p.strata.everywhere, 0);
     add("layers", p.layers, 1);
     add("level", p.level, 1);
+    add("max_error_mm", p.strata.max_error_mm, 0);
+    add("noise_scaled", p.strata.noise_scaled, 0);
     add("quant_mm", p.quant_mm, 1);
     return text;
 }

@@ -84,7 +84,7 @@ TEST(DepthStream, TwoLayersAlternate) {
 
 TEST(DepthStream, DecodesWithAnyNumberOfLayers) {
     for (const char* text : {"raw", "rvl", "trvl", "trvl:layers=2", "trvl:layers=3", "zstd:delta=1",
-                             "zstd:delta=1,layers=3"}) {
+                             "zstd:delta=1,layers=3", "strata", "strata:layers=3"}) {
         const auto sent = stream(text, 20);
         EXPECT_TRUE(all_ok(receive(text, sent, everything))) << text;
     }

@@ -48,6 +48,7 @@ public:
     explicit Codec(const StrataParams& params) {
         tolerance_.constant = std::uint16_t(params.max_error_mm);
         tolerance_.squared = std::uint16_t(params.noise_scaled);
+        everywhere_ = params.everywhere;
     }
 
     bool lossless() const override { return tolerance_.lossless(); }
@@ -80,6 +81,7 @@ private:
     const std::uint8_t* draw(const Region& region);
 
     Tolerance tolerance_;
+    bool everywhere_ = false;
     Region region_;
 
     // Scratch memory.
@@ -111,10 +113,8 @@ const std::uint8_t* Codec::draw(const Region& region) {
         return region_steps_.data();
     const auto [width, height] = layout_.size;
     region_rows_.resize(layout_.size.area());
-    region_steps_.assign(layout_.coded_values(), 255);
+    region_steps_.assign(layout_.coded_values(), 0);
     drawn_ = region;
-    if (region.empty())
-        return region_steps_.data();
     const View<std::uint8_t> rows{region_rows_.data(), layout_.size};
     draw_region(region, rows);
     for (int y = 0; y < height; ++y) {
@@ -181,12 +181,8 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
 
     Payload payload;
     payload.size = depth.size;
-    payload.tolerance = tolerance_;
-    payload.region = lossless() ? Region{} : region_;
-    // Until a region is drawn the whole image is exact.
-    const bool lossy = !lossless() && !region_.empty();
-    if (!lossy)
-        payload.tolerance = {};
+    if (everywhere_ || !region_.empty())
+        payload.tolerance = tolerance_;
 
     Memory before;
     payload.delta = reference != nullptr && open_memory(layout_, reference->memory, before);
@@ -199,11 +195,17 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     }
     if (!payload.delta) {
         old_values.clear();
-        values = lossy ? Values{} : find_values(depth);
+        values = find_values(depth, payload.tolerance);
         if (!values.empty())
             rank(depth, values);
     }
     payload.ranks = !values.empty();
+    // Ranks are worth more than a tolerance, where they are used.
+    if (payload.ranks)
+        payload.tolerance = {};
+    const bool lossy = !payload.tolerance.lossless();
+    if (lossy)
+        payload.region = region_;
     const DepthView coded_depth = payload.ranks ? DepthView(ranks_.view()) : depth;
     rows_to_steps(layout_, coded_depth, pixels_.data());
 
@@ -342,11 +344,11 @@ std::unique_ptr<StrataCodec> make_strata(const StrataParams& params) {
     return std::make_unique<Codec>(params);
 }
 
-Result<Region> read_strata_region(ByteView encoded) {
+Result<StrataExactness> read_strata_exactness(ByteView encoded) {
     Result<Payload> payload = read_payload(encoded);
     if (!payload)
         return payload.error();
-    return std::move(payload->region);
+    return StrataExactness{payload->tolerance.lossless(), std::move(payload->region)};
 }
 
 }  // namespace theatron::codec

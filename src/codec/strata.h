@@ -21,19 +21,27 @@ namespace theatron::codec {
 struct StrataParams {
     int max_error_mm = 0;  // at most 255
     int noise_scaled = 0;  // at most 15
+    // Whether the bound holds for the whole image while no region is drawn;
+    // otherwise the whole image is exact then.
+    bool everywhere = false;
+};
+
+// Where an encoded image is exact.
+struct StrataExactness {
+    bool whole_image = true;
+    strata::Region region;  // if it is not the whole image
 };
 
 class StrataCodec : public DepthCodec {
 public:
-    // The part of the image that stays exact from the next encoded frame on.
-    // Empty: the whole image. At most strata::max_polygons of them.
+    // The part of the image that stays exact from the next encoded frame on;
+    // empty as long as none is drawn. It must be strata::is_valid.
     virtual void set_region(strata::Region region) = 0;
 };
 
 std::unique_ptr<StrataCodec> make_strata(const StrataParams& params);
 
-// The exact region that an encoded image carries; empty if the whole image is
-// exact. Safe for untrusted input.
-Result<strata::Region> read_strata_region(ByteView encoded);
+// Where an encoded image is exact. Safe for untrusted input.
+Result<StrataExactness> read_strata_exactness(ByteView encoded);
 
 }  // namespace theatron::codec

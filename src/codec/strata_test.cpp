@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <hwy/targets.h>
+#include <string>
+#include <string_view>
 
 #include "codec/strata_kernel.h"
 #include "codec/strata_reference.h"
@@ -44,6 +46,58 @@ struct Chain {
     Bytes encoded;
     DepthImage decoded;
 };
+
+// The test vectors of docs/formats/depth_strata.md.
+constexpr std::string_view golden_intra =
+    "08010000030002001300000001000000000000000000000000000000f6a400001d63320000800000"
+    "00800000008000000080000000800000008000000080000000800000008000000080000000800000"
+    "00800000008000000080000000800000008000000080000000800000008000000080000000800000"
+    "008000000080000000800000008000000080000000800000008000000080000000800000000d2b1f"
+    "475c576ded834c665210a5f99c0000d049";
+constexpr std::string_view golden_delta =
+    "08010300030002001100000000000000000000000000000000000000000000000000000000004a54"
+    "ec072e7ab40000800000008000000080000000800000008000000080000000800000008000000080"
+    "00000080000000800000008000000080000000800000008000000080000000800000008000000080"
+    "00000080000000800000008000000080000000800000008000000080000000800000008000000080"
+    "0000008000000008a68ee41b7df92b64c1525ce8000000";
+constexpr std::string_view golden_bounded =
+    "08010800030002001000000000000000020001040000000001000000010002000000020000000000"
+    "0000000000000000b0176528f3245d00008000000080000000800000008000000080000000800000"
+    "00800000008000000080000000800000008000000080000000800000008000000080000000800000"
+    "00800000008000000080000000800000008000000080000000800000008000000080000000800000"
+    "00800000008000000080000000800000000d2b1f475c576ded834c6600000000";
+
+Bytes from_hex(std::string_view hex) {
+    Bytes result;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        result.push_back(std::byte(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
+    return result;
+}
+
+DepthImage six_pixels(std::vector<std::uint16_t> pixels) {
+    DepthImage image({3, 2});
+    image.pixels = std::move(pixels);
+    return image;
+}
+
+TEST(Strata, DecodesTheVectorsOfItsSpecification) {
+    const auto codec = make_strata({});
+    DepthImage out({3, 2});
+    Reference intra;
+    ASSERT_EQ(codec->decode(from_hex(golden_intra), nullptr, out.view(), &intra), Status::ok);
+    EXPECT_EQ(out, six_pixels({1000, 1001, 0, 999, 1003, 65535}));
+    ASSERT_EQ(codec->decode(from_hex(golden_delta), &intra, out.view(), nullptr), Status::ok);
+    EXPECT_EQ(out, six_pixels({1001, 1001, 0, 1000, 1060, 1005}));
+    ASSERT_EQ(codec->decode(from_hex(golden_bounded), nullptr, out.view(), nullptr), Status::ok);
+    EXPECT_EQ(out, six_pixels({1000, 1000, 0, 999, 1004, 65535}));
+    for (const std::string_view hex : {golden_intra, golden_delta, golden_bounded}) {
+        const Bytes whole = from_hex(hex);
+        for (std::size_t n = 0; n < whole.size(); ++n) {
+            const Bytes part(whole.begin(), whole.begin() + std::ptrdiff_t(n));
+            EXPECT_EQ(codec->decode(part, &intra, out.view(), nullptr), Status::truncated) << n;
+        }
+    }
+}
 
 // Depths of a sensor that measures disparities.
 DepthImage disparities(Size size, unsigned frame) {
@@ -174,12 +228,15 @@ int error_bound(const StrataParams& params, int depth) {
 }
 
 TEST(Strata, KeepsToTheDeclaredErrorAndNeverChangesValidity) {
-    for (const StrataParams params :
-         {StrataParams{1, 0}, StrataParams{5, 2}, StrataParams{0, 3}, StrataParams{255, 15}}) {
+    for (const StrataParams params : {StrataParams{1, 0, true}, StrataParams{5, 2, true},
+                                      StrataParams{0, 3, true}, StrataParams{255, 15, true}}) {
         Chain chain(params);
-        chain.encoder->set_region({box(0, 0, 1, 1)});
-        for (unsigned frame = 0; frame < 4; ++frame) {
-            const DepthImage image = frame == 3 ? noise({150, 70}, frame) : scene({150, 70}, frame);
+        for (unsigned frame = 0; frame < 6; ++frame) {
+            const Size size{150, 70};
+            const DepthImage image = frame == 2   ? noise(size, frame)
+                                     : frame == 3 ? disparities(size, frame)
+                                                  : scene(size, frame);
+            chain.has_reference &= frame != 3;
             ASSERT_EQ(chain.pass(image), Status::ok);
             for (std::size_t i = 0; i < image.pixels.size(); ++i) {
                 const int before = image.pixels[i], after = chain.decoded.pixels[i];
@@ -200,14 +257,15 @@ TEST(Strata, StaysExactWhereTheRegionIs) {
     // Nothing drawn: the whole image is exact.
     ASSERT_EQ(chain.pass(image), Status::ok);
     EXPECT_EQ(chain.decoded, image);
-    EXPECT_TRUE(read_strata_region(chain.encoded)->empty());
+    EXPECT_TRUE(read_strata_exactness(chain.encoded)->whole_image);
 
     const Region region = {box(10, 5, 60, 40), {{100, 10}, {140, 60}, {90, 60}}};
     chain.encoder->set_region(region);
     for (unsigned frame = 1; frame < 4; ++frame) {
         const DepthImage next = scene({150, 70}, frame);
         ASSERT_EQ(chain.pass(next), Status::ok);
-        EXPECT_EQ(read_strata_region(chain.encoded).value(), region);
+        EXPECT_FALSE(read_strata_exactness(chain.encoded)->whole_image);
+        EXPECT_EQ(read_strata_exactness(chain.encoded)->region, region);
         std::vector<std::uint8_t> inside(next.pixels.size());
         draw_region(region, {inside.data(), next.size});
         std::size_t exact = 0, changed = 0;

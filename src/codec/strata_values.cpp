@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "codec/strata_kernel.h"
-
 namespace theatron::codec::strata {
 namespace {
 
@@ -45,20 +43,23 @@ void make_ranks(const Values& values, std::vector<std::uint16_t>& ranks) {
 
 }  // namespace
 
-Values find_values(DepthView depth) {
+Values find_values(DepthView depth, Tolerance tolerance) {
     Values values = listed(presence(depth));
     if (values.empty() || values.size() > max_values)
         return {};
-    // Bits that ranks save: those of the distance to the next value. A sample of
-    // the pixels says how often.
+    // Bits that ranks save: those of the distance to the next value. The tolerance
+    // would save those of its width. A sample of the pixels says how often.
     std::vector<std::uint16_t> ranks;
     make_ranks(values, ranks);
     double saved = 0;
     for (int y = 1; y < depth.size.height; y += 4) {
         for (int x = y % 3; x < depth.size.width; x += 3) {
-            const std::size_t i = std::size_t(ranks[depth.row(y)[x]]) - first_rank;
-            if (i + 1 < values.size())
-                saved += 12 * std::log2(double(values[i + 1] - values[i]));
+            const unsigned d = depth.row(y)[x];
+            const std::size_t i = std::size_t(ranks[d]) - first_rank;
+            if (i + 1 >= values.size())
+                continue;
+            const double width = 1 + 2 * (tolerance.constant + tolerance.squared * (d * d >> 20));
+            saved += 12 * (std::log2(double(values[i + 1] - values[i])) - std::log2(width));
         }
     }
     const double pixels = double(depth.size.area());

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/strata_kernel.h"
 #include "codec/strata_side.h"
 #include "image/view.h"
 
@@ -20,8 +21,9 @@ inline constexpr std::uint16_t first_rank = 256;
 
 using Values = std::vector<std::uint16_t>;  // ascending, neither 0 nor 65535
 
-// The values of an image, if it pays to code their ranks; else none.
-Values find_values(DepthView depth);
+// The values of an image, if it pays to code their ranks rather than to make use
+// of the tolerance; else none.
+Values find_values(DepthView depth, Tolerance tolerance);
 
 // Adds those that the image has and `values` has not. False if there are too
 // many; `values` is then unspecified.
