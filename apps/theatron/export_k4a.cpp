@@ -21,9 +21,11 @@ std::string to_text(Size size) {
 
 // The BITMAPINFOHEADER that V_MS/VFW/FOURCC tracks begin with.
 Bytes bitmap_info(Size size, std::string_view fourcc, int bits, std::size_t image_bytes) {
+    constexpr std::uint32_t info_size = 40;
     Bytes bytes;
+    bytes.reserve(info_size);
     ByteWriter out(bytes);
-    out.put(std::uint32_t(40));
+    out.put(info_size);
     out.put(std::int32_t(size.width));
     out.put(std::int32_t(size.height));
     out.put(std::uint16_t(1));

@@ -113,7 +113,7 @@ bool Playback::rewind() {
     if (!loop_)
         return false;
     recording_.rewind();
-    zero_ += last_offset_ + period_;
+    zero_ += recording_.round().value_or(last_offset_ + period_);
     return recording_.offset().has_value();
 }
 

@@ -26,6 +26,9 @@ public:
     // Reads the upcoming frame's images into `out`, whose old content is stale.
     virtual void read(Frame& out) = 0;
     virtual void rewind() = 0;
+    // How long a round takes when it loops, so that cameras of one recording stay in step. Nothing:
+    // until one period after the last frame.
+    virtual std::optional<Duration> round() const { return std::nullopt; }
 };
 
 // The keys that all recorded cameras understand.
@@ -79,6 +82,7 @@ public:
     void skip() override { ++next_; }
     void read(Frame& out) override;
     void rewind() override { next_ = 0; }
+    std::optional<Duration> round() const override { return round_; }
 
 private:
     struct Kept {
@@ -87,6 +91,7 @@ private:
     };
     std::vector<Kept> frames_;
     std::size_t next_ = 0;
+    std::optional<Duration> round_;
 };
 
 // A camera that plays a recording in real time.

@@ -70,6 +70,11 @@ std::optional<Duration> RecordedFrames::offset() {
     return std::nullopt;
 }
 
+std::optional<Duration> RecordedFrames::round() const {
+    return recording_->end() - recording_->begin() +
+           seconds_to_duration(1 / info_.frames_per_second);
+}
+
 bool RecordedFrames::decode() {
     const record::RecordedFrame& frame = upcoming();
     const wire::MediaHeader& header = frame.header;

@@ -36,6 +36,7 @@ public:
     void skip() override;
     void read(Frame& out) override;
     void rewind() override;
+    std::optional<Duration> round() const override;
 
     // The upcoming frame as it was recorded; only after offset() gave something.
     const record::RecordedFrame& upcoming() const { return content_.depth.frames[next_]; }

@@ -148,6 +148,26 @@ TEST(Recording, GivesBackWhatWasRecordedToTheByteAndMicrosecond) {
     EXPECT_EQ(count_equal(*recording, messages), messages.size());
 }
 
+TEST(Recording, AClustersBytesAreAsSpecified) {
+    const testing::TemporaryFolder folder;
+    const Message plain = message(StreamId(0), 0, 0s, 3, 0);
+    Bytes bytes = *plain.bytes;
+    bytes[64] = std::byte{0xaa};
+    bytes[65] = std::byte{0xbb};
+    bytes[66] = std::byte{0xcc};
+    record_all(folder.path() / "one.mkv", 1,
+               {{plain.header, std::make_shared<const Bytes>(bytes)}});
+
+    Bytes expected;
+    for (const int b :
+         {0x1f, 0x43, 0xb6, 0x75, 0xd8, 0xe7, 0x81, 0x00, 0xa0, 0xd3, 0xa1, 0x87, 0x81, 0x00, 0x00,
+          0x00, 0xaa, 0xbb, 0xcc, 0x75, 0xa1, 0xc7, 0xa6, 0xc5, 0xee, 0x81, 0x02, 0xa5, 0xc0})
+        expected.push_back(std::byte(b));
+    expected.insert(expected.end(), bytes.begin(), bytes.begin() + 64);
+    const Bytes file = bytes_of(folder.path() / "one.mkv");
+    EXPECT_NE(std::search(file.begin(), file.end(), expected.begin(), expected.end()), file.end());
+}
+
 TEST(Recording, WithoutAnyFrameOpensToo) {
     const testing::TemporaryFolder folder;
     record_all(folder.path() / "none.mkv", 1, {});
