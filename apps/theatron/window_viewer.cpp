@@ -63,6 +63,8 @@ void WindowViewer::run() {
         const TimePoint now = steady_now();
         if (input.close || !obey(input))
             break;
+        if (input.grabbed)
+            grab(*input.grabbed);
         steer(input.steering, now);
         if (options_.seconds > 0 && first_picture_at_ != TimePoint{} &&
             now - first_picture_at_ >= seconds_to_duration(options_.seconds))
@@ -71,13 +73,13 @@ void WindowViewer::run() {
             continue;
 
         for (const CameraId camera : scene_.take(participant_)) {
-            updated_.push_back(camera);
+            updated_.insert(camera);
             scene_changed_ = true;
         }
         find_view();
         if (now >= next_texts_)
             update_texts(now);
-        if (scene_changed_ || texts_changed_ || flying_) {
+        if ((scene_changed_ || texts_changed_) && window_.is_visible()) {
             next_picture = now + window_.picture_time();
             draw(now);
         }
@@ -136,10 +138,9 @@ void WindowViewer::obey(const xr::KeyPress& key) {
                 choice.camera = CameraId(key.camera);
             try {
                 go_home(choice);
-                note("View of camera " + std::to_string(int(choice.camera) + 1), choice_shown);
+                note("View of " + camera_text(choice.camera), choice_shown);
             } catch (const Error&) {
-                note("Camera " + std::to_string(int(choice.camera) + 1) + " shows nothing",
-                     choice_shown);
+                note("Nothing comes from " + camera_text(choice.camera), choice_shown);
             }
             break;
         }
@@ -187,8 +188,29 @@ void WindowViewer::find_view() {
     }
 }
 
+// Counted from 1, as the keys are, with the name that the host gave it.
+std::string WindowViewer::camera_text(CameraId camera) const {
+    std::string text = "camera " + std::to_string(int(camera) + 1);
+    std::uint64_t generation = 0;
+    for (const auto& known : participant_.cameras(generation))
+        if (known.description.id == camera)
+            text += ": " + known.description.name;
+    return text;
+}
+
 render::CameraView WindowViewer::view() const {
     return render::view_of_camera(lens_, viewpoint_->room_from_eye, window_.pixels());
+}
+
+// What was grabbed with the mouse stays under it.
+void WindowViewer::grab(Vec2 place) {
+    if (!viewpoint_)
+        return;
+    const render::CameraView v = view();
+    const Vec2 on_picture{v.left + place.x * (v.right - v.left),
+                          v.top + place.y * (v.bottom - v.top)};
+    if (const auto distance = picture_.distance_at(place))
+        viewpoint_ = xr::around(*viewpoint_, on_picture, *distance);
 }
 
 void WindowViewer::steer(const xr::Steering& steering, TimePoint now) {

@@ -4,6 +4,7 @@
 
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "base/statistics.h"
@@ -42,7 +43,9 @@ private:
     void note(const std::string& text, Duration length);
     void go_home(const ViewChoice& choice);
     void find_view();
+    std::string camera_text(CameraId camera) const;
     render::CameraView view() const;
+    void grab(Vec2 place);
     void steer(const xr::Steering& steering, TimePoint now);
     void update_texts(TimePoint now);
     void draw_scene();
@@ -71,7 +74,7 @@ private:
     bool scene_changed_ = true, texts_changed_ = true;
 
     // What came out of it.
-    std::vector<CameraId> updated_;  // cameras whose new picture is not presented yet
+    std::set<CameraId> updated_;  // cameras whose new picture is not presented yet
     RateWindow drawn_;
     SampleWindow ages_{30}, all_ages_{20'000};
     std::uint64_t pictures_ = 0;

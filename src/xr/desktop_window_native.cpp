@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <optional>
 
 #include "base/error.h"
@@ -31,6 +32,10 @@ struct Library {
         SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
         // The window manager stays in charge, and may compose other windows over ours.
         SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+        // Only desktops: a bare graphics card, which SDL would also draw on, may belong to a
+        // screen that nobody here sees. Wayland's library complains aloud without that folder.
+        const bool wayland = std::getenv("XDG_RUNTIME_DIR") || std::getenv("WAYLAND_DISPLAY");
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, wayland ? "x11,wayland" : "x11");
         if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
             throw Error(std::string("There is no display to open a window on.") + instead);
         const std::string driver = SDL_GetCurrentVideoDriver();
@@ -190,6 +195,13 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
                 *drag = {drag->x + way.x, drag->y + way.y};
             break;
         }
+        case SDL_MOUSEBUTTONDOWN: {
+            int width = 0, height = 0;
+            SDL_GetWindowSize(window, &width, &height);
+            input.grabbed = Vec2{(event.button.x + 0.5) / std::max(width, 1),
+                                 (event.button.y + 0.5) / std::max(height, 1)};
+            break;
+        }
         case SDL_MOUSEWHEEL: {
             const double clicks = event.wheel.preciseY;
             const bool flipped = event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED;
@@ -199,6 +211,10 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
         default:
             break;
     }
+}
+
+bool DesktopWindow::is_visible() const {
+    return !(SDL_GetWindowFlags(parts_->window) & (SDL_WINDOW_MINIMIZED | SDL_WINDOW_HIDDEN));
 }
 
 Size DesktopWindow::pixels() const {

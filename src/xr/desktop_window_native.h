@@ -30,6 +30,8 @@ public:
     // What was done since the last call.
     WindowInput poll();
 
+    // False while there is nobody to see it, for example minimised.
+    bool is_visible() const;
     Size pixels() const;
     // How large a text of normal size is on this screen, in pixels.
     double text_pixels() const;

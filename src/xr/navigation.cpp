@@ -76,6 +76,10 @@ Viewpoint flown(const Viewpoint& from, Vec3 keys, bool fast, Duration elapsed) {
 
 }  // namespace
 
+Viewpoint around(const Viewpoint& from, Vec2 place, double along_m) {
+    return {from.room_from_eye, from.room_from_eye * (Vec3{place.x, place.y, 1} * along_m)};
+}
+
 bool Steering::moves() const {
     return turn != Vec2{} || slide != Vec2{} || approach != 0 || fly != Vec3{};
 }

@@ -18,6 +18,10 @@ struct Viewpoint {
     bool operator==(const Viewpoint&) const = default;
 };
 
+// The viewpoint that turns around what is seen at `place`, given in the picture one metre before
+// the eye (x right, y down, metres), in the distance `along_m` along the view's axis.
+Viewpoint around(const Viewpoint& from, Vec2 place, double along_m);
+
 // What a person did since the last time. Ways of the mouse are in heights of the
 // window, x to the right and y down, so that they mean the same at every size.
 struct Steering {

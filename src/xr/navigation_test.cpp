@@ -47,6 +47,14 @@ TEST(Navigation, TheSceneFollowsTheMouseWhenTurning) {
     EXPECT_GT(seen(after({.turn = {0, 0.1}}), in_front).y, 0.05);
 }
 
+TEST(Navigation, TurnsAroundWhatWasGrabbed) {
+    const Viewpoint grabbed = around(start, {0.3, -0.2}, 1.5);
+    EXPECT_EQ(grabbed.room_from_eye, start.room_from_eye);
+    expect_near(seen(grabbed, grabbed.pivot), {0.45, -0.3, 1.5});
+    const Viewpoint to = steered(grabbed, {.turn = {0.2, 0.1}}, 1.0, 16ms);
+    expect_near(seen(to, grabbed.pivot), {0.45, -0.3, 1.5});
+}
+
 TEST(Navigation, TurningNeverEndsUpsideDown) {
     for (const double way : {0.02, -0.02, 0.3, -0.3}) {
         Viewpoint v = start;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
+#include "base/statistics.h"
 #include "render/render_target.h"
 
 namespace theatron::xr {
@@ -42,6 +44,34 @@ void ScaledPicture::show(Size window) const {
     glBlitFramebuffer(0, 0, from.size.width, from.size.height, 0, 0, window.width, window.height,
                       GL_COLOR_BUFFER_BIT, from.size == window ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+}
+
+std::optional<double> ScaledPicture::distance_at(Vec2 place) const {
+    if (!parts_->target)
+        return std::nullopt;
+    // The middle of what is around: single points may be holes or noise.
+    constexpr int side = 7;
+    const render::DrawTarget from = parts_->target->target();
+    const int width = std::min(side, from.size.width), height = std::min(side, from.size.height);
+    const auto first = [](double share, int size, int part) {
+        return std::clamp(int(share * size) - part / 2, 0, size - part);
+    };
+    // Integer textures are read four components at a time.
+    std::vector<std::uint32_t> pixels(std::size_t(4 * width * height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+    glReadBuffer(GL_COLOR_ATTACHMENT1);
+    glReadPixels(first(place.x, from.size.width, width),
+                 first(1 - place.y, from.size.height, height), width, height, GL_RGBA_INTEGER,
+                 GL_UNSIGNED_INT, pixels.data());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < pixels.size(); i += 4)
+        if (pixels[i] != 0)
+            distances.push_back(pixels[i] / 1000.0);
+    if (distances.empty())
+        return std::nullopt;
+    return median(distances);
 }
 
 }  // namespace theatron::xr

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "render/cloud_scene.h"
 
@@ -22,6 +23,11 @@ public:
     // Copies it into the whole window. Before the first begin() that is the
     // background alone.
     void show(Size window) const;
+
+    // How far before the eye, along the view's axis, the surface is that was drawn at
+    // this share of the width and height from the top left corner. Nothing where
+    // there is none. Waits for the GPU: for a click, not for every picture.
+    std::optional<double> distance_at(Vec2 place) const;
 
 private:
     struct Parts;

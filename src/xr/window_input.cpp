@@ -5,7 +5,7 @@ namespace theatron::xr {
 
 const std::vector<KeyHelp>& key_help() {
     static const std::vector<KeyHelp> help = {
-        {"Left mouse button, drag", "Look from another side"},
+        {"Left mouse button, drag", "Turn around what is under the mouse"},
         {"Right mouse button, drag", "Move sideways, up and down"},
         {"Mouse wheel", "Come closer, go further away"},
         {"W A S D, Q E", "Walk; Q down, E up; faster with Shift"},

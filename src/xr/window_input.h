@@ -2,6 +2,7 @@
 // What a person did at the window, in plain values: no type of the window system.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "xr/navigation.h"
@@ -30,6 +31,9 @@ struct WindowInput {
     bool close = false;   // the window's own button, or the system wants us to end
     bool redraw = false;  // the window was uncovered or has another size
     std::vector<KeyPress> keys;
+    // Where a turn or a slide began, if one did: shares of the window's width and
+    // height from its top left corner.
+    std::optional<Vec2> grabbed;
     Steering steering;
 };
 
