@@ -10,6 +10,7 @@
 #include "bench_color.h"
 #include "bench_depth.h"
 #include "bench_pipeline.h"
+#include "bench_render.h"
 #include "bench_sequence.h"
 #include "codec/depth_codec.h"
 #include "commands.h"
@@ -158,6 +159,36 @@ void add_pipeline(CLI::App& bench) {
     });
 }
 
+void add_render(CLI::App& bench) {
+    struct Flags {
+        int cameras = 4;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        bench.add_subcommand("render", "Renderers: time of a picture and of an upload, checked");
+    command->footer("Example: theatron bench render --cameras 4 --json render.json");
+    command->add_option("--cameras", flags->cameras, "Generated cameras")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        RenderBench b;
+        b.cameras = generated_render_cameras(flags->cameras);
+        const nlohmann::json r = bench_render(b);
+        report(r, flags->json, [&] {
+            std::printf("%s, %dx%d, %d camera(s)\n", r["gl_renderer"].get<std::string>().c_str(),
+                        r["width"].get<int>(), r["height"].get<int>(), r["cameras"].get<int>());
+            for (const auto& renderer : r["renderers"])
+                std::printf("  %-12s picture %7.2f ms  upload of a camera %6.2f ms\n",
+                            renderer["name"].get<std::string>().c_str(),
+                            renderer["frame_ms"].get<double>(),
+                            renderer["upload_ms"].get<double>());
+        });
+    });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -166,6 +197,7 @@ void add_bench_command(CLI::App& app) {
     add_depth(*bench);
     add_color(*bench);
     add_pipeline(*bench);
+    add_render(*bench);
 }
 
 }  // namespace theatron::app

@@ -60,12 +60,13 @@ void run(const Flags& flags) {
 
     constexpr Size size{1280, 720};
     ViewerScene scene;
-    const View views[] = {{"mesh.png", "mesh", {CameraId{0}, 0, 0}},
-                          {"mesh_from_the_side.png", "mesh", {CameraId{0}, 25, 10}},
-                          {"splat.png", "splat", {CameraId{0}, 0, 0}}};
+    const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
+                          {"from_between.png", "blend", {CameraId{0}, 35, 5}},
+                          {"as_mesh.png", "mesh", {CameraId{0}, 35, 5}},
+                          {"as_splats.png", "splat", {CameraId{0}, 35, 5}}};
 
     std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
-              << "  theatron join '" << host.link() << "' --offscreen view.png\n\n"
+              << "  theatron join '" << host.link() << "'\n\n"
               << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
