@@ -183,7 +183,7 @@ TEST(QuantisedDepth, KeepsValidityAndItsBound) {
     DepthImage all({256, 256});
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
         all.pixels[i] = std::uint16_t(i);
-    const Reference before = reference_to(noise(all.size, 1));
+    const Reference before{noise(all.size, 1), {}};
     for (const int step : {2, 3, 4, 7, 10, 64, 99, 100}) {
         for (const char* delta : {"", ",delta=1"}) {
             const auto codec =
