@@ -176,9 +176,10 @@ HWY_INLINE hn::Vec<F32> reciprocal(hn::Vec<F32> v) {
 void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequencies& frequencies,
                    Stream& stream) {
     const D32 d;
-    alignas(64) std::uint32_t states[lane_count];
-    for (std::uint32_t& state : states)
-        state = least_state;
+    // In registers, if there are few: each step waits for the one before.
+    V32 states[max_chunks];
+    for (V32& state : states)
+        state = hn::Set(d, least_state);
     std::uint16_t* out = stream.words;
 
     for (int t = layout.steps - 1; t >= 0; --t) {
@@ -191,22 +192,22 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
                                                  hn::Eq(token, hn::Set(d, literal_low_token))));
         }
         if (HWY_UNLIKELY(!hn::AllFalse(d, has_extra))) {
-            for (int lane = 0; lane < lane_count; lane += chunk_lanes) {
+            for (int i = 0; i < max_chunks; ++i) {
+                const int lane = i * chunk_lanes;
                 const V32 token = hn::And(load32(tokens + lane), hn::Set(d, token_count - 1));
                 const V32 bits = extra_bits_of(token);
                 const V32 bound = hn::Shl(hn::Set(d, 1), hn::Sub(hn::Set(d, 31), bits));
-                V32 state = hn::Load(d, states + lane);
-                state = emit(state, hn::Not(hn::Lt(state, bound)), out);
-                hn::Store(hn::Or(hn::Shl(state, bits), load32(extras + lane)), d, states + lane);
+                const V32 state = emit(states[i], hn::Not(hn::Lt(states[i], bound)), out);
+                states[i] = hn::Or(hn::Shl(state, bits), load32(extras + lane));
             }
         }
-        for (int lane = 0; lane < lane_count; lane += chunk_lanes) {
+        for (int i = 0; i < max_chunks; ++i) {
             const V32 entry = hn::GatherIndex(d, frequencies.of.data(),
-                                              hn::BitCast(S32(), load32(tokens + lane)));
+                                              hn::BitCast(S32(), load32(tokens + i * chunk_lanes)));
             const V32 frequency = hn::And(entry, hn::Set(d, 0xffff));
             const V32 start = hn::ShiftRight<16>(entry);
-            V32 state = hn::Load(d, states + lane);
-            state = emit(state, hn::Not(hn::Lt(state, hn::ShiftLeft<20>(frequency))), out);
+            const V32 bound = hn::ShiftLeft<20>(frequency);
+            const V32 state = emit(states[i], hn::Not(hn::Lt(states[i], bound)), out);
 
             // The quotient in floating point is off by one at most; the
             // remainder shows it.
@@ -221,12 +222,12 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
             const auto too_little = hn::Not(hn::Lt(rest, frequency));
             quotient = hn::Add(quotient, hn::IfThenElseZero(too_little, hn::Set(d, 1)));
             rest = hn::Sub(rest, hn::IfThenElseZero(too_little, frequency));
-            hn::Store(hn::Add(hn::ShiftLeft<probability_bits>(quotient), hn::Add(rest, start)), d,
-                      states + lane);
+            states[i] = hn::Add(hn::ShiftLeft<probability_bits>(quotient), hn::Add(rest, start));
         }
     }
     stream.word_count = std::size_t(out - stream.words);
-    std::memcpy(stream.states.data(), states, sizeof(states));
+    for (int i = 0; i < max_chunks; ++i)
+        hn::StoreU(states[i], d, stream.states.data() + i * chunk_lanes);
 }
 
 HWY_INLINE V16 zigzag(V16 difference) {
