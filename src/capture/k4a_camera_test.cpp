@@ -162,6 +162,17 @@ TEST_F(K4aCamera, PairsWhatTheDeviceDeliversApart) {
     }
 }
 
+// Stamped as far apart as these, they would not be paired here.
+TEST_F(K4aCamera, WhatTheLibraryPairedStaysPaired) {
+    behave("color_later_us=20000");
+    for (const auto& [options, expected] : {std::pair{"k4a:0,synchronized=1", 0}, {"k4a:0", -1}}) {
+        const Capture capture = open_camera(options)->next(1s);
+        ASSERT_EQ(capture.kind, Kind::frame) << capture.problem;
+        EXPECT_EQ(depth_number(*capture.frame), 0);
+        EXPECT_EQ(color_number(*capture.frame), expected) << options;
+    }
+}
+
 TEST_F(K4aCamera, ALostColorPictureCostsNoDepth) {
     behave("apart,skip_color=2");
     const auto camera = open_camera("k4a:0");

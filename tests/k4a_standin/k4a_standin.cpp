@@ -124,6 +124,8 @@ Image* color_image(const Device& device, int frame) {
     image->bytes.resize(std::min(image->bytes.size(), image->told_size));
     image->bytes.shrink_to_fit();
     stamp(device, *image, frame);
+    if (image->device_us != 0)
+        image->device_us += std::uint64_t(b.number("color_later_us", 0));
     return image;
 }
 

@@ -25,6 +25,7 @@ public:
     //   color_first         the same, before the depth
     //   depth_width=N, depth_stride=N, depth_bytes=N, depth_format=N   lies about depth
     //   color_bytes=N, color_format=N, not_jpeg                        lies about colour
+    //   color_later_us=N    colour is dated so much after its depth
     //   padding=N           bytes after each row of depth
     //   clock=steady|wall|none   what the system time stamps count
     //   device_clock=none   no device time stamps
