@@ -60,7 +60,7 @@ TEST(Rasteriser, EqualsRayCastingUnderDistortion) {
         }
         double best = INFINITY, doubtful = INFINITY;
         for (const Triangle& t : triangles) {
-            double edge;
+            double edge = INFINITY;
             const double z =
                 cast(to_vec3(points[t.a]), to_vec3(points[t.b]), to_vec3(points[t.c]), ray, edge);
             best = std::min(best, z);
