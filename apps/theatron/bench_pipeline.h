@@ -13,7 +13,7 @@ struct PipelineBench {
     int viewers = 1;
     double seconds = 20;
     double warmup_seconds = 2;
-    std::string depth_codec = "trvl";
+    std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
 };
 

@@ -61,9 +61,9 @@ void run(const Flags& flags) {
     constexpr Size size{1280, 720};
     ViewerScene scene;
     const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
-                          {"from_between.png", "blend", {CameraId{0}, 35, 5}},
-                          {"as_mesh.png", "mesh", {CameraId{0}, 35, 5}},
-                          {"as_splats.png", "splat", {CameraId{0}, 35, 5}}};
+                          {"from_between.png", "blend", {CameraId{0}, -45, 5}},
+                          {"as_mesh.png", "mesh", {CameraId{0}, -45, 5}},
+                          {"as_splats.png", "splat", {CameraId{0}, -45, 5}}};
 
     std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
               << "  theatron join '" << host.link() << "'\n\n"

@@ -26,7 +26,7 @@ namespace {
 struct Flags {
     std::string link;
     std::string name = "guest";
-    std::string depth_codec = "trvl";
+    std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     std::string offscreen, depth_file;
     std::string renderer = "mesh";

@@ -23,7 +23,7 @@ public:
     struct Options {
         net::Link link;
         std::string name = "guest";
-        std::string depth_codec = "trvl";
+        std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         // Told what a person should know: reconnecting, refused, a camera ended.
         // Called from the participant's thread.

@@ -24,7 +24,7 @@ namespace {
 struct Flags {
     std::vector<std::string> names;  // [LINK] FILE
     std::vector<std::string> cameras;
-    std::string depth_codec = "trvl";
+    std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     double seconds = 0;
     bool json = false;

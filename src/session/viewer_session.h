@@ -18,7 +18,7 @@ public:
     struct Wishes {
         std::string token;
         std::string name;
-        std::string depth_codec = "trvl";
+        std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
     };
 

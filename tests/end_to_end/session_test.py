@@ -37,7 +37,7 @@ class Session(unittest.TestCase):
                                         "--renderer", renderer, "--size", "160x120", "--seconds", "0.5",
                                         "--color-codec", "raw", "--json")
                 self.assertEqual(code, 0, errors)
-                self.assertEqual(json.loads(out)["codec"], "trvl raw")
+                self.assertEqual(json.loads(out)["codec"], "strata raw")
                 _, _, _, source = read_png(still / "depth" / "00000.png")
                 _, _, _, seen = read_png(depth)
                 _, _, _, color = read_png(still / "color" / "00000.png")
