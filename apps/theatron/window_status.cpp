@@ -105,6 +105,14 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
     return facts;
 }
 
+std::string window_warning(const Participant::Status& status, const OnScreen& screen) {
+    constexpr double still_ms = 2000;
+    const bool joined = status.phase == Participant::Phase::joined;  // else the message tells
+    if (!joined || !screen.has_picture || !screen.age_ms || *screen.age_ms < still_ms)
+        return {};
+    return "This picture is " + age_text(*screen.age_ms) + " old";
+}
+
 WindowMessage window_message(const Participant::Status& status, const OnScreen& screen) {
     const std::string old = screen.has_picture && screen.age_ms && *screen.age_ms >= 1000
                                 ? "This picture is " + age_text(*screen.age_ms) + " old. "

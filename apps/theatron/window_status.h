@@ -22,6 +22,9 @@ struct OnScreen {
 
 std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen);
 
+// What a person must not overlook in a picture that seems all right: that it stands still.
+std::string window_warning(const Participant::Status& status, const OnScreen& screen);
+
 // Both empty while everything is as it should be.
 struct WindowMessage {
     std::string message, detail;

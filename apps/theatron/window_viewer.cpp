@@ -256,6 +256,7 @@ void WindowViewer::update_texts(TimePoint now) {
     const WindowMessage message = window_message(status, screen);
     texts.message = message.message;
     texts.detail = message.detail;
+    texts.warning = window_warning(status, screen);
     if (message.message.empty() && now < notice_until_)
         texts.notice = notice_;
     texts_changed_ = texts_changed_ || texts != texts_;

@@ -49,7 +49,7 @@ struct Overlay::Parts {
     // Each draws its part; all use what draw() has set up.
     float facts(const std::vector<Fact>& facts) const;
     void message(const std::string& message, const std::string& detail, float bottom) const;
-    void notice(const std::string& notice) const;
+    float notice(const std::string& words, ImU32 color, float top) const;
     void help(float bottom) const;
 
     ImDrawList* list = nullptr;
@@ -123,14 +123,18 @@ void Overlay::Parts::message(const std::string& message, const std::string& deta
     text(normal, {(window.x - more.x) / 2, from.y + size.y + unit}, label_color, detail, wrap);
 }
 
-void Overlay::Parts::notice(const std::string& notice) const {
+// Returns where the next may begin.
+float Overlay::Parts::notice(const std::string& words, ImU32 color, float top) const {
+    if (words.empty())
+        return top;
     const float wrap = window.x * 0.8f, padding = unit;
-    const ImVec2 size = measure(normal, notice, wrap);
-    const ImVec2 from{(window.x - size.x) / 2, 2.5f * unit};
+    const ImVec2 size = measure(normal, words, wrap);
+    const ImVec2 from{(window.x - size.x) / 2, top + padding};
     list->AddRectFilled({from.x - 2 * padding, from.y - padding},
                         {from.x + size.x + 2 * padding, from.y + size.y + padding}, panel_color,
                         unit);
-    text(normal, from, text_color, notice, wrap);
+    text(normal, from, color, words, wrap);
+    return from.y + size.y + 2 * padding;
 }
 
 void Overlay::Parts::help(float bottom) const {
@@ -173,8 +177,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
         p.message(content.message, content.detail, bottom);
     if (content.help)
         p.help(bottom);
-    if (!content.notice.empty())
-        p.notice(content.notice);
+    const float below = p.notice(content.warning, warning_color, 1.5f * p.unit);
+    p.notice(content.notice, text_color, below);
 
     ImGui::Render();
     p.pass.draw(*ImGui::GetDrawData());

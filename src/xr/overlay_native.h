@@ -23,7 +23,8 @@ struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
     std::string message, detail;
-    std::string notice;  // at the top, for what just happened
+    std::string warning;  // at the top, as long as it holds
+    std::string notice;   // below it, for what just happened
     bool help = false;
     bool operator==(const OverlayContent&) const = default;
 };

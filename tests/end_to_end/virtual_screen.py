@@ -64,7 +64,7 @@ def brightness(rows):
     return sum(sum(row[1::4]) for row in rows) / sum(len(row) // 4 for row in rows)
 
 
-def wait_until(condition, timeout=25, every=0.1):
+def wait_until(condition, timeout=60, every=0.1):
     """The condition's first true value; fails when there is none in time."""
     deadline = time.monotonic() + timeout
     while True:
