@@ -78,8 +78,12 @@ Measured measure(const video::ColorSetting& setting, const std::vector<ColorImag
             ColorData color;
             color.size = frames[i].size;
             color.pixels = frames[i];
-            ByteView encoded;
-            const double encode_ms = timed_ms([&] { encoded = *encoder->encode(color, i == 0); });
+            Result<video::EncodedColor> result = Status::truncated;
+            const double encode_ms = timed_ms([&] { result = encoder->encode(color, i == 0); });
+            if (!result)
+                throw Error("Frame " + std::to_string(i) + " is " +
+                            std::string(to_text(result.error())) + " for " + setting.text + ".");
+            const ByteView encoded = result->bytes;
             std::optional<video::ColorDecoder::Decoded> decoded;
             const double decode_ms = timed_ms([&] {
                 if (decoder->submit(encoded, FrameNumber(i)) == Status::ok)

@@ -90,13 +90,22 @@ void add_depth(CLI::App& bench) {
     });
 }
 
+// Those that this machine can encode.
+std::vector<std::string> color_codecs_here() {
+    std::vector<std::string> names;
+    for (const std::string& name : video::color_codec_names())
+        if (video::missing_color_encoder(video::parse_color_setting(name).setting).empty())
+            names.push_back(name);
+    return names;
+}
+
 void add_color(CLI::App& bench) {
     const auto flags = std::make_shared<CodecFlags>();
     CLI::App* command = add_codec_bench(
         bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
     command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
     command->callback([flags] {
-        const auto codecs = flags->codecs.empty() ? video::color_codec_names() : flags->codecs;
+        const auto codecs = flags->codecs.empty() ? color_codecs_here() : flags->codecs;
         nlohmann::json sequences = nlohmann::json::array();
         for (const std::string& folder : flags->folders) {
             const BenchSequence s = load_sequence(folder, true, flags->frames);

@@ -81,7 +81,8 @@ session::HostSession::CheckedCodec check_depth(const std::string& text) {
 
 session::HostSession::CheckedCodec check_color(const std::string& text) {
     const auto parsed = video::parse_color_setting(text);
-    return {parsed.setting.text, parsed.problem};
+    return {parsed.setting.text,
+            parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem};
 }
 
 }  // namespace

@@ -134,7 +134,8 @@ void run(const Flags& flags) {
     options.name = flags.name;
     const auto depth = codec::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
-    for (const std::string& problem : {depth.problem, color.problem})
+    for (const std::string& problem :
+         {depth.problem, color.problem, video::missing_color_decoder(color.setting)})
         if (!problem.empty())
             throw Error(problem);
     options.depth_codec = depth.setting.text;

@@ -49,6 +49,7 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
             if (problem.empty()) {
                 stream.color = video::make_color_decoder(parsed.setting.id);
                 stream.color_codec = parsed.setting.id;
+                stream.color_reference.reset();
             }
         }
         if (!problem.empty())
@@ -142,8 +143,14 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
                               TimePoint now) {
     if (header.codec != std::uint8_t(stream.color_codec))
         return Status::malformed;
+    const auto reference = std::exchange(stream.color_reference, std::nullopt);
+    if (!header.key && reference != header.reference)
+        return Status::missing_reference;
     if (const Status s = stream.color->submit(payload, header.frame); s != Status::ok)
         return s;
+    stream.color_reference = header.frame;
+    if (header.key)
+        stream.asked_for_key = false;
     while (auto decoded = stream.color->poll()) {
         ++stream.frames;
         stream.frame_rate.add(now);

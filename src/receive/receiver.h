@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,8 @@ private:
         std::unique_ptr<codec::DepthStreamDecoder> depth;
         std::unique_ptr<video::ColorDecoder> color;
         video::ColorCodecId color_codec{};
+        // What a colour frame that is no key frame must refer to.
+        std::optional<FrameNumber> color_reference;
 
         bool counting = false;  // a frame has come since the figures were reset
         FrameNumber newest = 0;

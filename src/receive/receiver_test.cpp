@@ -15,11 +15,13 @@ constexpr CameraId camera{0};
 // One camera's encoders, as a host has them.
 class Source {
 public:
-    explicit Source(const std::string& depth = "trvl", SettingId setting = SettingId{1})
+    explicit Source(const std::string& depth = "trvl", SettingId setting = SettingId{1},
+                    const std::string& color = "raw")
         : setting_(setting),
           depth_setting_(codec::parse_depth_setting(depth).setting),
           depth_(depth_setting_),
-          color_(video::make_color_encoder(video::parse_color_setting("raw").setting)) {}
+          color_setting_(video::parse_color_setting(color).setting),
+          color_(video::make_color_encoder(color_setting_)) {}
 
     static DepthImage scene(FrameNumber n) {
         DepthImage image({32, 24});
@@ -42,19 +44,21 @@ public:
         h.key = encoded.key;
         return message(h, n, payload);
     }
-    Bytes color(FrameNumber n) {
+    void set_color_id(SettingId id) { color_id_ = id; }
+    Bytes color(FrameNumber n, bool key = true) {
         ColorData data;
         data.size = {32, 24};
         data.pixels = ColorImage(data.size);
         data.pixels.pixels[0] = {std::uint8_t(n), 2, 3};
-        const auto encoded = color_->encode(data, true);
+        const auto encoded = color_->encode(data, key);
         wire::MediaHeader h;
-        h.codec = std::uint8_t(video::ColorCodecId::raw);
+        h.codec = std::uint8_t(color_setting_.id);
         h.stream = color_stream(camera);
-        h.setting = SettingId{0x8001};
-        h.reference = n;
-        h.key = true;
-        return message(h, n, *encoded);
+        h.setting = color_id_;
+        h.reference = encoded->key ? n : last_color_;
+        h.key = encoded->key;
+        last_color_ = n;
+        return message(h, n, encoded->bytes);
     }
 
 private:
@@ -70,7 +74,10 @@ private:
     SettingId setting_;
     codec::DepthSetting depth_setting_;
     codec::DepthStreamEncoder depth_;
+    video::ColorSetting color_setting_;
     std::unique_ptr<video::ColorEncoder> color_;
+    SettingId color_id_{0x8001};
+    FrameNumber last_color_ = 0;
 };
 
 class ReceiverTest : public ::testing::Test {
@@ -89,6 +96,9 @@ protected:
     void set_depth(const std::string& codec, SettingId id) {
         receiver.set_settings(
             {{depth_stream(camera), id, codec}, {color_stream(camera), SettingId{0x8001}, "raw"}});
+    }
+    void set_color(const std::string& codec) {
+        receiver.set_settings({{color_stream(camera), SettingId{0x8002}, codec}});
     }
     TimePoint at(FrameNumber n) { return from_us(n * 33'333 + 5'000); }
 
@@ -124,6 +134,23 @@ TEST_F(ReceiverTest, LateColorDoesNotHoldDepthBack) {
     (void)receiver.on_media(source.color(2), at(2));
     EXPECT_EQ(frames.back()->number, 2u);
     EXPECT_EQ(frames.back()->color->pixels[0].r, 2);
+}
+
+TEST_F(ReceiverTest, LostColorIsAskedForAsAKeyFrame) {
+    if (!video::missing_color_encoder({video::ColorCodecId::h264, "h264"}).empty())
+        GTEST_SKIP() << "no H.264 encoder on this machine";
+    set_color("h264");
+    Source source("trvl", SettingId{1}, "h264");
+    source.set_color_id(SettingId{0x8002});
+    EXPECT_EQ(receiver.on_media(source.color(0, false), at(0)), Status::ok);
+    EXPECT_EQ(receiver.on_media(source.color(1, false), at(1)), Status::ok);
+    (void)source.color(2, false);
+    EXPECT_EQ(receiver.on_media(source.color(3, false), at(3)), Status::missing_reference);
+    EXPECT_EQ(receiver.on_media(source.color(4, false), at(4)), Status::missing_reference);
+    EXPECT_EQ(keys_wanted, std::vector{color_stream(camera)});
+    EXPECT_EQ(receiver.on_media(source.color(5, true), at(5)), Status::ok);
+    EXPECT_EQ(receiver.on_media(source.color(6, false), at(6)), Status::ok);
+    EXPECT_EQ(receiver.refused(), 0u);
 }
 
 class DepthOnly : public ReceiverTest {

@@ -38,6 +38,7 @@ struct CameraLane::Encoders {
         SettingId id{};
         std::uint8_t codec = 0;
         std::unique_ptr<video::ColorEncoder> encoder;
+        FrameNumber encoded_last = 0;
     };
     std::vector<Depth> depth;
     std::vector<Color> color;
@@ -207,9 +208,10 @@ void CameraLane::encode_frame(const Frame& frame, Encoders& encoders) {
             // A camera's damaged picture is left out; its depth is not.
             if (!encoded)
                 continue;
-            header.key = true;
-            header.reference = header.frame;
-            publish(*encoded);
+            header.key = encoded->key;
+            header.reference = encoded->key ? header.frame : setting.encoded_last;
+            setting.encoded_last = header.frame;
+            publish(encoded->bytes);
         }
     }
     const TimePoint color_done = steady_now();

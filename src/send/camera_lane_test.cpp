@@ -8,6 +8,7 @@
 
 #include "base/steady_clock.h"
 #include "codec/depth_stream.h"
+#include "video/color_codec.h"
 
 namespace theatron::send {
 namespace {
@@ -33,6 +34,8 @@ public:
             auto frame = std::make_shared<Frame>();
             frame->depth = DepthImage(size);
             frame->depth.pixels.assign(size.area(), value);
+            frame->color.size = size;
+            frame->color.pixels = ColorImage(size);
             frame->times.captured = frame->times.delivered = steady_now();
             give({capture::Capture::Kind::frame, frame, ""});
         }
@@ -143,6 +146,24 @@ TEST_F(Lane, ANewSettingLeavesTheOthersReferencesAlone) {
     EXPECT_FALSE(published[1].header.key);
     EXPECT_EQ(published[2].header.setting, SettingId{2});
     EXPECT_TRUE(published[2].header.key);
+}
+
+TEST_F(Lane, ColorFramesNameWhatTheyReferTo) {
+    if (!video::missing_color_encoder({video::ColorCodecId::h264, "h264"}).empty())
+        GTEST_SKIP() << "no H.264 encoder on this machine";
+    lane->set_settings({}, {{SettingId{1}, "h264:crf=20"}, {SettingId{2}, "jpeg:quality=85"}});
+    for (std::size_t i = 0; i < 3; ++i) {
+        script->give_frame(1000);
+        ASSERT_TRUE(wait_for(2 * i + 2));
+    }
+    const std::lock_guard lock(mutex);
+    EXPECT_TRUE(published[0].header.key);
+    for (const std::size_t i : {2u, 4u}) {
+        EXPECT_FALSE(published[i].header.key);
+        EXPECT_EQ(published[i].header.reference, published[i - 2].header.frame);
+        EXPECT_TRUE(published[i + 1].header.key);  // JPEG
+        EXPECT_EQ(published[i + 1].header.reference, published[i + 1].header.frame);
+    }
 }
 
 TEST_F(Lane, NothingIsEncodedForNobody) {

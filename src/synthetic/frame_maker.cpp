@@ -81,10 +81,10 @@ EncodedFrame FrameMaker::encode(const GroundTruth& truth, std::uint32_t frame) {
             apply_color_sensor({}, sensor_->seed, frame, truth.color.view(), color_.pixels.view());
         else
             color_.pixels = truth.color;
-        const Result<ByteView> jpeg = jpeg_->encode(color_, true);
+        const auto jpeg = jpeg_->encode(color_, true);
         if (!jpeg)
             throw Error("A picture of the synthetic room could not be compressed.");
-        encoded.color.assign(jpeg->begin(), jpeg->end());
+        encoded.color.assign(jpeg->bytes.begin(), jpeg->bytes.end());
     }
     return encoded;
 }

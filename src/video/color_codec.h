@@ -38,12 +38,24 @@ struct ParsedColorSetting {
     std::string problem;  // empty if `setting` holds
 };
 
-// Understands "raw", "jpeg", "jpeg:quality=85". The problem names the codecs
+// Understands "raw", "jpeg", "jpeg:quality=85", "h264:crf=20". The problem names the codecs
 // there are, or the parameter that is wrong. A camera's own JPEG pictures are
 // passed through untouched, at the camera's quality, unless `pass=0` is given.
 ParsedColorSetting parse_color_setting(std::string_view text);
 
 std::vector<std::string> color_codec_names();
+
+// A text may be understood and still not be possible here: H.264 needs a library
+// that not every machine has. One sentence about what is missing, or empty.
+std::string missing_color_encoder(const ColorSetting& setting);
+std::string missing_color_decoder(const ColorSetting& setting);
+
+// One encoded colour picture.
+struct EncodedColor {
+    ByteView bytes;
+    // False: it refers to the picture that this encoder encoded before it.
+    bool key = true;
+};
 
 // One stream's encoder. Not thread safe.
 class ColorEncoder {
@@ -52,8 +64,9 @@ public:
 
     // Encodes `color`, which is not empty, and returns the bytes, valid until
     // the next call and no longer than `color` itself, whose JPEG they may be. Fails only if a
-    // camera's JPEG that must be recoded is damaged. `key`: the frame must be decodable by itself.
-    virtual Result<ByteView> encode(const ColorData& color, bool key) = 0;
+    // camera's JPEG that must be recoded is damaged, or if the picture is larger
+    // than the codec can do. `key`: the frame must be decodable by itself.
+    virtual Result<EncodedColor> encode(const ColorData& color, bool key) = 0;
 };
 
 // One stream's decoder. Not thread safe. Safe for untrusted input.
@@ -66,7 +79,9 @@ public:
 
     virtual ~ColorDecoder() = default;
 
-    // Takes one encoded frame. The status tells what is known at once.
+    // Takes one encoded frame. The status tells what is known at once. A frame
+    // that is no key frame comes right after the one that it refers to; whoever
+    // lost that one does not submit it (Status::missing_reference).
     virtual Status submit(ByteView encoded, FrameNumber frame) = 0;
 
     // The next finished frame, in order of submission, or nothing yet.

@@ -2,44 +2,31 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "video/avc_native.h"
+#include "video/camera_pixels_native.h"
 #include "video/color_codec.h"
 #include "video/color_raw.h"
 #include "video/color_setting.h"
+#include "video/h264_native.h"
 #include "video/jpeg_native.h"
 #include "video/raw_codec.h"
 
 namespace theatron::video {
 namespace {
 
-// The pixels of a camera's picture, which may come as JPEG.
-class Pixels {
-public:
-    Result<ColorView> of(const ColorData& color) {
-        if (!color.is_jpeg())
-            return color.pixels.view();
-        if (const Status s = decompressor_.decompress(color.jpeg, image_); s != Status::ok)
-            return s;
-        return std::as_const(image_).view();
-    }
-
-private:
-    JpegDecompressor decompressor_;
-    ColorImage image_;
-};
-
 class RawEncoder final : public ColorEncoder {
 public:
-    Result<ByteView> encode(const ColorData& color, bool) override {
+    Result<EncodedColor> encode(const ColorData& color, bool) override {
         const Result<ColorView> image = pixels_.of(color);
         if (!image)
             return image.error();
         bytes_.resize(color_raw::encoded_size(image->size));
         color_raw::encode(*image, bytes_);
-        return ByteView(bytes_);
+        return EncodedColor{bytes_};
     }
 
 private:
-    Pixels pixels_;
+    CameraPixels pixels_;
     Bytes bytes_;
 };
 
@@ -48,18 +35,18 @@ public:
     explicit JpegEncoder(const JpegParams& params)
         : pass_(params.pass), compressor_(params.quality, params.halve_chroma) {}
 
-    Result<ByteView> encode(const ColorData& color, bool) override {
+    Result<EncodedColor> encode(const ColorData& color, bool) override {
         if (pass_ && color.is_jpeg())
-            return ByteView(color.jpeg);
+            return EncodedColor{color.jpeg};
         const Result<ColorView> image = pixels_.of(color);
         if (!image)
             return image.error();
-        return compressor_.compress(*image);
+        return EncodedColor{compressor_.compress(*image)};
     }
 
 private:
     bool pass_;
-    Pixels pixels_;
+    CameraPixels pixels_;
     JpegCompressor compressor_;
 };
 
@@ -88,6 +75,14 @@ private:
 
 }  // namespace
 
+std::string missing_color_encoder(const ColorSetting& setting) {
+    return setting.id == ColorCodecId::h264 ? AvcEncoder::problem() : "";
+}
+
+std::string missing_color_decoder(const ColorSetting& setting) {
+    return setting.id == ColorCodecId::h264 ? AvcDecoder::problem() : "";
+}
+
 std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting) {
     switch (setting.id) {
         case ColorCodecId::raw:
@@ -97,7 +92,7 @@ std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting) {
             return std::make_unique<JpegEncoder>(take_jpeg_params(options));
         }
         case ColorCodecId::h264:
-            break;
+            return make_h264_encoder(setting);
     }
     refuse(setting.id);
 }
@@ -109,7 +104,7 @@ std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id) {
         case ColorCodecId::jpeg:
             return std::make_unique<JpegDecoder>();
         case ColorCodecId::h264:
-            break;
+            return make_h264_decoder();
     }
     refuse(id);
 }

@@ -6,8 +6,18 @@
 
 namespace theatron::video {
 
+std::string missing_color_encoder(const ColorSetting& setting) {
+    return "The web build does not encode colour, so there is no '" + setting.text + "'.";
+}
+
+std::string missing_color_decoder(const ColorSetting& setting) {
+    if (setting.id == ColorCodecId::raw)
+        return "";
+    return "The web build has no decoder for '" + setting.text + "'.";
+}
+
 std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting) {
-    throw Error("The web build does not encode colour, so there is no '" + setting.text + "'.");
+    throw Error(missing_color_encoder(setting));
 }
 
 std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id) {

@@ -14,7 +14,7 @@ ParsedColorSetting refused(std::string problem) {
 }  // namespace
 
 std::vector<std::string> color_codec_names() {
-    return {"raw", "jpeg"};
+    return {"raw", "jpeg", "h264"};
 }
 
 JpegParams take_jpeg_params(Options& options) {
@@ -25,6 +25,11 @@ JpegParams take_jpeg_params(Options& options) {
     params.halve_chroma = subsampling != "444";
     params.pass = options.take_flag("pass", true);
     return params;
+}
+
+AvcParams take_h264_params(Options& options, std::string& problem) {
+    constexpr int usual_crf = 20;
+    return take_avc_params(options, usual_crf, problem);
 }
 
 ParsedColorSetting parse_color_setting(std::string_view text) {
@@ -41,6 +46,11 @@ ParsedColorSetting parse_color_setting(std::string_view text) {
             setting.text += ",subsampling=444";
         if (!params.pass)
             setting.text += ",pass=0";
+    } else if (options.kind() == "h264") {
+        std::string problem;
+        setting = {ColorCodecId::h264, "h264:" + spelling(take_h264_params(options, problem))};
+        if (!problem.empty())
+            return refused(std::move(problem));
     } else if (options.problem().empty() || !options.kind().empty()) {
         std::string names;
         for (const std::string& name : color_codec_names())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/options.h"
+#include "video/avc_setting.h"
 
 namespace theatron::video {
 
@@ -15,5 +16,8 @@ struct JpegParams {
 
 // Takes the keys of "jpeg" out of `options`, which keeps what is wrong with them.
 JpegParams take_jpeg_params(Options& options);
+
+// Takes the keys of "h264"; `problem` as for take_avc_params.
+AvcParams take_h264_params(Options& options, std::string& problem);
 
 }  // namespace theatron::video

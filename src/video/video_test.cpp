@@ -79,8 +79,8 @@ Bytes encoded(std::string_view setting, const ColorData& color) {
     const ParsedColorSetting parsed = parse_color_setting(setting);
     EXPECT_EQ(parsed.problem, "");
     const auto encoder = make_color_encoder(parsed.setting);
-    const Result<ByteView> result = encoder->encode(color, true);
-    return result ? Bytes(result->begin(), result->end()) : Bytes{};
+    const auto result = encoder->encode(color, true);
+    return result ? Bytes(result->bytes.begin(), result->bytes.end()) : Bytes{};
 }
 
 ColorImage decoded(ColorCodecId id, const Bytes& data) {
@@ -111,8 +111,13 @@ TEST(ColorSetting, HasOneSpelling) {
 }
 
 TEST(ColorSetting, SaysWhatIsWrong) {
+    EXPECT_EQ(parse_color_setting("h264").setting.text, "h264:crf=20");
+    EXPECT_EQ(parse_color_setting("h264:preset=veryfast,bitrate_mbit=2.5").setting.text,
+              "h264:bitrate_mbit=2.5,preset=veryfast");
+    EXPECT_THAT(parse_color_setting("h264:preset=slow").problem, HasSubstr("or faster."));
+    EXPECT_THAT(parse_color_setting("h264:crf=52").problem, HasSubstr("crf=52"));
     EXPECT_EQ(parse_color_setting("mp3").problem,
-              "There is no colour codec 'mp3'; there are raw, jpeg.");
+              "There is no colour codec 'mp3'; there are raw, jpeg, h264.");
     EXPECT_THAT(parse_color_setting("jpeg:quality=101").problem, HasSubstr("quality=101"));
     EXPECT_THAT(parse_color_setting("jpeg:subsampling=411").problem, HasSubstr("420 or 444"));
     EXPECT_THAT(parse_color_setting("jpeg:speed=1").problem, HasSubstr("'speed' is unknown"));
@@ -286,7 +291,7 @@ TEST(ColorDecoder, UsesRecycledMemoryAgain) {
 
 TEST(ColorCodec, UnknownNumbersAreRefusedAtSetUp) {
     EXPECT_THROW(make_color_decoder(ColorCodecId(200)), Error);
-    EXPECT_THROW(make_color_encoder({ColorCodecId::h264, "h264"}), Error);
+    EXPECT_THROW(make_color_encoder({ColorCodecId(200), "holograms"}), Error);
 }
 
 }  // namespace
