@@ -12,6 +12,7 @@
 #include "bench_pipeline.h"
 #include "bench_render.h"
 #include "bench_sequence.h"
+#include "camera_option.h"
 #include "codec/depth_codec.h"
 #include "commands.h"
 #include "video/color_codec.h"
@@ -128,7 +129,7 @@ void add_pipeline(CLI::App& bench) {
     command->footer(
         "Example: theatron bench pipeline --camera folder:recordings/table,loop=1,preload=1 "
         "--cameras 4 --seconds 20");
-    command->add_option("--camera", flags->bench.cameras, "A camera; repeat for more")->required();
+    add_camera_option(*command, flags->bench.cameras)->required();
     command->add_option("--cameras", flags->cameras, "So many in all, by using those given again");
     command->add_option("--viewers", flags->bench.viewers, "Participants")
         ->capture_default_str()

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "camera_option.h"
 #include "commands.h"
 #include "files/png_file.h"
 #include "host.h"
@@ -107,8 +108,8 @@ void add_demo_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("demo", "See it work: a generated room, streamed to a viewer");
     command->footer("Example: theatron demo --seconds 20 --out pictures");
-    command->add_option("--camera", flags->cameras,
-                        "Other cameras than the generated ones; repeat for more");
+    add_camera_option(*command, flags->cameras,
+                      "Other cameras than the generated ones; repeat for more");
     command->add_option("--out", flags->out, "Folder for the pictures")->capture_default_str();
     command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
         ->capture_default_str();

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "camera_option.h"
 #include "capture/camera.h"
 #include "commands.h"
 #include "host.h"
@@ -82,10 +83,7 @@ void add_host_command(CLI::App& app) {
                     "  theatron host --camera folder:recordings/table,loop=1\n"
                     "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
                     "--listen 0.0.0.0:4400 --name 'OR 3'");
-    command
-        ->add_option("--camera", flags->options.cameras,
-                     "A camera, kind:value,key=value; repeat for more")
-        ->required();
+    add_camera_option(*command, flags->options.cameras)->required();
     command->add_option("--listen", flags->listen, "ADDRESS:PORT; port 0 lets the system choose")
         ->capture_default_str();
     command->add_option("--name", flags->options.name, "What participants see as the room's name")

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "camera_option.h"
 #include "codec/depth_codec.h"
 #include "commands.h"
 #include "progress.h"
@@ -162,8 +163,7 @@ void add_record_command(CLI::App& app) {
                      "and the file to write")
         ->required()
         ->expected(1, 2);
-    command->add_option("--camera", flags->cameras,
-                        "A camera, kind:value,key=value; repeat for more");
+    add_camera_option(*command, flags->cameras);
     command->add_option("--depth-codec", flags->depth_codec, "How depth is encoded")
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How colour is encoded")
