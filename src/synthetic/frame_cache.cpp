@@ -131,6 +131,8 @@ public:
         if (failure_)
             std::rethrow_exception(failure_);
         out.require_good();
+        // The second thread's last frames are written without a word.
+        tell("rendering the synthetic operating room", 1);
     }
 
 private:
