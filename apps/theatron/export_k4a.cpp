@@ -99,6 +99,8 @@ std::size_t export_k4a(ExportSource& source, const std::filesystem::path& file) 
     capture::RecordedFrames& camera = *source.cameras[0];
     const capture::AzureDescription azure = capture::describe_as_azure(camera.info().calibration);
     require_azure(camera.info(), azure);
+    if (std::filesystem::exists(file))
+        throw Error("'" + file.string() + "' exists already; name another file.");
 
     record::MatroskaWriter writer(file, layout_of(camera.info(), azure));
     video::JpegCompressor compressor(quality_of_raw_color, /*halve_chroma=*/false);

@@ -28,6 +28,7 @@ struct Flags {
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     double seconds = 0;
+    bool overwrite = false;
     bool json = false;
 };
 
@@ -43,6 +44,8 @@ RecordCodecs check_codecs(const Flags& flags) {
 std::unique_ptr<RecordSource> open_source(const Flags& flags) {
     const RecordCodecs codecs = check_codecs(flags);
     const std::string& file = flags.names.back();
+    if (!flags.overwrite && std::filesystem::exists(file))
+        throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
     if (flags.cameras.empty()) {
         if (flags.names.size() != 2)
             throw Error(
@@ -169,6 +172,7 @@ void add_record_command(CLI::App& app) {
     command->add_option("--color-codec", flags->color_codec, "How colour is encoded")
         ->capture_default_str();
     command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    command->add_flag("--overwrite", flags->overwrite, "Replace a file that is there");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->callback([flags] { run(*flags); });
 }

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""theatron record, inspect and export, and recordings as cameras."""
+import json
+import pathlib
+import shutil
+import signal
+import tempfile
+import time
+import unittest
+
+from theatron_process import Process, host, make_recording, read_png, run
+
+FRAMES = 6
+
+
+class Recording(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
+        # A size that an Azure Kinect gives, for --k4a.
+        self.source = make_recording(self.folder / "source", 320, 288, FRAMES, color=False)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def record(self, name, *arguments):
+        code, out, errors = run("record", *arguments, "--json", self.folder / name)
+        self.assertEqual(code, 0, errors)
+        return json.loads(out)
+
+    def inspect(self, name):
+        code, out, errors = run("inspect", self.folder / name, "--json")
+        self.assertEqual(code, 0, errors)
+        return json.loads(out)
+
+    def assert_same_depth(self, exported):
+        """Every exported picture is one of the source's; those passed over on a busy machine are missing."""
+        originals = [read_png(self.source / "depth" / f"{n:05}.png") for n in range(FRAMES)]
+        pictures = sorted(exported.glob("depth/*.png"))
+        self.assertGreater(len(pictures), 0)
+        at = 0
+        for picture in pictures:
+            at = originals.index(read_png(picture), at) + 1
+
+    def test_pictures_come_back_bit_exact_through_every_format(self):
+        figures = self.record("a.mkv", "--camera", f"folder:{self.source}", "--depth-codec", "zstd:delta=1")
+        self.assertEqual(figures["dropped"], 0)
+        code, _, errors = run("export", self.folder / "a.mkv", "--png", self.folder / "png", "--k4a",
+                              self.folder / "kinect.mkv", "--ply", self.folder / "ply")
+        self.assertEqual(code, 0, errors)
+        self.assert_same_depth(self.folder / "png")
+        code, _, errors = run("record", "--camera", f"folder:{self.source}", self.folder / "a.mkv")
+        self.assertEqual(code, 1)
+        self.assertIn("exists already", errors)
+        self.assertEqual(len(list((self.folder / "ply").glob("*.ply"))), figures["pictures"])
+
+        self.record("b.mkv", "--camera", f"mkv:{self.folder / 'kinect.mkv'}", "--depth-codec", "raw")
+        code, _, errors = run("export", self.folder / "b.mkv", "--png", self.folder / "again")
+        self.assertEqual(code, 0, errors)
+        self.assert_same_depth(self.folder / "again")
+
+        self.record("c.mkv", "--camera", f"folder:{self.folder / 'png'}")
+        self.assertEqual(self.inspect("c.mkv")["cameras"][0]["calibration"],
+                         self.inspect("a.mkv")["cameras"][0]["calibration"])
+
+    def test_a_session_is_recorded_as_it_comes(self):
+        with host(self.folder / "state", f"folder:{self.source},loop=1", f"folder:{self.source},loop=1") as h:
+            code, out, errors = run("record", h.greeting["link"], self.folder / "session.mkv", "--seconds", 1,
+                                    "--json", "--depth-codec", "trvl")
+            self.assertEqual(code, 0, errors)
+        seen = self.inspect("session.mkv")
+        self.assertTrue(seen["complete"])
+        self.assertEqual([c["depth"]["codec"] for c in seen["cameras"]], ["trvl", "trvl"])
+        self.assertGreater(min(c["depth"]["frames"] for c in seen["cameras"]), 5)
+        code, _, errors = run("export", self.folder / "session.mkv", "--camera", 1, "--png", self.folder / "png")
+        self.assertEqual(code, 0, errors)
+        originals = [read_png(self.source / "depth" / f"{n:05}.png") for n in range(FRAMES)]
+        for picture in sorted((self.folder / "png" / "depth").glob("*.png"))[:4]:
+            self.assertIn(read_png(picture), originals)
+
+    def test_ctrl_c_ends_it_and_a_crash_leaves_a_file_that_opens(self):
+        for sig, name in ((signal.SIGINT, "ended.mkv"), (signal.SIGKILL, "killed.mkv")):
+            path = self.folder / name
+            with Process("record", "--camera", f"folder:{self.source},loop=1", path) as recorder:
+                for _ in range(200):
+                    if path.exists() and path.stat().st_size > 100_000:
+                        break
+                    time.sleep(0.05)
+                recorder.send(sig)
+                recorder.end()
+            seen = self.inspect(name)
+            self.assertEqual(seen["complete"], sig == signal.SIGINT)
+            self.assertGreater(seen["cameras"][0]["depth"]["frames"], 0)
+
+    def test_what_cannot_be_is_one_sentence(self):
+        for arguments, part in (
+                (("record", self.folder / "x.mkv"), "Say what to record"),
+                (("record", "--camera", f"folder:{self.source}", "/nowhere/x.mkv"), "Cannot create"),
+                (("inspect", self.source / "depth" / "00000.png"), "is no Matroska file"),
+                (("export", self.folder / "x.mkv", "--png", "y"), "Cannot open"),
+                (("export", self.folder / "x.mkv"), "Say into what to export")):
+            code, _, errors = run(*arguments)
+            self.assertEqual(code, 1)
+            self.assertIn(part, errors)
+            self.assertEqual(errors.count("theatron: "), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
