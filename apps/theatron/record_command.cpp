@@ -35,7 +35,10 @@ struct Flags {
 RecordCodecs check_codecs(const Flags& flags) {
     const auto depth = codec::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
-    for (const std::string& problem : {depth.problem, color.problem})
+    // A session's host encodes; one's own cameras are encoded here.
+    const std::string missing =
+        flags.cameras.empty() ? "" : video::missing_color_encoder(color.setting);
+    for (const std::string& problem : {depth.problem, color.problem, missing})
         if (!problem.empty())
             throw Error(problem);
     return {depth.setting.text, color.setting.text};

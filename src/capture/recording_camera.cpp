@@ -41,19 +41,26 @@ RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> reco
                             [](const record::RecordedFrame& f) { return !f.header.key; });
     // A camera's number starts anew with its host, so the time belongs to a frame's name.
     using Name = std::pair<TimePoint, FrameNumber>;
-    std::map<Name, const record::RecordedFrame*> colors;
-    for (const record::RecordedFrame& f : content_.color.frames)
-        colors[{f.header.captured, f.header.frame}] = &f;
+    std::map<Name, std::size_t> colors;
+    bool decodable = false;
+    for (std::size_t i = 0; i < content_.color.frames.size(); ++i) {
+        const wire::MediaHeader& h = content_.color.frames[i].header;
+        // One that is no key frame refers to the one before it, and so on to a key frame.
+        decodable =
+            h.key || (decodable && content_.color.frames[i - 1].header.frame == h.reference);
+        if (decodable)
+            colors[{h.captured, h.frame}] = i;
+    }
     for (const record::RecordedFrame& f : content_.depth.frames) {
         const auto same = colors.find({f.header.captured, f.header.frame});
-        colors_.push_back(same == colors.end() ? nullptr : same->second);
+        colors_.push_back(same == colors.end() ? std::nullopt : std::optional(same->second));
     }
     rewind();
 }
 
 void RecordedFrames::rewind() {
     depth_ = std::make_unique<codec::DepthStreamDecoder>(setting_);
-    next_ = 0;
+    next_ = next_color_ = 0;
     is_decoded_ = false;
     last_offset_ = {};
 }
@@ -113,32 +120,48 @@ void RecordedFrames::read(Frame& out) {
     out.color.jpeg.clear();
     out.color.pixels.pixels.clear();
     out.color.size = {};
-    if (const record::RecordedFrame* color = colors_[next_++])
+    if (const auto color = colors_[next_++])
         read_color(*color, out.color);
 }
 
-void RecordedFrames::read_color(const record::RecordedFrame& frame, ColorData& out) {
+void RecordedFrames::read_color(std::size_t index, ColorData& out) {
+    const record::RecordedFrame& frame = content_.color.frames[index];
     const FrameNumber number = frame.header.frame;
-    if (const Status status = recording_->read_payload(frame, payload_); status != Status::ok)
-        refuse("colour", number, status);
-    if (!color_) {
+    if (color_) {
+        decode_color(index, out);
+    } else {
+        if (const Status status = recording_->read_payload(frame, payload_); status != Status::ok)
+            refuse("colour", number, status);
         const auto size = video::read_jpeg_size(payload_);
         if (!size)
             refuse("colour", number, size.error());
         out.size = *size;
         out.jpeg.assign(payload_.begin(), payload_.end());
-    } else {
-        if (const Status status = color_->submit(payload_, number); status != Status::ok)
-            refuse("colour", number, status);
-        auto decoded = color_->poll();
-        if (!decoded)
-            return;
-        std::swap(out.pixels, decoded->image);
-        out.size = out.pixels.size;
-        color_->recycle(std::move(decoded->image));
     }
-    if (out.size != info_.calibration.color.size)
+    if (!out.empty() && out.size != info_.calibration.color.size)
         refuse("colour", number, Status::size_mismatch);
+}
+
+// Decodes the picture, and those before it that it refers to and that were passed over.
+void RecordedFrames::decode_color(std::size_t index, ColorData& out) {
+    const auto& frames = content_.color.frames;
+    std::size_t first = index;
+    while (!frames[first].header.key && first != next_color_)
+        --first;
+    next_color_ = index + 1;
+    for (std::size_t i = first; i <= index; ++i) {
+        const FrameNumber number = frames[i].header.frame;
+        Status status = recording_->read_payload(frames[i], payload_);
+        if (status == Status::ok)
+            status = color_->submit(payload_, number);
+        if (status != Status::ok)
+            refuse("colour", number, status);
+        while (auto decoded = color_->poll()) {
+            std::swap(out.pixels, decoded->image);
+            out.size = out.pixels.size;
+            color_->recycle(std::move(decoded->image));
+        }
+    }
 }
 
 void RecordedFrames::refuse(const char* what, FrameNumber number, Status why) const {

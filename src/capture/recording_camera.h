@@ -44,7 +44,8 @@ public:
 private:
     // Decodes the upcoming depth image into `decoded_`; false if its reference is missing.
     bool decode();
-    void read_color(const record::RecordedFrame& frame, ColorData& out);
+    void read_color(std::size_t index, ColorData& out);
+    void decode_color(std::size_t index, ColorData& out);
     [[noreturn]] void refuse(const char* what, FrameNumber number, Status why) const;
 
     std::shared_ptr<const record::RecordingFile> recording_;
@@ -55,9 +56,10 @@ private:
     bool temporal_ = false;  // frames refer to others, so none may be passed over undecoded
 
     std::unique_ptr<codec::DepthStreamDecoder> depth_;
-    std::unique_ptr<video::ColorDecoder> color_;        // null for JPEG and where there is none
-    std::vector<const record::RecordedFrame*> colors_;  // by depth frame; null: it has none
+    std::unique_ptr<video::ColorDecoder> color_;      // null for JPEG and where there is none
+    std::vector<std::optional<std::size_t>> colors_;  // of each depth frame: its colour's index
     std::size_t next_ = 0;
+    std::size_t next_color_ = 0;  // after the one that `color_` decoded last
     bool is_decoded_ = false;
     DepthImage decoded_;
     Duration last_offset_{};

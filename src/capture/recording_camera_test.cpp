@@ -173,6 +173,61 @@ TEST_F(RecordingCamera, FramesWhoseReferenceIsMissingAreLeftOut) {
     EXPECT_EQ(played, (std::vector<FrameNumber>{0, 1, 2, 3}));
 }
 
+TEST_F(RecordingCamera, ColourThatRefersToEarlierColourIsTheSameAfterFramesWerePassedOver) {
+    const auto setting = video::parse_color_setting("h264:crf=20").setting;
+    for (const std::string& missing :
+         {video::missing_color_encoder(setting), video::missing_color_decoder(setting)})
+        if (!missing.empty())
+            GTEST_SKIP() << missing;
+    std::vector<ColorImage> expected;
+    {
+        record::RecordedCamera d = description(0, "raw");
+        d.color->codec = setting.text;
+        record::Recorder recorder(path(), {d});
+        codec::DepthStreamEncoder depth(codec::parse_depth_setting("raw").setting);
+        const auto encoder = video::make_color_encoder(setting);
+        const auto decoder = video::make_color_decoder(setting.id);
+        for (FrameNumber n = 0; n < 8; ++n) {
+            wire::MediaHeader header;
+            header.frame = header.reference = n;
+            header.key = true;
+            header.captured = from_us(1000) + time_of(n);
+            header.stream = depth_stream(CameraId(0));
+            Bytes encoded(depth.max_encoded_size(depth_size));
+            const auto link = depth.encode(depth_of(0, n).view(), n, true, encoded);
+            add(recorder, header, ByteView(encoded).first(link.bytes));
+
+            ColorData color;
+            color.size = color_size;
+            color.pixels = ColorImage(color_size);
+            for (std::size_t i = 0; i < color_size.area(); ++i)
+                color.pixels.pixels[i] = {std::uint8_t(n * 20 + i), std::uint8_t(i), 50};
+            const auto picture = encoder->encode(color, n == 0);
+            ASSERT_TRUE(picture);
+            header.stream = color_stream(CameraId(0));
+            header.key = picture->key;
+            header.reference = picture->key ? n : n - 1;
+            add(recorder, header, picture->bytes);
+            ASSERT_EQ(decoder->submit(picture->bytes, n), Status::ok);
+            expected.push_back(decoder->poll()->image);
+        }
+    }
+    RecordedFrames camera = frames(0);
+    Frame frame;
+    for (int round = 0; round < 2; ++round) {
+        for (FrameNumber n = 0; n < 8; ++n) {
+            ASSERT_TRUE(camera.offset());
+            if (n % 4 == 1 || n % 4 == 2) {
+                camera.skip();
+                continue;
+            }
+            camera.read(frame);
+            EXPECT_EQ(frame.color.pixels, expected[n]) << n;
+        }
+        camera.rewind();
+    }
+}
+
 TEST_F(RecordingCamera, PlaysInRealTimeAndLoops) {
     record("trvl", 2, 4);
     for (const char* preload : {"0", "1"}) {
