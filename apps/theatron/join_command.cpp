@@ -90,14 +90,17 @@ struct OffscreenPicture {
 // Lines on standard input change the codecs: "depth rvl", "color raw".
 class InputCommands {
 public:
-    // Obeys what has been typed so far. False at the end of the input or after "quit".
+    // Obeys what has been typed so far. False after "quit", and where a person
+    // has closed the terminal's input; other input may simply end.
     bool obey(Participant& participant) {
         pollfd input{STDIN_FILENO, POLLIN, 0};
-        while (poll(&input, 1, 0) > 0) {
+        while (!ended_ && poll(&input, 1, 0) > 0) {
             char bytes[512];
             const ssize_t count = read(STDIN_FILENO, bytes, sizeof(bytes));
-            if (count <= 0)
-                return false;
+            if (count <= 0) {
+                ended_ = true;
+                return !isatty(STDIN_FILENO);
+            }
             typed_.append(bytes, std::size_t(count));
             for (auto end = typed_.find('\n'); end != std::string::npos; end = typed_.find('\n')) {
                 const std::string line = typed_.substr(0, end);
@@ -126,6 +129,7 @@ private:
     }
 
     std::string typed_;
+    bool ended_ = false;
 };
 
 void run(const Flags& flags) {
@@ -166,7 +170,6 @@ void run(const Flags& flags) {
     TimePoint first_frame{}, next_line{};
     bool warm = flags.warmup <= 0;
     InputCommands commands;
-    bool listening = true;  // to standard input
 
     while (!stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
@@ -179,11 +182,8 @@ void run(const Flags& flags) {
         const auto status = participant.status();
         if (status.phase == Participant::Phase::refused)
             throw Error(status.problem);
-        if (listening && !commands.obey(participant)) {
-            listening = false;
-            if (!has_end && isatty(STDIN_FILENO))
-                break;
-        }
+        if (!commands.obey(participant))
+            break;
         const TimePoint now = steady_now();
         if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {
             participant.reset_figures();

@@ -65,6 +65,8 @@ class Session(unittest.TestCase):
             time.sleep(1)
             viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["fps"] > 0, 15)
             self.assertIn("nonsense", "".join(viewer.errors))
+            viewer.say("quit")
+            self.assertEqual(viewer.end(10), 0)
 
     def test_a_stopped_viewer_harms_nobody_and_comes_back(self):
         with host(self.state, self.camera) as h, \
