@@ -28,6 +28,7 @@ struct Flags {
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     double seconds = 0;
+    bool raw = false;
     bool overwrite = false;
     bool json = false;
 };
@@ -41,6 +42,11 @@ RecordCodecs check_codecs(const Flags& flags) {
     for (const std::string& problem : {depth.problem, color.problem, missing})
         if (!problem.empty())
             throw Error(problem);
+    if (flags.raw && flags.cameras.empty())
+        throw Error("--raw goes with --camera: what a session's host sends is no longer raw.");
+    if (flags.raw && !codec::make_depth_codec(depth.setting)->lossless())
+        throw Error("With --raw depth must be lossless, which '" + flags.depth_codec +
+                    "' is not; choose strata, trvl, rvl, ans, zstd, lz4 or raw.");
     return {depth.setting.text, color.setting.text};
 }
 
@@ -174,6 +180,8 @@ void add_record_command(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How colour is encoded")
         ->capture_default_str();
+    command->add_flag("--raw", flags->raw,
+                      "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
     command->add_option("--seconds", flags->seconds, "End by itself after this time");
     command->add_flag("--overwrite", flags->overwrite, "Replace a file that is there");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");

@@ -44,6 +44,16 @@ Size color_size(const std::string& name, const std::string& specification) {
                 "', color must be 720, 1080, depth or off, not '" + name + "'.");
 }
 
+// noise=off reads better than noise=0; both are understood.
+bool take_noise(Options& options) {
+    const std::string noise = options.take("noise", "on");
+    if (noise == "on" || noise == "1")
+        return true;
+    if (noise == "off" || noise == "0")
+        return false;
+    throw Error("In the camera '" + options.text() + "', noise must be on or off.");
+}
+
 synthetic::LoopOptions take_loop_options(Options& options) {
     synthetic::LoopOptions loop;
     const std::string variant = options.value();
@@ -55,7 +65,7 @@ synthetic::LoopOptions take_loop_options(Options& options) {
     loop.scene.seed = std::uint32_t(options.take_int("seed", 1, 0, 1'000'000));
     loop.scene.loop = seconds_to_duration(options.take_number("seconds", 20, 2, 120));
     loop.frames_per_second = options.take_number("fps", 30, 1, 60);
-    loop.noise = options.take_flag("noise", true);
+    loop.noise = take_noise(options);
     loop.color = color_size(options.take("color", "720"), options.text());
     loop.folder = options.take("cache");
     const std::string quality = options.take("quality", "full");

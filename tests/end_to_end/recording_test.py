@@ -41,6 +41,13 @@ class Recording(unittest.TestCase):
         for picture in pictures:
             at = originals.index(read_png(picture), at) + 1
 
+    def test_raw_recordings_refuse_what_would_change_depth(self):
+        camera = ("--camera", f"folder:{self.source}", "--raw", "--depth-codec")
+        code, _, errors = run("record", *camera, "lz4:quant_mm=2", self.folder / "raw.mkv")
+        self.assertNotEqual(code, 0)
+        self.assertIn("lossless", errors)
+        self.assertGreater(self.record("raw.mkv", *camera, "strata")["pictures"], 0)
+
     def test_pictures_come_back_bit_exact_through_every_format(self):
         figures = self.record("a.mkv", "--camera", f"folder:{self.source}", "--depth-codec", "zstd:delta=1")
         self.assertEqual(figures["dropped"], 0)
