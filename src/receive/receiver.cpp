@@ -8,6 +8,10 @@
 namespace theatron::receive {
 namespace {
 
+// Larger depth images than any camera gives are refused, so that a few hostile
+// bytes cannot make a viewer reserve gigabytes.
+constexpr std::size_t max_depth_pixels = 2048 * 2048;
+
 // A request for a key frame is repeated after this time without one.
 constexpr Duration key_patience = std::chrono::milliseconds(700);
 
@@ -104,6 +108,8 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     const auto size = stream.depth->read_size(payload);
     if (!size)
         return size.error();
+    if (size->area() > max_depth_pixels)
+        return Status::too_large;
     const std::shared_ptr<CameraFrame> frame = frames_.take();
     frame->depth.resize(*size);
     const codec::FrameLink link{header.frame, header.reference, header.temporal_layer, header.key};
