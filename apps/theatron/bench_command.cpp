@@ -10,12 +10,16 @@
 #include "bench_color.h"
 #include "bench_depth.h"
 #include "bench_pipeline.h"
+#include "bench_plot.h"
 #include "bench_render.h"
 #include "bench_sequence.h"
 #include "camera_option.h"
+#include "capture/crop.h"
 #include "codec/depth_codec.h"
+#include "codec/rows.h"
 #include "commands.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::app {
 namespace {
@@ -36,6 +40,19 @@ void report(const nlohmann::json& result, const std::string& file,
         throw Error("Cannot write " + file + ".");
 }
 
+// How far a lossy codec's result is from its input.
+std::string likeness(const nlohmann::json& codec) {
+    if (codec["lossless"].get<bool>())
+        return "";
+    char text[80] = "  lossy";
+    if (codec.contains("rmse_mm"))
+        std::snprintf(text, sizeof(text), "  lossy: RMSE %.1f, at most %d mm",
+                      codec["rmse_mm"].get<double>(), codec["max_error_mm"].get<int>());
+    else if (codec.contains("psnr_db") && codec["psnr_db"].is_number())
+        std::snprintf(text, sizeof(text), "  lossy: PSNR %.1f dB", codec["psnr_db"].get<double>());
+    return text;
+}
+
 void print_codecs(const nlohmann::json& sequences) {
     for (const auto& sequence : sequences) {
         std::printf("%s  %dx%d, %d frames\n", sequence["sequence"].get<std::string>().c_str(),
@@ -48,7 +65,7 @@ void print_codecs(const nlohmann::json& sequences) {
                         c["name"].get<std::string>().c_str(), c["bytes_first"].get<double>() / 1000,
                         c["bytes_mean"].get<double>() / 1000, c["ratio"].get<double>(),
                         c["encode_ms"].get<double>(), c["decode_ms"].get<double>(),
-                        c["lossless"].get<bool>() ? "" : "  lossy");
+                        likeness(c).c_str());
     }
 }
 
@@ -57,6 +74,8 @@ struct CodecFlags {
     std::vector<std::string> codecs;
     int frames = 150;
     std::string json;
+    std::string plot;
+    std::string crop;
 };
 
 CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, CodecFlags& flags) {
@@ -70,28 +89,66 @@ CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, C
         ->check(CLI::Range(1, 100000));
     command->add_option("--json", flags.json,
                         "Write the result to this file; - prints it instead of the table");
+    command->add_option("--plot", flags.plot, "Draw size against speed into this SVG file");
     return command;
+}
+
+void write_plot(const nlohmann::json& sequences, const std::string& file) {
+    if (file.empty())
+        return;
+    std::ofstream out(file);
+    out << size_speed_svg(sequences);
+    if (!out.flush())
+        throw Error("Cannot write " + file + ".");
+}
+
+void crop_depth(BenchSequence& sequence, const std::string& text) {
+    if (text.empty())
+        return;
+    const auto crop = capture::parse_crop(text);
+    if (!crop)
+        throw Error("--crop " + text + " is not X:Y:WxH, for example --crop 50:50:540x476.");
+    for (DepthImage& depth : sequence.depth) {
+        if (!capture::lies_in(*crop, depth.size))
+            throw Error("--crop " + text + " reaches beyond the pictures of " + sequence.name +
+                        ".");
+        DepthImage part(crop->size);
+        codec::copy_rows(capture::part_of(std::as_const(depth).view(), *crop), part.view());
+        depth = std::move(part);
+    }
+}
+
+// Those that this machine can encode.
+std::vector<std::string> depth_codecs_here() {
+    std::vector<std::string> names;
+    for (const std::string& name : video::depth_codec_names())
+        if (video::missing_depth_encoder(video::parse_depth_setting(name).setting).empty())
+            names.push_back(name);
+    return names;
 }
 
 void add_depth(CLI::App& bench) {
     const auto flags = std::make_shared<CodecFlags>();
     CLI::App* command = add_codec_bench(
         bench, "depth", "Depth codecs: size and speed, checked, one thread", *flags);
+    command->add_option("--crop", flags->crop, "Only this part of the depth, X:Y:WxH");
     command->footer(
         "Example: theatron bench depth recordings/table --codecs rvl trvl --json depth.json");
     command->callback([flags] {
-        const auto codecs = flags->codecs.empty() ? codec::depth_codec_names() : flags->codecs;
+        const auto codecs = flags->codecs.empty() ? depth_codecs_here() : flags->codecs;
         nlohmann::json sequences = nlohmann::json::array();
         for (const std::string& folder : flags->folders) {
-            const BenchSequence s = load_sequence(folder, false, flags->frames);
+            BenchSequence s = load_sequence(folder, false, flags->frames);
+            crop_depth(s, flags->crop);
             sequences.push_back(bench_depth_sequence(s.name, s.depth, codecs));
         }
         const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
         report(result, flags->json, [&] { print_codecs(sequences); });
+        write_plot(sequences, flags->plot);
     });
 }
 
-// Those that this machine can encode.
+// The same for colour.
 std::vector<std::string> color_codecs_here() {
     std::vector<std::string> names;
     for (const std::string& name : video::color_codec_names())
@@ -114,6 +171,7 @@ void add_color(CLI::App& bench) {
         }
         const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
         report(result, flags->json, [&] { print_codecs(sequences); });
+        write_plot(sequences, flags->plot);
     });
 }
 

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
 #include "base/error.h"
 #include "bench_coder.h"
 #include "codec/depth_stream.h"
+#include "video/depth_codecs.h"
 
 namespace theatron {
 namespace {
@@ -18,9 +20,9 @@ class StreamCoder final : public BenchCoder {
 public:
     explicit StreamCoder(const codec::DepthSetting& setting)
         : setting_(setting),
-          lossless_(codec::make_depth_codec(setting)->lossless()),
-          encoder_(setting),
-          decoder_(setting) {}
+          lossless_(video::make_depth_codec(setting)->lossless()),
+          encoder_(video::make_depth_encoder(setting)),
+          decoder_(video::make_depth_decoder(setting)) {}
 
     std::string name() const override { return setting_.text; }
     bool lossless() const override { return lossless_; }
@@ -69,6 +71,23 @@ int max_error(const DepthImage& original, const DepthImage& decoded) {
     return worst;
 }
 
+// The squares of the changes of pixels that have a measurement before and after.
+struct SquaredError {
+    double sum = 0;
+    std::size_t pixels = 0;
+
+    void add(const DepthImage& original, const DepthImage& decoded) {
+        for (std::size_t i = 0; i < original.pixels.size(); ++i) {
+            if (original.pixels[i] == 0 || decoded.pixels[i] == 0)
+                continue;
+            const double change = original.pixels[i] - decoded.pixels[i];
+            sum += change * change;
+            ++pixels;
+        }
+    }
+    double root_of_mean() const { return pixels == 0 ? 0 : std::sqrt(sum / double(pixels)); }
+};
+
 struct Pass {
     std::vector<double> encode_ms, decode_ms;
 };
@@ -102,6 +121,7 @@ public:
         return {{"name", coder_.name()},
                 {"lossless", coder_.lossless()},
                 {"max_error_mm", max_error_},
+                {"rmse_mm", squared_error_.root_of_mean()},
                 {"bytes_first", encoded_.front().size()},
                 {"bytes_mean", mean},
                 {"ratio", 2 * double(decoded_.size.area()) / mean},
@@ -122,6 +142,7 @@ private:
                 throw Error(coder_.name() + " calls itself lossless and changed frame " +
                             std::to_string(i) + " by " + std::to_string(error) + ".");
             max_error_ = std::max(max_error_, error);
+            squared_error_.add(frames_[i], decoded_);
         }
     }
 
@@ -156,6 +177,7 @@ private:
     Bytes out_;
     Pass best_;
     int max_error_ = 0;
+    SquaredError squared_error_;
 };
 
 }  // namespace
@@ -173,9 +195,12 @@ nlohmann::json bench_depth_sequence(const std::string& sequence_name,
 
     std::vector<std::unique_ptr<BenchCoder>> coders;
     for (const std::string& text : codecs) {
-        const codec::ParsedDepthSetting parsed = codec::parse_depth_setting(text);
+        const auto parsed = video::parse_depth_setting(text);
         if (!parsed.problem.empty())
             throw Error(parsed.problem);
+        if (const std::string missing = video::missing_depth_encoder(parsed.setting);
+            !missing.empty())
+            throw Error(missing);
         coders.push_back(std::make_unique<StreamCoder>(parsed.setting));
     }
     for (auto& yardstick : depth_yardsticks())

@@ -17,7 +17,7 @@ namespace theatron {
 // build has them.
 //
 // Returns {sequence, width, height, frames, codecs: [{name, lossless,
-// max_error_mm, bytes_first, bytes_mean, ratio, encode_ms, decode_ms}]}. Means
+// max_error_mm, rmse_mm, bytes_first, bytes_mean, ratio, encode_ms, decode_ms}]}. Means
 // and medians are over all frames but the first, or the only one; a frame's time
 // is that of its fastest pass.
 //

@@ -15,11 +15,11 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
-#include "codec/depth_codec.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "session/host_session.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::app {
 namespace {
@@ -75,8 +75,9 @@ std::string outside_address() {
 constexpr double unregistered_distance_m = 12;
 
 session::HostSession::CheckedCodec check_depth(const std::string& text) {
-    const auto parsed = codec::parse_depth_setting(text);
-    return {parsed.setting.text, parsed.problem};
+    const auto parsed = video::parse_depth_setting(text);
+    return {parsed.setting.text,
+            parsed.problem.empty() ? video::missing_depth_encoder(parsed.setting) : parsed.problem};
 }
 
 session::HostSession::CheckedCodec check_color(const std::string& text) {

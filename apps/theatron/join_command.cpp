@@ -10,13 +10,13 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
-#include "codec/depth_codec.h"
 #include "commands.h"
 #include "files/png_file.h"
 #include "participant.h"
 #include "participant_figures.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 #include "viewer_scene.h"
 #include "window_viewer.h"
 
@@ -136,10 +136,11 @@ void run(const Flags& flags) {
     Participant::Options options;
     options.link = net::parse_link(flags.link);
     options.name = flags.name;
-    const auto depth = codec::parse_depth_setting(flags.depth_codec);
+    const auto depth = video::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
     for (const std::string& problem :
-         {depth.problem, color.problem, video::missing_color_decoder(color.setting)})
+         {depth.problem, color.problem, video::missing_depth_decoder(depth.setting),
+          video::missing_color_decoder(color.setting)})
         if (!problem.empty())
             throw Error(problem);
     options.depth_codec = depth.setting.text;
@@ -226,7 +227,7 @@ void add_join_command(CLI::App& app) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("join", "Join a session with the link of its host");
     command->footer(
-        "Depth codecs: " + join_names(codec::depth_codec_names()) +
+        "Depth codecs: " + join_names(video::depth_codec_names()) +
         "\nColour codecs: " + join_names(video::color_codec_names()) +
         "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change codecs: "

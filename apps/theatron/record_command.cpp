@@ -12,12 +12,12 @@
 #include "base/error.h"
 #include "base/steady_clock.h"
 #include "camera_option.h"
-#include "codec/depth_codec.h"
 #include "commands.h"
 #include "progress.h"
 #include "record_source.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::app {
 namespace {
@@ -34,7 +34,7 @@ struct Flags {
 };
 
 RecordCodecs check_codecs(const Flags& flags) {
-    const auto depth = codec::parse_depth_setting(flags.depth_codec);
+    const auto depth = video::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
     // A session's host encodes; one's own cameras are encoded here.
     const std::string missing =

@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
-#include "codec/depth_codec.h"
 #include "participant_figures.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::app {
 namespace {
@@ -122,7 +122,7 @@ void WindowViewer::obey(const xr::KeyPress& key) {
             note("Drawing: " + renderer_, choice_shown);
             break;
         case xr::Action::next_depth_codec:
-            join.depth_codec = next_name(codec::depth_codec_names(), join.depth_codec);
+            join.depth_codec = next_name(video::depth_codec_names(), join.depth_codec);
             participant_.choose_codecs(join.depth_codec, "");
             note("Depth codec: " + join.depth_codec, choice_shown);
             break;

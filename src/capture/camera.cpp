@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/options.h"
+#include "capture/cropped_camera.h"
 #include "capture/folder_camera.h"
 #include "capture/k4a_camera.h"
 #include "capture/mkv_camera.h"
@@ -33,7 +34,9 @@ constexpr Kind kinds[] = {
 // What the standard library throws, as a sentence too.
 std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress& progress) {
     try {
-        return kind.open(options, progress);
+        const CropOptions crop = take_crop_options(options);
+        std::unique_ptr<Camera> camera = kind.open(options, progress);
+        return crop.any() ? make_cropped_camera(std::move(camera), crop) : std::move(camera);
     } catch (const std::filesystem::filesystem_error& problem) {
         throw Error("Cannot read '" + problem.path1().string() + "': " + problem.code().message() +
                     ".");
@@ -59,6 +62,7 @@ std::vector<std::string> camera_kinds() {
     std::vector<std::string> lines;
     for (const Kind& kind : kinds)
         lines.push_back(kind.help);
+    lines.push_back(crop_help);
     return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
 
 namespace theatron::capture {
@@ -25,7 +26,7 @@ RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> reco
                     std::string(theatron::to_text(calibration.error())) + ".");
     info_ = {content_.name, *calibration, content_.frames_per_second};
 
-    const auto depth = codec::parse_depth_setting(content_.depth.codec);
+    const auto depth = video::parse_depth_setting(content_.depth.codec);
     if (!depth.problem.empty())
         throw Error("The depth in " + name +
                     " is encoded in a way that this Theatron does not know: " + depth.problem);
@@ -59,7 +60,7 @@ RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> reco
 }
 
 void RecordedFrames::rewind() {
-    depth_ = std::make_unique<codec::DepthStreamDecoder>(setting_);
+    depth_ = std::make_unique<codec::DepthStreamDecoder>(video::make_depth_decoder(setting_));
     next_ = next_color_ = 0;
     is_decoded_ = false;
     last_offset_ = {};

@@ -54,7 +54,10 @@ void StreamReferences::keep(int layer, FrameNumber frame) {
 }
 
 DepthStreamEncoder::DepthStreamEncoder(const DepthSetting& setting)
-    : codec_(make_depth_codec(setting)), references_(setting.layers) {}
+    : DepthStreamEncoder(make_depth_codec(setting), setting.layers) {}
+
+DepthStreamEncoder::DepthStreamEncoder(std::unique_ptr<DepthCodec> codec, int layers)
+    : codec_(std::move(codec)), references_(layers) {}
 
 EncodedDepth DepthStreamEncoder::encode(DepthView depth, FrameNumber frame, bool key,
                                         std::span<std::byte> out) {
@@ -83,7 +86,10 @@ EncodedDepth DepthStreamEncoder::encode(DepthView depth, FrameNumber frame, bool
 }
 
 DepthStreamDecoder::DepthStreamDecoder(const DepthSetting& setting)
-    : codec_(make_depth_codec(setting)), references_(setting.layers) {}
+    : DepthStreamDecoder(make_depth_codec(setting), setting.layers) {}
+
+DepthStreamDecoder::DepthStreamDecoder(std::unique_ptr<DepthCodec> codec, int layers)
+    : codec_(std::move(codec)), references_(layers) {}
 
 Status DepthStreamDecoder::decode(const FrameLink& link, ByteView encoded, MutableDepthView out) {
     if (link.layer < 0 || link.layer >= references_.layers() || (link.key && link.layer != 0))

@@ -73,6 +73,8 @@ private:
 class DepthStreamEncoder {
 public:
     explicit DepthStreamEncoder(const DepthSetting& setting);
+    // With a codec from elsewhere, for example one that needs a video library.
+    DepthStreamEncoder(std::unique_ptr<DepthCodec> codec, int layers);
 
     std::size_t max_encoded_size(Size size) const { return codec_->max_encoded_size(size); }
 
@@ -94,6 +96,7 @@ private:
 class DepthStreamDecoder {
 public:
     explicit DepthStreamDecoder(const DepthSetting& setting);
+    DepthStreamDecoder(std::unique_ptr<DepthCodec> codec, int layers);
 
     // The size of an encoded image. Safe for untrusted input.
     Result<Size> read_size(ByteView encoded) const { return codec_->read_size(encoded); }

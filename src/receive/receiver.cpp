@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::receive {
 namespace {
@@ -43,10 +44,11 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
         Stream& stream = found->second;
         std::string problem;
         if (stream.is_depth) {
-            const auto parsed = codec::parse_depth_setting(s.codec);
+            const auto parsed = video::parse_depth_setting(s.codec);
             problem = parsed.problem;
             if (problem.empty())
-                stream.depth = std::make_unique<codec::DepthStreamDecoder>(parsed.setting);
+                stream.depth = std::make_unique<codec::DepthStreamDecoder>(
+                    video::make_depth_decoder(parsed.setting));
         } else {
             const auto parsed = video::parse_color_setting(s.codec);
             problem = parsed.problem;

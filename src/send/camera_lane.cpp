@@ -8,6 +8,7 @@
 #include "base/steady_clock.h"
 #include "codec/depth_stream.h"
 #include "video/color_codec.h"
+#include "video/depth_codecs.h"
 
 namespace theatron::send {
 namespace {
@@ -131,10 +132,10 @@ void CameraLane::update_encoders(Encoders& encoders) {
                 depth.push_back(std::move(*old));
                 continue;
             }
-            const auto parsed = codec::parse_depth_setting(s.codec);
+            const auto parsed = video::parse_depth_setting(s.codec);
             assert(parsed.problem.empty());
             depth.push_back(
-                {s.id, std::uint8_t(parsed.setting.id), codec::DepthStreamEncoder(parsed.setting)});
+                {s.id, std::uint8_t(parsed.setting.id), video::make_depth_encoder(parsed.setting)});
             keys_wanted_.insert({depth_stream(id_), s.id});
         }
         std::vector<Encoders::Color> color;

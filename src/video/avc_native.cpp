@@ -191,9 +191,9 @@ struct AvcDecoder::Library {
         context->log_level_offset = silent;
         context->thread_count = 1;
         context->flags |= AV_CODEC_FLAG_LOW_DELAY;
-        // Half-decoded pictures are not shown: an error, not a repair.
+        // Half-decoded pictures are not shown. Concealment stays on because only it
+        // notices, and says, that a slice ended early.
         context->err_recognition = AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER;
-        context->error_concealment = 0;
         context->max_pixels = std::int64_t(avc::max_area);
         if (avcodec_open2(context.get(), codec, nullptr) < 0)
             context.reset();
