@@ -44,7 +44,7 @@ RecordCodecs check_codecs(const Flags& flags) {
             throw Error(problem);
     if (flags.raw && flags.cameras.empty())
         throw Error("--raw goes with --camera: what a session's host sends is no longer raw.");
-    if (flags.raw && !codec::make_depth_codec(depth.setting)->lossless())
+    if (flags.raw && !video::make_depth_codec(depth.setting)->lossless())
         throw Error("With --raw depth must be lossless, which '" + flags.depth_codec +
                     "' is not; choose strata, trvl, rvl, ans, zstd, lz4 or raw.");
     return {depth.setting.text, color.setting.text};
