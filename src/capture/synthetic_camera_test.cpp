@@ -29,7 +29,7 @@ TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
     EXPECT_TRUE(camera->info().calibration.registered);
     EXPECT_EQ(camera->info().calibration.depth.size, (Size{320, 288}));
     for (FrameNumber number = 0; number < 2; ++number) {
-        const Capture capture = camera->next(2s);
+        const Capture capture = camera->next(60s);
         ASSERT_EQ(capture.kind, Capture::Kind::frame);
         EXPECT_EQ(capture.frame->depth.size, (Size{320, 288}));
         EXPECT_EQ(capture.frame->color.size, (Size{640, 360}));

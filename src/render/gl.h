@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // GL objects that delete themselves, and programs from our shader files.
 //
-// Only this folder's sources include this header: it brings in the GL types.
+// Only sources that draw include this header (this folder and the passes of xr/): it
+// brings in the GL types.
 // The common subset of OpenGL ES 3.0 and WebGL 2 is used throughout; natively
 // libepoxy finds the functions, in the browser Emscripten maps them to WebGL.
 #pragma once
