@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "codec_steps.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "session/host_session.h"
@@ -121,6 +122,7 @@ struct Host::Impl {
     void carry_out();
     void change_settings();
     void distribute(const send::EncodedMedia& media);
+    void measure_links();
     void note_participants();
 };
 
@@ -140,6 +142,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.equal_secrets = net::equal_secrets;
+    config.steps = codec_steps();
     for (std::size_t i = 0; i < cameras.size(); ++i)
         config.cameras.push_back(describe(CameraId(i), cameras[i]->info()));
 
@@ -193,6 +196,7 @@ net::Server::Handler Host::Impl::handler() {
     };
     h.now = steady_now;
     h.tick = [this] {
+        measure_links();
         session->on_tick(steady_now());
         carry_out();
         note_participants();
@@ -245,6 +249,15 @@ void Host::Impl::carry_out() {
             case Kind::change_settings:
                 change_settings();
                 break;
+            case Kind::acknowledged:
+                server->acknowledge(peer, action.bytes);
+                break;
+            case Kind::set_ceiling:
+                server->set_ceiling(peer, double(action.bytes));
+                break;
+            case Kind::stepped:
+                log::info("host", "sending changed", {{"id", int(peer)}, {"to", action.why}});
+                break;
         }
     }
 }
@@ -263,8 +276,9 @@ void Host::Impl::change_settings() {
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     const wire::MediaHeader& header = encoded.header;
     net::Media media{encoded.message,  header.stream,         header.setting, header.frame,
-                     header.reference, header.temporal_layer, header.key};
-    for (const ParticipantId receiver : session->receivers(header.stream, header.setting)) {
+                     header.reference, header.temporal_layer, header.key,     {}};
+    for (const ParticipantId receiver :
+         session->on_media(header, encoded.message->size(), steady_now())) {
         const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), media);
         dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
         if (pushed.needs_key)
@@ -272,11 +286,20 @@ void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     }
 }
 
+void Host::Impl::measure_links() {
+    for (const auto& [id, participant] : session->participants()) {
+        const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
+        session->on_link(id, {f.bytes_per_second, f.round_trip, f.delay, f.dropped}, steady_now());
+    }
+}
+
 void Host::Impl::note_participants() {
     nlohmann::json list = nlohmann::json::array();
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
-            list.push_back({{"id", int(id)}, {"name", participant.name}});
+            list.push_back({{"id", int(id)},
+                            {"name", participant.name},
+                            {"sent", participant.delivery.step().what}});
     participants = list.size();
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);

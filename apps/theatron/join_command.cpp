@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -35,6 +36,8 @@ struct Flags {
     double seconds = 0;
     double warmup = 0;
     double every = 0;
+    unsigned target_latency_ms = 150;
+    double max_mbit = 0;
     bool json = false;
     bool no_window = false;
     std::string render_scale = "auto";
@@ -87,7 +90,11 @@ struct OffscreenPicture {
     ViewerScene scene;
 };
 
-// Lines on standard input change the codecs: "depth rvl", "color raw".
+std::uint32_t to_kbit(double mbit) {
+    return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
+}
+
+// Lines on standard input change what is sent: "depth rvl", "latency 200".
 class InputCommands {
 public:
     // Obeys what has been typed so far. False after "quit", and where a person
@@ -123,9 +130,23 @@ private:
             participant.choose_codecs(codec, "");
         else if (what == "color" && !codec.empty())
             participant.choose_codecs("", codec);
+        else if (double value = 0; (what == "latency" || what == "ceiling") &&
+                                   std::sscanf(codec.c_str(), "%lf", &value) == 1 && value >= 0)
+            choose_delivery(participant, what == "latency", value);
         else if (!what.empty())
-            std::fprintf(stderr, "Say 'depth CODEC', 'color CODEC' or 'quit'.\n");
+            std::fprintf(stderr,
+                         "Say 'depth CODEC', 'color CODEC', 'latency MS', 'ceiling MBIT' or "
+                         "'quit'.\n");
         return true;
+    }
+
+    static void choose_delivery(Participant& participant, bool latency, double value) {
+        wire::ChooseDelivery goal = participant.status().goal;
+        if (latency)
+            goal.target_latency_ms = std::uint32_t(std::min(value, 60'000.0));
+        else
+            goal.max_kbit_per_s = to_kbit(value);
+        participant.choose_delivery(goal);
     }
 
     std::string typed_;
@@ -145,6 +166,7 @@ void run(const Flags& flags) {
             throw Error(problem);
     options.depth_codec = depth.setting.text;
     options.color_codec = color.setting.text;
+    options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
     options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 
     if (flags.window()) {
@@ -230,8 +252,8 @@ void add_join_command(CLI::App& app) {
         "Depth codecs: " + join_names(video::depth_codec_names()) +
         "\nColour codecs: " + join_names(video::color_codec_names()) +
         "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
-        "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change codecs: "
-        "'depth rvl',\n'color jpeg:quality=60'.\n"
+        "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
+        "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20'.\n"
         "\nExamples:\n"
         "  theatron join LINK\n"
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
@@ -261,6 +283,17 @@ void add_join_command(CLI::App& app) {
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
     command->add_option("--every", flags->every,
                         "Print the figures as a JSON line every so many seconds");
+    command
+        ->add_option(
+            "--target-latency", flags->target_latency_ms,
+            "Age in milliseconds that the host should aim at; on a slow link it leaves out "
+            "frames, then makes colour coarser. 0: nothing is left out on purpose")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 60'000));
+    command
+        ->add_option("--max-mbit", flags->max_mbit,
+                     "The host sends at most so many megabits a second to you; 0: no ceiling")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_flag("--no-window", flags->no_window,
                       "Receive and tell the figures, draw nothing");

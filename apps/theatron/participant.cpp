@@ -34,11 +34,13 @@ struct Participant::Shared {
     net::Client* client = nullptr;  // while one runs
     bool stopping = false;
     std::string depth_wish, color_wish;  // codecs to ask for
+    std::optional<wire::ChooseDelivery> delivery_wish;
 };
 
 Participant::Participant(Options options)
     : options_(std::move(options)),
-      session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec}),
+      session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
+                options_.delivery}),
       receiver_({[this](receive::CameraFramePtr frame) {
                      {
                          const std::lock_guard lock(shared_->mutex);
@@ -48,6 +50,7 @@ Participant::Participant(Options options)
                  },
                  [this](StreamId stream, SettingId setting) { request_key(stream, setting); }}),
       shared_(std::make_unique<Shared>()) {
+    shared_->status.goal = options_.delivery;
     thread_ = std::thread([this] { run(); });
 }
 
@@ -113,6 +116,10 @@ net::Client::Handler Participant::handler() {
     };
     h.control = [this](ByteView message) { on_control(message); };
     h.media = [this](ByteView message) { on_media(message); };
+    h.received = [this](std::uint64_t media_bytes, bool complete) {
+        if (const auto message = session_.on_received(media_bytes, complete, steady_now()))
+            shared_->client->send_control(*message);
+    };
     h.now = [this] { return now(); };
     h.tick = [this] { on_tick(); };
     return h;
@@ -154,6 +161,7 @@ void Participant::on_control(ByteView message) {
             shared_->status.phase = Phase::joined;
             shared_->status.problem.clear();
             shared_->status.host_name = session_.welcome().host_name;
+            shared_->status.delivery = {};
             const bool again = ++shared_->status.joins > 1;
             lock.unlock();
             announce();
@@ -183,6 +191,11 @@ void Participant::on_control(ByteView message) {
             shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
             shared_->status.round_trip = shared_->clock.round_trip();
             shared_->status.clock_error = shared_->clock.error_bound();
+            break;
+        }
+        case Change::delivery: {
+            const std::lock_guard lock(shared_->mutex);
+            shared_->status.delivery = session_.delivery();
             break;
         }
         case Change::refused:
@@ -225,6 +238,7 @@ void Participant::on_tick() {
     }
 
     std::string depth_wish, color_wish;
+    std::optional<wire::ChooseDelivery> delivery_wish;
     {
         const std::lock_guard lock(shared_->mutex);
         if (std::exchange(shared_->reset_wanted, false)) {
@@ -233,13 +247,17 @@ void Participant::on_tick() {
         }
         depth_wish = std::exchange(shared_->depth_wish, "");
         color_wish = std::exchange(shared_->color_wish, "");
+        delivery_wish = std::exchange(shared_->delivery_wish, std::nullopt);
     }
     if (!depth_wish.empty() || !color_wish.empty())
         client.send_control(session_.choose(depth_wish, color_wish));
 
+    if (delivery_wish)
+        client.send_control(session_.choose_delivery(*delivery_wish));
+
     if (local < next_report_)
         return;
-    next_report_ = local + 250ms;
+    next_report_ = local + 100ms;
     const auto figures = receiver_.figures(now());
     wire::Report report;
     for (const auto& f : figures)
@@ -303,10 +321,17 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
         shared_->color_wish = color;
 }
 
+<<<<<<< HEAD
 void Participant::announce() const {
     shared_->changed.notify_all();
     if (options_.news)
         options_.news();
+=======
+void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->delivery_wish = goal;
+    shared_->status.goal = goal;
+>>>>>>> 66b13d1 (Adaptive sending, in progress: flight, policy, ladder, link shaper, simulation (not built as a whole yet))
 }
 
 void Participant::remark(const std::string& text) const {

@@ -25,6 +25,7 @@ public:
         std::string name = "guest";
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
+        wire::ChooseDelivery delivery{150, 0};
         // Told what a person should know: reconnecting, refused, a camera ended.
         // Called from the participant's thread.
         std::function<void(const std::string&)> remark;
@@ -49,6 +50,8 @@ public:
         Duration round_trip{};
         Duration clock_error{};
         int joins = 0;  // how often it got in, 1 without any loss
+        wire::ChooseDelivery goal;
+        wire::Delivery delivery;  // how much of what was asked for the host sends
     };
     Status status() const;
 
@@ -80,6 +83,9 @@ public:
 
     // Other codecs from now on; an empty text keeps the codec.
     void choose_codecs(const std::string& depth, const std::string& color);
+
+    // Another target latency and ceiling from now on.
+    void choose_delivery(const wire::ChooseDelivery& goal);
 
 private:
     void run();

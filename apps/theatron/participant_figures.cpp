@@ -104,7 +104,13 @@ nlohmann::json participant_figures(const Participant& participant) {
             {"codec", codec},
             {"round_trip_ms", to_ms(status.round_trip)},
             {"clock_error_ms", to_ms(status.clock_error)},
-            {"joins", status.joins}};
+            {"joins", status.joins},
+            {"target_latency_ms", status.goal.target_latency_ms},
+            {"max_mbit_per_s", status.goal.max_kbit_per_s / 1000.0},
+            {"level", status.delivery.level},
+            {"levels", status.delivery.levels},
+            {"sent", status.delivery.level > 0 ? status.delivery.what : "everything"},
+            {"level_reason", status.delivery.reason}};
 }
 
 std::string status_line(const Participant& participant) {
@@ -119,7 +125,10 @@ std::string status_line(const Participant& participant) {
                   status.host_name.c_str(), f["cameras"].size(), f["fps"].get<double>(),
                   f["mbit_per_s"].get<double>(), f["age_ms"]["p50"].get<double>(),
                   static_cast<unsigned long long>(f["dropped"].get<std::uint64_t>()));
-    return text + f["codec"].get<std::string>();
+    std::string line = text + f["codec"].get<std::string>();
+    if (status.delivery.level > 0)
+        line += "  sent: " + status.delivery.what + " (" + status.delivery.reason + ")";
+    return line;
 }
 
 }  // namespace theatron::app

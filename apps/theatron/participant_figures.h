@@ -10,7 +10,8 @@
 namespace theatron::app {
 
 // {"host","cameras":[{"name","state","fps","mbit_per_s","age_ms":{…},"dropped","depth_codec",
-// "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"dropped","codec",…}
+// "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"dropped","codec",
+// "level","levels","sent","level_reason",…}
 nlohmann::json participant_figures(const Participant& participant);
 
 // The same in one line.

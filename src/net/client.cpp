@@ -96,6 +96,7 @@ struct Client::Impl {
             Connection::Events events;
             events.control = handler.control;
             events.media = handler.media;
+            events.received = handler.received;
             events.closed = [this](const std::string& why) {
                 finish("The connection ended: " + why + ".");
             };

@@ -20,6 +20,9 @@ public:
         std::function<void()> connected;
         std::function<void(ByteView)> control;
         std::function<void(ByteView)> media;
+        // More media has come: bytes of all chunks so far, and whether they end a
+        // message. Before `media`. May be empty.
+        std::function<void(std::uint64_t media_bytes, bool message_complete)> received;
         std::function<TimePoint()> now;  // session time
         std::function<void()> tick;      // ten times a second
     };

@@ -46,7 +46,9 @@ void configure(WebSocket& socket) {
 }
 
 Connection::Connection(WebSocket socket, Events events)
-    : socket_(std::move(socket)), events_(std::move(events)) {}
+    : socket_(std::move(socket)),
+      events_(std::move(events)),
+      ceiling_timer_(socket_.get_executor()) {}
 
 void Connection::start() {
     beast::get_lowest_layer(socket_).expires_never();
@@ -65,9 +67,20 @@ void Connection::send_control(ByteView control) {
 Outbox::Pushed Connection::send_media(Media media) {
     if (finished_ || !closing_.empty())
         return {1, false};
+    media.queued = events_.now();
     const Outbox::Pushed pushed = outbox_.push_media(std::move(media));
     write();
     return pushed;
+}
+
+void Connection::acknowledge(std::uint64_t media_bytes) {
+    outbox_.acknowledge(media_bytes, events_.now());
+    write();
+}
+
+void Connection::set_ceiling(double bytes_per_second) {
+    outbox_.set_ceiling(bytes_per_second);
+    write();
 }
 
 void Connection::close(const std::string& why) {
@@ -85,11 +98,15 @@ void Connection::read() {
             if (error)
                 return self->finish(describe(error));
             const auto data = self->incoming_.cdata();
+            const std::uint64_t media_before = self->unwrapper_.media_bytes();
             const auto unwrapped =
                 self->unwrapper_.take({static_cast<const std::byte*>(data.data()), data.size()});
             if (!unwrapped)
                 return self->finish("the other side sent a message that is " +
                                     std::string(to_text(unwrapped.error())));
+            const std::uint64_t media_bytes = self->unwrapper_.media_bytes();
+            if (media_bytes != media_before && self->events_.received)
+                self->events_.received(media_bytes, !unwrapped->media.empty());
             if (!unwrapped->control.empty())
                 self->events_.control(unwrapped->control);
             if (!unwrapped->media.empty())
@@ -105,7 +122,14 @@ void Connection::write() {
         return;
     if (!outbox_.next(outgoing_, events_.now())) {
         if (!closing_.empty())
-            finish(closing_);
+            return finish(closing_);
+        if (const auto again = outbox_.ask_again()) {
+            ceiling_timer_.expires_after(std::max(*again - events_.now(), Duration(1000)));
+            ceiling_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+                if (!error)
+                    self->write();
+            });
+        }
         return;
     }
     writing_ = true;
@@ -124,6 +148,7 @@ void Connection::finish(const std::string& why) {
     if (finished_)
         return;
     finished_ = true;
+    ceiling_timer_.cancel();
     // No closing handshakes: they would wait for a peer that may be gone, and
     // every message is complete in itself.
     beast::error_code ignored;
@@ -135,6 +160,7 @@ void Connection::finish(const std::string& why) {
     // The handlers may own what owns this connection.
     events_.control = nullptr;
     events_.media = nullptr;
+    events_.received = nullptr;
     events_.closed = nullptr;
 }
 

@@ -8,6 +8,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
@@ -37,6 +38,9 @@ public:
     struct Events {
         std::function<void(ByteView)> control;
         std::function<void(ByteView)> media;
+        // More media has come: bytes of all chunks so far, and whether they end a
+        // message. Before `media`. May be empty.
+        std::function<void(std::uint64_t media_bytes, bool message_complete)> received;
         std::function<void(const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
     };
@@ -48,6 +52,11 @@ public:
 
     void send_control(ByteView control);
     Outbox::Pushed send_media(Media media);
+
+    // See Outbox.
+    void acknowledge(std::uint64_t media_bytes);
+    void set_ceiling(double bytes_per_second);
+    SendingFigures take_figures() { return outbox_.take_figures(events_.now()); }
 
     // Sends what control is queued, then closes. `why` is what `closed` is told.
     void close(const std::string& why);
@@ -62,6 +71,7 @@ private:
     boost::beast::flat_buffer incoming_;
     wire::Unwrapper unwrapper_;
     Outbox outbox_;
+    boost::asio::steady_timer ceiling_timer_;
     Bytes outgoing_;
     bool writing_ = false;
     bool finished_ = false;

@@ -2,10 +2,19 @@
 #include "net/outbox.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "wire/envelope.h"
 
 namespace theatron::net {
+namespace {
+
+// So much later than the ceiling would have it a chunk may be paid for.
+constexpr Duration ceiling_burst = std::chrono::milliseconds(20);
+// What TLS, WebSocket, TCP and IP add to a chunk, about.
+constexpr std::size_t chunk_overhead = 600;
+
+}  // namespace
 
 bool Outbox::push_control(Bytes envelope) {
     control_bytes_ += envelope.size();
@@ -21,6 +30,12 @@ int Outbox::drop_waiting(Lane& lane) {
 }
 
 Outbox::Pushed Outbox::push_media(Media media) {
+    const Pushed pushed = queue(std::move(media));
+    dropped_ += pushed.dropped;
+    return pushed;
+}
+
+Outbox::Pushed Outbox::queue(Media media) {
     Lane& lane = lanes_[media.stream];
     Pushed result;
     if (media.setting != lane.setting) {
@@ -64,34 +79,67 @@ Outbox::Pushed Outbox::push_media(Media media) {
     return result;
 }
 
+// The stream that was served longest ago, of those where something waits.
+Outbox::Lane* Outbox::longest_unserved() {
+    Lane* chosen = nullptr;
+    for (auto& [stream, lane] : lanes_)
+        if (!lane.waiting.empty() && (!chosen || lane.turn < chosen->turn))
+            chosen = &lane;
+    return chosen;
+}
+
+bool Outbox::below_ceiling(TimePoint now) {
+    if (ceiling_ <= 0 || paid_until_ <= now + ceiling_burst)
+        return true;
+    ask_again_ = paid_until_ - ceiling_burst;
+    return false;
+}
+
 bool Outbox::next(Bytes& envelope, TimePoint now) {
+    ask_again_.reset();
     if (!control_.empty()) {
         envelope = std::move(control_.front());
         control_.pop_front();
         control_bytes_ -= envelope.size();
         return true;
     }
+    if (!sending_ && waiting_ == 0) {
+        flight_.idle();
+        return false;
+    }
+    if (!flight_.may_send(now) || !below_ceiling(now))
+        return false;
     if (!sending_) {
-        // The stream that was served longest ago.
-        Lane* chosen = nullptr;
-        for (auto& [stream, lane] : lanes_)
-            if (!lane.waiting.empty() && (!chosen || lane.turn < chosen->turn))
-                chosen = &lane;
-        if (!chosen)
-            return false;
-        sending_ = std::move(chosen->waiting.front().bytes);
+        Lane& lane = *longest_unserved();
+        sending_ = std::move(lane.waiting.front().bytes);
+        sending_queued_ = lane.waiting.front().queued;
         sent_ = 0;
-        chosen->waiting.pop_front();
-        chosen->turn = ++turn_;
+        lane.waiting.pop_front();
+        lane.turn = ++turn_;
         --waiting_;
     }
-    const bool first = sent_ == 0;
+    const std::size_t from = sent_;
     sent_ = wire::wrap_chunk(*sending_, sent_, envelope);
-    if (first)
+    if (from == 0)
         wire::stamp_sent(std::span(envelope).subspan(wire::chunk_header_size), now);
-    if (sent_ == sending_->size())
+    const bool ends = sent_ == sending_->size();
+    flight_.sent(sent_ - from, sending_queued_, ends, now);
+    if (ceiling_ > 0)
+        paid_until_ = std::max(paid_until_, now) +
+                      seconds_to_duration(double(sent_ - from + chunk_overhead) / ceiling_);
+    if (ends)
         sending_.reset();
     return true;
+}
+
+SendingFigures Outbox::take_figures(TimePoint now) {
+    SendingFigures figures;
+    figures.bytes_per_second = flight_.bytes_per_second();
+    figures.round_trip = flight_.round_trip();
+    figures.delay = flight_.take_delay(now);
+    figures.dropped = std::exchange(dropped_, 0);
+    figures.bytes_on_the_way = std::size_t(flight_.bytes_on_the_way());
+    return figures;
 }
 
 }  // namespace theatron::net

@@ -6,16 +6,19 @@
 // stream, and the newest frame wins: a frame that any receiver can do without
 // is dropped as soon as a newer one comes; a broken chain of references is cut
 // at once and taken up again at the next key frame. So a slow peer gets fewer
-// frames, never older ones, and memory is bounded.
+// frames, never older ones, and memory is bounded. How much may be on its way
+// at once is up to Flight, how much in a second to a ceiling.
 #pragma once
 
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "base/bytes.h"
 #include "base/ids.h"
 #include "base/time.h"
+#include "net/flight.h"
 
 namespace theatron::net {
 
@@ -29,6 +32,16 @@ struct Media {
     FrameNumber reference = 0;
     int temporal_layer = 0;
     bool key = false;
+    TimePoint queued;  // when it was there to be sent
+};
+
+// How sending to one peer goes, since the last time that it was asked for.
+struct SendingFigures {
+    double bytes_per_second = 0;  // what the way to the peer carries; 0 while not known
+    Duration round_trip{};        // the way's own
+    Duration delay{};             // the longest from queued to arrived
+    int dropped = 0;              // frames given up
+    std::size_t bytes_on_the_way = 0;
 };
 
 // Not thread safe.
@@ -49,9 +62,24 @@ public:
     };
     Pushed push_media(Media media);
 
-    // Fills `envelope` with what to send next; false if there is nothing. `now`
-    // is the session time that is written into a media message as `sent`.
+    // Fills `envelope` with what to send next; false if there is nothing, or media
+    // has to wait. `now` is the session time that is written into a media message
+    // as `sent`.
     bool next(Bytes& envelope, TimePoint now);
+
+    // When to ask next() again if only the ceiling held media back; otherwise after
+    // the next acknowledge() or push.
+    std::optional<TimePoint> ask_again() const { return ask_again_; }
+
+    // The peer has taken so many bytes of media since the beginning.
+    void acknowledge(std::uint64_t media_bytes, TimePoint now) {
+        flight_.acknowledge(media_bytes, now);
+    }
+
+    // At most so much media from now on; 0: no ceiling.
+    void set_ceiling(double bytes_per_second) { ceiling_ = bytes_per_second; }
+
+    SendingFigures take_figures(TimePoint now);
 
     bool empty() const { return control_.empty() && !sending_ && waiting_ == 0; }
     std::size_t waiting_frames() const { return waiting_ + (sending_ ? 1 : 0); }
@@ -64,7 +92,10 @@ private:
         std::uint64_t turn = 0;
     };
 
+    Pushed queue(Media media);
     int drop_waiting(Lane& lane);
+    Lane* longest_unserved();
+    bool below_ceiling(TimePoint now);
 
     std::deque<Bytes> control_;
     std::size_t control_bytes_ = 0;
@@ -72,7 +103,14 @@ private:
     std::size_t waiting_ = 0;
     std::uint64_t turn_ = 0;
     std::shared_ptr<const Bytes> sending_;
+    TimePoint sending_queued_;
     std::size_t sent_ = 0;  // bytes of sending_ that are out
+
+    Flight flight_;
+    int dropped_ = 0;
+    double ceiling_ = 0;
+    TimePoint paid_until_;  // when the ceiling has made up for what was sent
+    std::optional<TimePoint> ask_again_;
 };
 
 }  // namespace theatron::net

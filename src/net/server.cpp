@@ -214,6 +214,27 @@ Outbox::Pushed Server::send_media(PeerId peer, Media media) {
     return connection->send_media(std::move(media));
 }
 
+void Server::acknowledge(PeerId peer, std::uint64_t media_bytes) {
+    const auto found = impl_->peers.find(peer);
+    if (found == impl_->peers.end())
+        return;
+    const auto connection = found->second;
+    connection->acknowledge(media_bytes);
+}
+
+void Server::set_ceiling(PeerId peer, double bytes_per_second) {
+    const auto found = impl_->peers.find(peer);
+    if (found == impl_->peers.end())
+        return;
+    const auto connection = found->second;
+    connection->set_ceiling(bytes_per_second);
+}
+
+SendingFigures Server::take_figures(PeerId peer) {
+    const auto found = impl_->peers.find(peer);
+    return found == impl_->peers.end() ? SendingFigures{} : found->second->take_figures();
+}
+
 void Server::close(PeerId peer, const std::string& why) {
     const auto found = impl_->peers.find(peer);
     if (found == impl_->peers.end())

@@ -44,6 +44,10 @@ public:
     // On the server's thread only. A peer that is gone is ignored.
     void send_control(PeerId peer, ByteView control);
     Outbox::Pushed send_media(PeerId peer, Media media);
+    // See Outbox. Figures of a peer that is gone are empty.
+    void acknowledge(PeerId peer, std::uint64_t media_bytes);
+    void set_ceiling(PeerId peer, double bytes_per_second);
+    SendingFigures take_figures(PeerId peer);
     void close(PeerId peer, const std::string& why);  // after the control that is queued
 
 private:

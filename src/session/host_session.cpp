@@ -7,6 +7,7 @@ namespace theatron::session {
 namespace {
 
 constexpr std::size_t max_name_length = 100;
+constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
 // Names come from strangers and are shown to people: no control characters.
 std::string shown_name(const std::string& name) {
@@ -56,6 +57,10 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         send(id, wire::Pong{ping->sent, now, now});
     } else if (const auto* report = std::get_if<wire::Report>(&*message)) {
         participant.report = report->streams;
+    } else if (const auto* received = std::get_if<wire::Received>(&*message)) {
+        actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, received->media_bytes});
+    } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&*message)) {
+        set_goal(id, *goal);
     }
 }
 
@@ -80,14 +85,21 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
     Participant& participant = participants_[id];
     participant.joined = true;
     participant.name = shown_name(hello.name);
-    actions_.push_back({Action::Kind::joined, id, {}, participant.name, {}});
+    actions_.push_back({Action::Kind::joined, id, {}, participant.name, {}, 0});
     send(id, wire::Welcome{std::min(hello.protocol_max, wire::protocol_max), id, config_.name,
                            config_.cameras});
     for (const auto& [camera, state] : camera_states_)
         send(id, state);
     depth_.wish(id, depth);
     color_.wish(id, color);
+    participant.delivery.set_wish(depth, color, config_.steps);
+    set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     apply_settings();
+}
+
+void HostSession::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
+    participants_[id].delivery.set_goal(goal);
+    actions_.push_back({Action::Kind::set_ceiling, id, {}, {}, {}, goal.max_kbit_per_s * 125ull});
 }
 
 void HostSession::choose(ParticipantId id, const std::string& depth, const std::string& color) {
@@ -106,6 +118,15 @@ void HostSession::choose(ParticipantId id, const std::string& depth, const std::
         depth_.wish(id, depth_codec);
     if (!color_codec.empty())
         color_.wish(id, color_codec);
+    participants_[id].delivery.set_wish(depth_.wished(id), color_.wished(id), config_.steps);
+    take_step(id);
+}
+
+// Asks for the encodings of the participant's step.
+void HostSession::take_step(ParticipantId id) {
+    const LadderStep& step = participants_[id].delivery.step();
+    depth_.stopgap(id, step.depth_codec);
+    color_.stopgap(id, step.color_codec);
     apply_settings();
 }
 
@@ -119,7 +140,7 @@ std::string HostSession::check(const CheckCodec& check, const std::string& text,
 void HostSession::refuse(ParticipantId id, std::string reason) {
     send(id, wire::Refused{reason});
     participants_[id].closing = true;
-    actions_.push_back({Action::Kind::close, id, {}, std::move(reason), {}});
+    actions_.push_back({Action::Kind::close, id, {}, std::move(reason), {}, 0});
 }
 
 // Brings encoders and participants in line with the tables.
@@ -129,15 +150,19 @@ void HostSession::apply_settings() {
             return false;
         for (const ActiveSetting& old : announced)
             if (std::find(table.active().begin(), table.active().end(), old) ==
-                table.active().end())
+                table.active().end()) {
                 key_requests_.forget(old.id);
+                rates_.forget(old.id);
+                std::erase_if(newest_depth_,
+                              [&](const auto& entry) { return entry.first.second == old.id; });
+            }
         announced = table.active();
         return true;
     };
     const bool depth_changed = changed(announced_depth_, depth_);
     const bool color_changed = changed(announced_color_, color_);
     if (depth_changed || color_changed)
-        actions_.push_back({Action::Kind::change_settings, {}, {}, {}, {}});
+        actions_.push_back({Action::Kind::change_settings, {}, {}, {}, {}, 0});
 
     for (auto& [id, participant] : participants_) {
         if (!participant.joined)
@@ -156,12 +181,13 @@ void HostSession::apply_settings() {
             if (camera.has_color && color.id != participant.color_setting)
                 key_requests_.request({camera.color_stream, color.id});
         }
-        const std::string& wished =
-            depth.codec != depth_.wished(id) ? depth_.wished(id) : color_.wished(id);
-        if (depth.codec != depth_.wished(id) || color.codec != color_.wished(id))
+        const LadderStep& step = participant.delivery.step();
+        const bool other_depth = depth.codec != step.depth_codec;
+        if (other_depth || color.codec != step.color_codec)
             settings.note = "The host already encodes in " +
                             std::to_string(SettingTable::max_active) + " ways; instead of " +
-                            wished + " you get the nearest of them.";
+                            (other_depth ? step.depth_codec : step.color_codec) +
+                            " you get the nearest of them.";
         participant.depth_setting = depth.id;
         participant.color_setting = color.id;
         send(id, std::move(settings));
@@ -186,13 +212,70 @@ void HostSession::on_broken_stream(StreamId stream, SettingId setting) {
     key_requests_.request({stream, setting});
 }
 
+double HostSession::frames_per_second() const {
+    double fastest = 1;
+    for (const wire::Camera& camera : config_.cameras)
+        fastest = std::max(fastest, camera.frames_per_second);
+    return fastest;
+}
+
+void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
+    const auto found = participants_.find(id);
+    if (found == participants_.end() || !found->second.joined || found->second.closing)
+        return;
+    Delivery& delivery = found->second.delivery;
+    const Delivery::Given given{depth_.given(id), color_.given(id), frames_per_second()};
+    if (!delivery.update(link, given, rates_, made_in_, now))
+        return;
+    const wire::Delivery message = delivery.message(link.delay);
+    actions_.push_back(
+        {Action::Kind::stepped, id, {}, message.what + ": " + message.reason, {}, 0});
+    send(id, message);
+    take_step(id);
+}
+
+// Colour has the layer of the depth that belongs to it, so that the same moments
+// are left out of both.
+int HostSession::layer_for(const Participant& participant, const wire::MediaHeader& header) const {
+    const auto depth = newest_depth_.find({camera_of(header.stream), participant.depth_setting});
+    if (depth == newest_depth_.end() || depth->second.frame != header.frame)
+        return layer_by_number(header.frame);
+    return depth->second.layer;
+}
+
+std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
+                                                 TimePoint now) {
+    // A frame that is sent again, or of a camera that lags, says nothing about encoding.
+    const Duration age = std::clamp(now - header.captured, Duration(0), longest_made_in);
+    made_in_ += (age - made_in_) / 16;
+
+    int layer = std::min(int(header.temporal_layer), served_layers - 1);
+    if (is_depth(header.stream)) {
+        const auto setting = std::find_if(depth_.active().begin(), depth_.active().end(),
+                                          [&](const auto& s) { return s.id == header.setting; });
+        if (setting == depth_.active().end())
+            return {};
+        if (config_.steps.layered && config_.steps.layered(setting->codec).independent)
+            layer = layer_by_number(header.frame);
+        newest_depth_[{camera_of(header.stream), header.setting}] = {header.frame, layer};
+    }
+    rates_.add(header.stream, header.setting, layer, size, now);
+
+    std::vector<ParticipantId> result = receivers(header.stream, header.setting);
+    std::erase_if(result, [&](ParticipantId id) {
+        Participant& participant = participants_[id];
+        return !participant.delivery.lets_through(header.stream, layer_for(participant, header));
+    });
+    return result;
+}
+
 void HostSession::on_tick(TimePoint now) {
     for (auto& [id, participant] : participants_)
         if (!participant.joined && !participant.closing &&
             now - participant.connected > join_deadline)
             refuse(id, "No join came in time.");
     for (const KeyRequests::Key& key : key_requests_.take(now))
-        actions_.push_back({Action::Kind::request_key, {}, {}, {}, key});
+        actions_.push_back({Action::Kind::request_key, {}, {}, {}, key, 0});
 }
 
 std::vector<HostSession::Action> HostSession::take_actions() {
@@ -209,7 +292,7 @@ std::vector<ParticipantId> HostSession::receivers(StreamId stream, SettingId set
 }
 
 void HostSession::send(ParticipantId id, wire::Control message) {
-    actions_.push_back({Action::Kind::send, id, std::move(message), {}, {}});
+    actions_.push_back({Action::Kind::send, id, std::move(message), {}, {}, 0});
 }
 
 }  // namespace theatron::session

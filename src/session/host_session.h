@@ -11,9 +11,12 @@
 
 #include "base/ids.h"
 #include "base/time.h"
+#include "session/delivery.h"
 #include "session/key_requests.h"
 #include "session/setting_table.h"
+#include "session/stream_rates.h"
 #include "wire/control.h"
+#include "wire/media_header.h"
 
 namespace theatron::session {
 
@@ -33,6 +36,7 @@ public:
         CheckCodec check_depth, check_color;
         // Compares secrets in constant time; given, because this module has no crypto.
         std::function<bool(std::string_view, std::string_view)> equal_secrets;
+        CodecSteps steps;  // how to send less
     };
 
     // What the session wants done, in order.
@@ -43,12 +47,16 @@ public:
             joined,           // `participant` is in; for the log
             request_key,      // a key frame of `key`
             change_settings,  // encode exactly depth_settings() and color_settings()
+            acknowledged,     // `participant` has taken `bytes` of media
+            set_ceiling,      // send at most `bytes` a second to `participant`; 0: no ceiling
+            stepped,          // `participant` gets more or less; `why` for the log
         };
         Kind kind{};
         ParticipantId participant{};
         wire::Control message;
         std::string why;
         KeyRequests::Key key;
+        std::uint64_t bytes = 0;
     };
 
     explicit HostSession(Config config);
@@ -62,7 +70,13 @@ public:
     void on_camera(const wire::CameraState& state);
     // A frame could not be sent: this participant's stream needs a key frame.
     void on_broken_stream(StreamId stream, SettingId setting);
+    // Ten times a second for each participant.
+    void on_link(ParticipantId participant, const LinkMeasure& link, TimePoint now);
     void on_tick(TimePoint now);
+
+    // A frame was encoded, `size` bytes. Who gets it.
+    std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
+                                        TimePoint now);
 
     std::vector<Action> take_actions();
 
@@ -79,12 +93,17 @@ public:
         std::string name;
         SettingId depth_setting{}, color_setting{};
         std::vector<wire::StreamReport> report;  // the newest
+        Delivery delivery;
     };
     const std::map<ParticipantId, Participant>& participants() const { return participants_; }
 
 private:
     void join(ParticipantId id, const wire::Join& message);
     void choose(ParticipantId id, const std::string& depth, const std::string& color);
+    void set_goal(ParticipantId id, const wire::ChooseDelivery& goal);
+    void take_step(ParticipantId id);
+    int layer_for(const Participant& participant, const wire::MediaHeader& header) const;
+    double frames_per_second() const;
     void refuse(ParticipantId id, std::string reason);
     void apply_settings();
     void send(ParticipantId id, wire::Control message);
@@ -96,6 +115,13 @@ private:
     SettingTable depth_{SettingId{1}}, color_{SettingId{0x8001}};
     std::vector<ActiveSetting> announced_depth_, announced_color_;
     KeyRequests key_requests_;
+    StreamRates rates_;
+    Duration made_in_{};  // from exposure to encoded, about
+    struct NewestDepth {
+        FrameNumber frame = 0;
+        int layer = 0;
+    };
+    std::map<std::pair<CameraId, SettingId>, NewestDepth> newest_depth_;
     std::vector<Action> actions_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which encodings are made, and who gets which: each participant has a wish,
 // each distinct wish is encoded once, and at most three are encoded at a time.
+// A slow link may make do with another encoding for a while; such stopgaps only
+// take places that no wish needs.
 #pragma once
 
 #include <map>
@@ -28,6 +30,8 @@ public:
 
     // `codec` must be in its one spelling, since equal texts share an encoder.
     void wish(ParticipantId participant, std::string codec);
+    // Instead of the wish, until another is given; empty: none.
+    void stopgap(ParticipantId participant, std::string codec);
     void leave(ParticipantId participant);
 
     // In the order in which they became active.
@@ -40,9 +44,15 @@ public:
     const std::string& wished(ParticipantId participant) const;
 
 private:
-    void update();
+    struct Entry {
+        std::string wish, stopgap;
+        const std::string& now() const { return stopgap.empty() ? wish : stopgap; }
+    };
 
-    std::map<ParticipantId, std::string> wishes_;
+    void update();
+    bool is_active(const std::string& codec) const;
+
+    std::map<ParticipantId, Entry> entries_;
     std::vector<ActiveSetting> active_;
     std::uint16_t next_id_;
 };

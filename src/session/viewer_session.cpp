@@ -2,6 +2,12 @@
 #include "session/viewer_session.h"
 
 namespace theatron::session {
+namespace {
+
+// Chunks that come faster than this are acknowledged together.
+constexpr Duration acknowledge_interval = std::chrono::milliseconds(4);
+
+}  // namespace
 
 Bytes ViewerSession::begin() {
     joined_ = false;
@@ -9,11 +15,15 @@ Bytes ViewerSession::begin() {
     note_.clear();
     settings_.clear();
     camera_states_.clear();
+    delivery_ = {};
+    acknowledged_ = {};
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
     join.depth_codec = wishes_.depth_codec;
     join.color_codec = wishes_.color_codec;
+    join.target_latency_ms = wishes_.delivery.target_latency_ms;
+    join.max_kbit_per_s = wishes_.delivery.max_kbit_per_s;
     return wire::encode_control(join);
 }
 
@@ -44,6 +54,10 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         pong_ = *pong;
         return Change::pong;
     }
+    if (auto* delivery = std::get_if<wire::Delivery>(&*message)) {
+        delivery_ = std::move(*delivery);
+        return Change::delivery;
+    }
     return Change::nothing;
 }
 
@@ -53,6 +67,19 @@ Bytes ViewerSession::choose(const std::string& depth_codec, const std::string& c
     if (!color_codec.empty())
         wishes_.color_codec = color_codec;
     return wire::encode_control(wire::ChooseCodecs{depth_codec, color_codec});
+}
+
+Bytes ViewerSession::choose_delivery(const wire::ChooseDelivery& goal) {
+    wishes_.delivery = goal;
+    return wire::encode_control(goal);
+}
+
+std::optional<Bytes> ViewerSession::on_received(std::uint64_t media_bytes, bool message_complete,
+                                                TimePoint now) {
+    if (!joined_ || (!message_complete && now - acknowledged_ < acknowledge_interval))
+        return std::nullopt;
+    acknowledged_ = now;
+    return wire::encode_control(wire::Received{media_bytes});
 }
 
 }  // namespace theatron::session

@@ -20,6 +20,7 @@ public:
         std::string name;
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
+        wire::ChooseDelivery delivery;
     };
 
     explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}
@@ -35,6 +36,7 @@ public:
         settings,  // settings() hold what is new, note() what the host remarked
         camera,    // camera_states()
         pong,      // pong() answers a ping
+        delivery,  // delivery(): the host sends more or less
     };
     // Safe for untrusted input: what is damaged or not understood is nothing.
     Change on_control(ByteView message);
@@ -42,6 +44,14 @@ public:
     // Other codecs from now on; an empty text keeps the codec. Returns the
     // message to send.
     Bytes choose(const std::string& depth_codec, const std::string& color_codec);
+
+    // Another goal from now on. Returns the message to send.
+    Bytes choose_delivery(const wire::ChooseDelivery& goal);
+
+    // Media has come, so many bytes since the connection began. Returns the message
+    // to send, if it is time for one.
+    std::optional<Bytes> on_received(std::uint64_t media_bytes, bool message_complete,
+                                     TimePoint now);
 
     bool joined() const { return joined_; }
     const wire::Welcome& welcome() const { return welcome_; }
@@ -51,6 +61,7 @@ public:
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
     const std::string& refusal() const { return refusal_; }
     const wire::Pong& pong() const { return pong_; }
+    const wire::Delivery& delivery() const { return delivery_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -62,6 +73,8 @@ private:
     std::map<CameraId, wire::CameraState> camera_states_;
     std::string refusal_;
     wire::Pong pong_;
+    wire::Delivery delivery_;
+    TimePoint acknowledged_;
 };
 
 }  // namespace theatron::session

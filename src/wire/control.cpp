@@ -16,7 +16,7 @@ using Body = flatbuffers::Offset<void>;
 Body pack(Builder& b, const Join& m) {
     return fbs::CreateJoin(b, m.protocol_min, m.protocol_max, b.CreateString(m.token),
                            b.CreateString(m.name), b.CreateString(m.depth_codec),
-                           b.CreateString(m.color_codec))
+                           b.CreateString(m.color_codec), m.target_latency_ms, m.max_kbit_per_s)
         .Union();
 }
 
@@ -77,9 +77,23 @@ Body pack(Builder& b, const Pong& m) {
     return fbs::CreatePong(b, to_us(m.ping_sent), to_us(m.received), to_us(m.sent)).Union();
 }
 
+Body pack(Builder& b, const Received& m) {
+    return fbs::CreateReceived(b, m.media_bytes).Union();
+}
+
+Body pack(Builder& b, const ChooseDelivery& m) {
+    return fbs::CreateChooseDelivery(b, m.target_latency_ms, m.max_kbit_per_s).Union();
+}
+
+Body pack(Builder& b, const Delivery& m) {
+    return fbs::CreateDelivery(b, m.level, m.levels, b.CreateString(m.what),
+                               b.CreateString(m.reason))
+        .Union();
+}
+
 // The union's numbers follow the order of the variant's alternatives, from 1.
-static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::Pong) == 10);
-static_assert(std::variant_size_v<Control> == 10);
+static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::Delivery) == 13);
+static_assert(std::variant_size_v<Control> == 13);
 
 // From table to struct. Strings and vectors may be absent.
 
@@ -88,8 +102,9 @@ std::string text(const flatbuffers::String* s) {
 }
 
 Join unpack(const fbs::Join& m) {
-    return {m.protocol_min(), m.protocol_max(),      text(m.token()),
-            text(m.name()),   text(m.depth_codec()), text(m.color_codec())};
+    return {m.protocol_min(),      m.protocol_max(),      text(m.token()),
+            text(m.name()),        text(m.depth_codec()), text(m.color_codec()),
+            m.target_latency_ms(), m.max_kbit_per_s()};
 }
 
 ChooseCodecs unpack(const fbs::ChooseCodecs& m) {
@@ -155,6 +170,18 @@ Pong unpack(const fbs::Pong& m) {
     return {from_us(m.ping_sent_us()), from_us(m.received_us()), from_us(m.sent_us())};
 }
 
+Received unpack(const fbs::Received& m) {
+    return {m.media_bytes()};
+}
+
+ChooseDelivery unpack(const fbs::ChooseDelivery& m) {
+    return {m.target_latency_ms(), m.max_kbit_per_s()};
+}
+
+Delivery unpack(const fbs::Delivery& m) {
+    return {m.level(), m.levels(), text(m.what()), text(m.reason())};
+}
+
 }  // namespace
 
 Bytes encode_control(const Control& message) {
@@ -202,6 +229,12 @@ Result<Control> decode_control(ByteView bytes) {
             return Control(unpack(*control.body_as_CameraState()));
         case fbs::Body::Pong:
             return Control(unpack(*control.body_as_Pong()));
+        case fbs::Body::Received:
+            return Control(unpack(*control.body_as_Received()));
+        case fbs::Body::ChooseDelivery:
+            return Control(unpack(*control.body_as_ChooseDelivery()));
+        case fbs::Body::Delivery:
+            return Control(unpack(*control.body_as_Delivery()));
         case fbs::Body::NONE:
             break;
     }

@@ -27,6 +27,8 @@ struct Join {
     std::string name;
     std::string depth_codec;  // as on the command line: "trvl"
     std::string color_codec;
+    std::uint32_t target_latency_ms = 0;  // as in ChooseDelivery
+    std::uint32_t max_kbit_per_s = 0;
 };
 
 // The participant wants other codecs from now on. An empty text keeps its codec.
@@ -56,6 +58,17 @@ struct StreamReport {
 // Sent by participants a few times a second.
 struct Report {
     std::vector<StreamReport> streams;
+};
+
+// Sent as media arrives: the host keeps no more on the way than the link carries.
+struct Received {
+    std::uint64_t media_bytes = 0;  // of chunks, since the connection began
+};
+
+// What the host should aim at for this participant from now on.
+struct ChooseDelivery {
+    std::uint32_t target_latency_ms = 0;  // age of what is shown; 0: never leave anything out
+    std::uint32_t max_kbit_per_s = 0;     // 0: no ceiling
 };
 
 struct Camera {
@@ -109,8 +122,16 @@ struct Pong {
     TimePoint sent;
 };
 
+// What the host leaves out for this participant so that the newest stays new.
+struct Delivery {
+    std::uint8_t level = 0;   // 0: all that was asked for
+    std::uint8_t levels = 1;  // how many there are
+    std::string what;         // "half of the frames", for people
+    std::string reason;       // "frames were too old", for people
+};
+
 using Control = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Welcome, Refused,
-                             Settings, CameraState, Pong>;
+                             Settings, CameraState, Pong, Received, ChooseDelivery, Delivery>;
 
 Bytes encode_control(const Control& message);
 

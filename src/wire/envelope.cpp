@@ -62,6 +62,7 @@ Result<Unwrapper::Unwrapped> Unwrapper::take(ByteView envelope) {
     media_.resize(offset);
     media_.insert(media_.end(), chunk.begin(), chunk.end());
     filled_ = offset + chunk.size();
+    media_bytes_ += chunk.size();
     expected_ = total;
     if (filled_ < total)
         return Unwrapped{};

@@ -40,10 +40,14 @@ public:
     // until the next call. After a status the connection should be closed.
     Result<Unwrapped> take(ByteView envelope);
 
+    // Bytes of media in all chunks so far.
+    std::uint64_t media_bytes() const { return media_bytes_; }
+
 private:
     Bytes media_;
     std::size_t filled_ = 0;
     std::size_t expected_ = 0;
+    std::uint64_t media_bytes_ = 0;
 };
 
 }  // namespace theatron::wire

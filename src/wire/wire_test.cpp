@@ -166,11 +166,18 @@ T round_trip(const T& m) {
 }
 
 TEST(Control, EveryMessageRoundTrips) {
-    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg"});
+    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg", 150, 9000});
     EXPECT_EQ(join.protocol_max, 2);
     EXPECT_EQ(join.token, "secret");
     EXPECT_EQ(join.name, "Dr. A");
     EXPECT_EQ(join.depth_codec + join.color_codec, "trvljpeg");
+    EXPECT_EQ(join.target_latency_ms, 150u);
+    EXPECT_EQ(join.max_kbit_per_s, 9000u);
+    EXPECT_EQ(round_trip(Received{1ull << 40}).media_bytes, 1ull << 40);
+    EXPECT_EQ(round_trip(ChooseDelivery{100, 5000}).max_kbit_per_s, 5000u);
+    const Delivery delivery = round_trip(Delivery{2, 6, "a quarter of the frames", "too old"});
+    EXPECT_EQ(int(delivery.level) * 10 + delivery.levels, 26);
+    EXPECT_EQ(delivery.what + delivery.reason, "a quarter of the framestoo old");
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", ""}).depth_codec, "rvl");
     EXPECT_EQ(round_trip(RequestKey{StreamId{3}, SettingId{4}}).setting, SettingId{4});
     EXPECT_EQ(round_trip(Ping{from_us(-5)}).sent, from_us(-5));

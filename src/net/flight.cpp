@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace theatron::net {
+namespace {
+
+// A chunk that took so much longer than the fastest has queued.
+constexpr Duration jitter = std::chrono::milliseconds(5);
+// How fast older measurements of the rate are forgotten, in time of a busy way.
+constexpr double memory_s = 0.06;
+// The shortest round trip is that of the last one to two of these.
+constexpr Duration bucket = std::chrono::seconds(5);
+// With a queue that never empties the shortest round trip would creep upwards:
+// after so long without a short one, less is sent for a moment.
+constexpr Duration low_patience = std::chrono::seconds(3);
+constexpr double drain_share = 0.75;
+// A peer that acknowledges nothing must not cost memory.
+constexpr std::size_t max_chunks = 8192;
+
+}  // namespace
+
+void Flight::sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now) {
+    sent_ += bytes;
+    chunks_.push_back({sent_, now, queued, ends_message, held_back_});
+    if (chunks_.size() > max_chunks)
+        chunks_.pop_front();
+}
+
+void Flight::acknowledge(std::uint64_t total, TimePoint now) {
+    if (total > sent_ || total <= acknowledged_)
+        return;
+    const double bytes = double(total - acknowledged_);
+    acknowledged_ = total;
+    answering_ = true;
+    Chunk newest;
+    bool any = false;
+    for (; !chunks_.empty() && chunks_.front().end <= total; chunks_.pop_front()) {
+        newest = chunks_.front();
+        any = true;
+        if (newest.ends_message)
+            delay_ = std::max(delay_, now - newest.queued);
+    }
+    if (!any)
+        return;
+    const Duration took = std::max(now - newest.sent, Duration(0));
+    note_round_trip(took, now);
+    learn(bytes, newest, took, now);
+    last_answer_ = now;
+}
+
+void Flight::note_round_trip(Duration took, TimePoint now) {
+    if (shortest_now_ == Duration::max() || now - bucket_began_ > bucket) {
+        shortest_before_ = shortest_now_;
+        shortest_now_ = took;
+        bucket_began_ = now;
+    }
+    shortest_now_ = std::min(shortest_now_, took);
+
+    if (took <= round_trip() + jitter) {
+        low_seen_ = now;
+    } else if (low_seen_ != TimePoint{} && now - low_seen_ > low_patience) {
+        low_seen_ = now;
+        draining_until_ = now + 2 * took;
+    }
+}
+
+void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint now) {
+    const Duration queued = took - round_trip();
+    if (queued > jitter) {
+        // A chunk that found the way empty has not waited since the last answer.
+        const double busy = to_seconds(std::min(now - last_answer_, queued));
+        const double kept = std::exp(-busy / memory_s);
+        busy_bytes_ = busy_bytes_ * kept + bytes;
+        busy_seconds_ = busy_seconds_ * kept + busy;
+    } else if (newest.held_back) {
+        // It was held back and met no queue: the way carries more than is known.
+        if (busy_seconds_ > 0)
+            busy_bytes_ += bytes;
+        else
+            window_at_first_ += bytes;
+    }
+}
+
+Duration Flight::round_trip() const {
+    const Duration shortest = std::min(shortest_now_, shortest_before_);
+    return shortest == Duration::max() ? Duration(0) : shortest;
+}
+
+double Flight::bytes_per_second() const {
+    return busy_seconds_ > 0 ? busy_bytes_ / busy_seconds_ : 0;
+}
+
+double Flight::window(TimePoint now) const {
+    if (busy_seconds_ <= 0)
+        return window_at_first_;
+    const double seconds = now < draining_until_ ? drain_share * to_seconds(round_trip())
+                                                 : to_seconds(round_trip() + allowed_queue);
+    return std::max(smallest_window, bytes_per_second() * seconds);
+}
+
+bool Flight::may_send(TimePoint now) {
+    if (!answering_)
+        return true;
+    held_back_ = held_back_ || double(bytes_on_the_way()) >= window(now);
+    return double(bytes_on_the_way()) < window(now);
+}
+
+Duration Flight::take_delay(TimePoint now) {
+    if (answering_ && !chunks_.empty())
+        delay_ = std::max(delay_, now - chunks_.front().queued);
+    // An answer takes about half of the round trip to come back.
+    return std::max(std::exchange(delay_, Duration(0)) - round_trip() / 2, Duration(0));
+}
+
+}  // namespace theatron::net

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is on its way to one peer, what the way carries, and how much more may
+// be put on it: the answer to buffers in the network that would rather make
+// frames old than drop them.
+//
+// The peer says how many bytes it has taken. From chunks that had to queue
+// behind others comes the rate at which the narrowest place serves them; the
+// shortest round trip is the way's own delay. What is on its way is kept to what
+// that rate carries in one round trip and a small queue, so a frame that is
+// chosen late is also new when it arrives. Pure: time is an argument.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "base/time.h"
+
+namespace theatron::net {
+
+class Flight {
+public:
+    // The queue that is allowed at the narrowest place.
+    static constexpr Duration allowed_queue = std::chrono::milliseconds(30);
+    // Before anything is known about the way, and never less than the latter.
+    static constexpr double first_window = 1 << 20;
+    static constexpr double smallest_window = 48 * 1024;
+
+    // A chunk leaves. `queued` is when its message was there to be sent.
+    void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now);
+
+    // The peer has taken `total` bytes since the beginning. What cannot be is ignored.
+    void acknowledge(std::uint64_t total, TimePoint now);
+
+    // False if what is on its way should arrive first. A peer that never
+    // acknowledges anything is not held back. Ask when there is something to send.
+    bool may_send(TimePoint now);
+    // There is nothing more to send now.
+    void idle() { held_back_ = false; }
+
+    std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
+    double window(TimePoint now) const;
+    double bytes_per_second() const;  // what the way carries; 0 while not known
+    Duration round_trip() const;      // the shortest of the last seconds
+
+    // The longest time from queued to arrived, of messages that arrived since the
+    // last call and of the oldest that has not.
+    Duration take_delay(TimePoint now);
+
+private:
+    struct Chunk {
+        std::uint64_t end = 0;  // sent_ after it
+        TimePoint sent, queued;
+        bool ends_message = false;
+        bool held_back = false;  // had to wait for the window
+    };
+
+    void note_round_trip(Duration round_trip, TimePoint now);
+    void learn(double bytes, const Chunk& newest, Duration round_trip, TimePoint now);
+
+    std::uint64_t sent_ = 0, acknowledged_ = 0;
+    bool answering_ = false;
+    bool held_back_ = false;
+    std::deque<Chunk> chunks_;  // on their way, oldest first
+    TimePoint last_answer_;
+
+    // Of the last while in which chunks queued.
+    double busy_bytes_ = 0, busy_seconds_ = 0;
+    double window_at_first_ = first_window;
+
+    Duration shortest_now_ = Duration::max(), shortest_before_ = Duration::max();
+    TimePoint bucket_began_, low_seen_, draining_until_;
+    Duration delay_{};
+};
+
+}  // namespace theatron::net

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/delivery.h"
+
+#include <algorithm>
+
+namespace theatron::session {
+namespace {
+
+// Loss outside the region is worth about so much; nothing is measured before it is tried.
+constexpr double lossy_size = 0.6;
+
+std::string milliseconds(Duration d) {
+    return std::to_string(d.count() / 1000) + " ms";
+}
+
+}  // namespace
+
+int layer_by_number(FrameNumber frame) {
+    return frame % 4 == 0 ? 0 : frame % 2 == 0 ? 1 : 2;
+}
+
+void Delivery::set_wish(const std::string& depth, const std::string& color,
+                        const CodecSteps& codecs) {
+    codecs_ = codecs;
+    ladder_ = make_ladder(depth, color, codecs);
+    policy_.limit(int(ladder_.size()));
+}
+
+std::vector<StepNeed> Delivery::needs(const Given& given, StreamRates& rates, TimePoint now) const {
+    const int all = served_layers - 1;
+    const CodecSteps::Layered layered =
+        codecs_.layered ? codecs_.layered(given.depth.codec) : CodecSteps::Layered{};
+    const bool by_layer =
+        layered.independent || (layered.layered && layered.codec == given.depth.codec);
+    const double depth = rates.bytes_per_second(given.depth.id, all, now);
+    double color = rates.bytes_per_second(given.color.id, all, now);
+    for (const LadderStep& step : ladder_)
+        if (step.color_codec == given.color.codec) {
+            color /= step.color_size;
+            break;
+        }
+
+    std::vector<StepNeed> result;
+    for (const LadderStep& step : ladder_) {
+        double depth_share = by_layer
+                                 ? rates.bytes_per_second(given.depth.id, step.highest_layer, now)
+                                 : depth * step.frames;
+        if (step.depth_codec != ladder_[0].depth_codec && step.depth_codec != layered.codec)
+            depth_share *= lossy_size;
+        StepNeed need;
+        need.bytes_per_second = depth_share + color * step.color_size * step.frames;
+        need.bytes_at_once = need.bytes_per_second / (given.frames_per_second * step.frames);
+        result.push_back(need);
+    }
+    return result;
+}
+
+bool Delivery::update(const LinkMeasure& link, const Given& given, StreamRates& rates,
+                      Duration made_in, TimePoint now) {
+    SendingGoal goal;
+    if (goal_.target_latency_ms > 0)
+        goal.latency =
+            std::max(std::chrono::milliseconds(goal_.target_latency_ms) - made_in, Duration(1));
+    goal.max_bytes_per_second = double(goal_.max_kbit_per_s) * 125;
+    const std::vector<StepNeed> need = needs(given, rates, now);
+    if (!policy_.update(link, need, goal, now))
+        return false;
+    // Temporal layers stay once they are needed: going back would cost a key frame.
+    if (policy_.step() > 0)
+        ladder_[0].depth_codec = ladder_[1].depth_codec;
+    return true;
+}
+
+wire::Delivery Delivery::message(Duration delay) const {
+    wire::Delivery message;
+    message.level = std::uint8_t(policy_.step());
+    message.levels = std::uint8_t(ladder_.size());
+    message.what = step().what;
+    switch (policy_.reason()) {
+        case SendingReason::none:
+            break;
+        case SendingReason::late:
+            message.reason = "frames took " + milliseconds(delay) + " to arrive";
+            break;
+        case SendingReason::ceiling:
+            message.reason =
+                "your ceiling is " + std::to_string(goal_.max_kbit_per_s / 1000) + " Mbit/s";
+            break;
+        case SendingReason::room:
+            message.reason = "the link has room for more";
+            break;
+        case SendingReason::trial:
+            message.reason = "trying whether the link carries more";
+            break;
+        case SendingReason::trial_failed:
+            message.reason = "the link did not carry more";
+            break;
+    }
+    return message;
+}
+
+bool Delivery::lets_through(StreamId stream, int layer) {
+    const int highest = step().highest_layer;
+    int& open = open_[stream];
+    if (layer == 0 || highest < open)
+        open = highest;
+    return layer <= open;
+}
+
+}  // namespace theatron::session

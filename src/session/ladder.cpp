@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/ladder.h"
+
+#include "session/stream_rates.h"
+
+namespace theatron::session {
+
+std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
+                                    const CodecSteps& codecs) {
+    LadderStep step;
+    step.highest_layer = served_layers - 1;
+    step.depth_codec = depth;
+    step.color_codec = color;
+    step.what = "everything";
+    std::vector<LadderStep> ladder{step};
+
+    const CodecSteps::Layered layered =
+        codecs.layered ? codecs.layered(depth) : CodecSteps::Layered{};
+    std::string frames;
+    if (layered.layered || layered.independent) {
+        step.depth_codec = layered.codec;
+        for (const char* share : {"half of the frames", "a quarter of the frames"}) {
+            --step.highest_layer;
+            step.frames /= 2;
+            step.what = share;
+            ladder.push_back(step);
+        }
+        frames = step.what + ", ";
+    }
+    if (codecs.coarser)
+        for (const CodecSteps::Coarser& coarser : codecs.coarser(color)) {
+            step.color_codec = coarser.codec;
+            step.color_size = coarser.size;
+            step.what = frames + "colour as " + coarser.codec;
+            ladder.push_back(step);
+        }
+    if (codecs.lossy_outside_region)
+        if (std::string lossy = codecs.lossy_outside_region(step.depth_codec); !lossy.empty()) {
+            step.depth_codec = std::move(lossy);
+            step.what += ", depth outside the region as " + step.depth_codec;
+            ladder.push_back(step);
+        }
+    return ladder;
+}
+
+}  // namespace theatron::session

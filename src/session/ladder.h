@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps by which a receiver can be sent less: first fewer frames of the same
+// encoded stream, then coarser colour, last bounded loss of depth outside the
+// region of interest. Depth inside the region is the same on every step.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace theatron::session {
+
+// What the ladder needs to know of codecs, which this module does not.
+struct CodecSteps {
+    struct Layered {
+        std::string codec;         // the same codec with temporal layers, if it has them
+        bool independent = false;  // no frame refers to another: any may be left out
+        bool layered = false;      // `codec` has layers
+    };
+    std::function<Layered(const std::string& depth)> layered;
+
+    struct Coarser {
+        std::string codec;
+        double size = 1;  // of what the receiver asked for, about
+    };
+    std::function<std::vector<Coarser>(const std::string& color)> coarser;
+
+    // The codec with bounded loss outside its region of interest; empty if it has
+    // none. Null: no codec has.
+    std::function<std::string(const std::string& depth)> lossy_outside_region;
+};
+
+struct LadderStep {
+    int highest_layer = 0;
+    double frames = 1;  // share of all
+    std::string depth_codec, color_codec;
+    double color_size = 1;  // as in Coarser
+    std::string what;       // for people
+};
+
+// All steps, the first is what was asked for.
+std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
+                                    const CodecSteps& codecs);
+
+}  // namespace theatron::session

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/sending_policy.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace theatron::session {
+namespace {
+
+// Of what the link carries. Between the two lies what keeps the steps from swinging.
+constexpr double share_to_stay = 0.85;
+constexpr double share_to_go_up = 0.7;
+constexpr double ceiling_to_go_up = 0.9;
+// A step that needs so much more than was measured is not even tried.
+constexpr double hopeless = 1.5;
+
+constexpr int late_measures = 2;  // one late frame is an accident
+constexpr Duration shortest_settling = std::chrono::milliseconds(400);
+constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
+constexpr Duration trial_time = std::chrono::seconds(3);  // a failure in it is the trial's
+constexpr Duration longest_patience = std::chrono::seconds(60);
+// What remains to the sender's own doing whatever the goal.
+constexpr Duration smallest_margin = std::chrono::milliseconds(40);
+
+Duration predicted_delay(const LinkMeasure& link, const StepNeed& need) {
+    const double seconds =
+        link.bytes_per_second > 0 ? need.bytes_at_once / link.bytes_per_second : 0;
+    return link.round_trip / 2 + seconds_to_duration(std::min(seconds, 100.0));
+}
+
+bool carries(const LinkMeasure& link, const StepNeed& need, double share) {
+    return link.bytes_per_second <= 0 || need.bytes_per_second <= share * link.bytes_per_second;
+}
+
+// A goal below what the least step takes would only ruin the picture.
+Duration reachable_goal(const LinkMeasure& link, std::span<const StepNeed> needs, Duration goal) {
+    return std::max(goal, predicted_delay(link, needs.back()) + smallest_margin);
+}
+
+}  // namespace
+
+void SendingPolicy::go(int step, SendingReason reason, TimePoint now) {
+    step_ = step;
+    reason_ = reason;
+    late_in_a_row_ = 0;
+    calm_since_ = now;
+}
+
+// True if the step down that follows takes back a step up that was too much.
+bool SendingPolicy::take_back_trial() {
+    if (!trying_)
+        return false;
+    trying_ = false;
+    patience_ = std::min(2 * patience_, longest_patience);
+    return true;
+}
+
+bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal) {
+    const bool late = link.delay > goal;
+    late_in_a_row_ = late ? late_in_a_row_ + 1 : 0;
+    return late_in_a_row_ >= late_measures || (late && link.dropped > 0);
+}
+
+// The best step below the present one that the link is measured to carry in time.
+int SendingPolicy::step_for(const LinkMeasure& link, std::span<const StepNeed> needs,
+                            Duration goal) const {
+    const int last = int(needs.size()) - 1;
+    for (int s = step_ + 1; s < last; ++s) {
+        const StepNeed& need = needs[std::size_t(s)];
+        if (carries(link, need, share_to_stay) && predicted_delay(link, need) <= goal)
+            return s;
+    }
+    return last;
+}
+
+bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> needs,
+                           const SendingGoal& goal, TimePoint now) {
+    assert(!needs.empty());
+    const int before = step_;
+    const int last = int(needs.size()) - 1;
+    step_ = std::min(step_, last);
+    const auto need = [&](int s) { return needs[std::size_t(s)].bytes_per_second; };
+
+    if (trying_ && now - went_up_ > trial_time) {
+        trying_ = false;
+        patience_ = first_patience;
+    }
+
+    if (goal.max_bytes_per_second > 0 && step_ < last && need(step_) > goal.max_bytes_per_second) {
+        int s = step_ + 1;
+        while (s < last && need(s) > goal.max_bytes_per_second)
+            ++s;
+        take_back_trial();
+        go(s, SendingReason::ceiling, now);
+        settled_ = now + shortest_settling;
+        return true;
+    }
+
+    const bool wanted = goal.latency > Duration(0);
+    const Duration reachable = reachable_goal(link, needs, goal.latency);
+    const bool late = wanted && is_late(link, reachable);
+    if (link.delay > reachable || link.dropped > 0)
+        calm_since_ = now;
+    if (late && now >= settled_ && step_ < last) {
+        go(step_for(link, needs, reachable),
+           take_back_trial() ? SendingReason::trial_failed : SendingReason::late, now);
+        // What is on its way has to arrive before the step can show.
+        settled_ = now + shortest_settling + 2 * link.round_trip;
+        return true;
+    }
+    return (step_ > 0 && step_up(link, needs, goal, reachable, now)) || step_ != before;
+}
+
+bool SendingPolicy::step_up(const LinkMeasure& link, std::span<const StepNeed> needs,
+                            const SendingGoal& goal, Duration reachable, TimePoint now) {
+    const StepNeed& better = needs[std::size_t(step_ - 1)];
+    if (goal.max_bytes_per_second > 0 &&
+        better.bytes_per_second > ceiling_to_go_up * goal.max_bytes_per_second)
+        return false;
+    const bool known = link.bytes_per_second > 0;
+    const bool has_room = known && carries(link, better, share_to_go_up) &&
+                          predicted_delay(link, better) <= reachable - smallest_margin / 2;
+    if (!has_room && !carries(link, better, hopeless))
+        return false;
+    const bool failed_before = patience_ > first_patience;
+    const Duration calm = has_room && !failed_before ? calm_to_go_up : patience_;
+    if (now - calm_since_ < calm)
+        return false;
+    trying_ = true;
+    went_up_ = now;
+    go(step_ - 1, has_room ? SendingReason::room : SendingReason::trial, now);
+    return true;
+}
+
+}  // namespace theatron::session

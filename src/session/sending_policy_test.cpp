@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/sending_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace theatron::session {
+namespace {
+
+constexpr double mbit = 125'000;
+
+// A camera of 40 Mbit/s: depth by layers, then colour ever coarser.
+std::vector<StepNeed> camera(double scale = 1) {
+    std::vector<StepNeed> needs;
+    for (const double megabits : {40.0, 22.0, 12.0, 9.5, 8.8, 8.0}) {
+        const double frames = megabits == 40 ? 30 : megabits == 22 ? 15 : 7.5;
+        needs.push_back({megabits * mbit * scale, megabits * mbit * scale / frames});
+    }
+    return needs;
+}
+
+// A link as the policy sees it: frames are late when more is sent than it
+// carries, by as much as waits in front of it.
+class Link {
+public:
+    explicit Link(unsigned seed = 1) : random_(seed) {}
+
+    double carries = 100 * mbit;
+    Duration delay = std::chrono::milliseconds(30);
+    Duration jitter{};
+
+    LinkMeasure measure(const StepNeed& need) {
+        waiting_ += (need.bytes_per_second - carries) * 0.1;
+        waiting_ = std::max(waiting_, 0.0);
+        LinkMeasure m;
+        // No more than two frames wait, the others are dropped.
+        if (waiting_ > 2 * need.bytes_at_once) {
+            waiting_ = 2 * need.bytes_at_once;
+            m.dropped = 1;
+        }
+        m.bytes_per_second = carries;
+        m.round_trip = 2 * delay;
+        m.delay = delay + seconds_to_duration((waiting_ + need.bytes_at_once) / carries);
+        if (jitter > Duration(0))
+            m.delay += Duration(std::int64_t(random_() % std::uint64_t(jitter.count())));
+        return m;
+    }
+
+private:
+    double waiting_ = 0;
+    std::mt19937 random_;
+};
+
+struct Run {
+    Link link;
+    SendingPolicy policy;
+    SendingGoal goal{std::chrono::milliseconds(130), 0};
+    std::vector<StepNeed> needs = camera();
+    TimePoint now = from_us(1'000'000);
+    int changes = 0, worst = 0;
+
+    void run(double seconds) {
+        changes = 0;
+        worst = policy.step();
+        for (int i = 0; i < int(seconds * 10); ++i) {
+            const LinkMeasure m = link.measure(needs[std::size_t(policy.step())]);
+            changes += policy.update(m, needs, goal, now);
+            worst = std::max(worst, policy.step());
+            now += std::chrono::milliseconds(100);
+        }
+    }
+};
+
+TEST(SendingPolicy, LeavesAFastLinkAlone) {
+    Run r;
+    r.run(60);
+    EXPECT_EQ(r.changes, 0);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, GoesDownWithinASecondToWhatTheLinkCarries) {
+    Run r;
+    r.run(5);
+    r.link.carries = 10 * mbit;
+    r.run(1);
+    EXPECT_LE(r.needs[std::size_t(r.policy.step())].bytes_per_second, 10 * mbit);
+    EXPECT_EQ(r.policy.reason(), SendingReason::late);
+}
+
+TEST(SendingPolicy, ComesBackWhenTheLinkDoes) {
+    Run r;
+    r.link.carries = 10 * mbit;
+    r.run(10);
+    ASSERT_GT(r.policy.step(), 2);
+    r.link.carries = 100 * mbit;
+    r.run(6);
+    EXPECT_EQ(r.policy.step(), 0);
+    r.run(60);
+    EXPECT_EQ(r.changes, 0);
+}
+
+TEST(SendingPolicy, DoesNotSwingOnASlowLink) {
+    for (const double megabits : {9.0, 10.0, 14.0, 20.0, 30.0, 39.0}) {
+        SCOPED_TRACE(megabits);
+        Run r;
+        r.link.carries = megabits * mbit;
+        r.run(10);
+        r.run(120);
+        EXPECT_LE(r.changes, 10);
+        r.run(120);
+        EXPECT_LE(r.changes, 6);
+    }
+}
+
+TEST(SendingPolicy, DoesNotSwingOnANoisyLink) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        Run r;
+        r.link = Link(seed);
+        r.link.jitter = std::chrono::milliseconds(60);
+        r.link.carries = 15 * mbit;
+        r.run(10);
+        r.run(120);
+        EXPECT_LE(r.changes, 14);
+    }
+}
+
+TEST(SendingPolicy, OneLateFrameIsAnAccident) {
+    Run r;
+    r.run(2);
+    LinkMeasure late = r.link.measure(r.needs[0]);
+    late.delay = std::chrono::milliseconds(400);
+    EXPECT_FALSE(r.policy.update(late, r.needs, r.goal, r.now));
+    r.run(2);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, TrialsThatFailBecomeRare) {
+    // The link is believed to carry more than it does, so that only trying tells.
+    Run r;
+    std::vector<TimePoint> trials;
+    for (int i = 0; i < 3000; ++i) {
+        LinkMeasure m;
+        m.round_trip = std::chrono::milliseconds(60);
+        m.delay = std::chrono::milliseconds(r.policy.step() >= 2 ? 80 : 300);
+        if (r.policy.update(m, r.needs, r.goal, r.now) && r.policy.reason() == SendingReason::trial)
+            trials.push_back(r.now);
+        r.now += std::chrono::milliseconds(100);
+    }
+    ASSERT_GE(trials.size(), 3u);
+    EXPECT_LE(trials.size(), 12u);
+    EXPECT_GE(trials.back() - trials[trials.size() - 2], std::chrono::seconds(30));
+}
+
+TEST(SendingPolicy, StaysBelowACeilingWithoutSwinging) {
+    Run r;
+    r.goal.max_bytes_per_second = 15 * mbit;
+    r.run(1);
+    EXPECT_EQ(r.policy.step(), 2);
+    EXPECT_EQ(r.policy.reason(), SendingReason::ceiling);
+    // What is encoded varies with what the camera sees.
+    std::mt19937 random(3);
+    int changes = 0;
+    for (int i = 0; i < 600; ++i) {
+        r.needs = camera(0.9 + 0.2 * double(random() % 1000) / 1000);
+        r.run(0.1);
+        changes += r.changes;
+        EXPECT_LE(r.needs[std::size_t(r.policy.step())].bytes_per_second, 15 * mbit);
+    }
+    EXPECT_EQ(changes, 0);
+    r.goal.max_bytes_per_second = 0;
+    r.run(5);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, AGoalThatCannotBeReachedDoesNotRuinThePicture) {
+    Run r;
+    r.link.delay = std::chrono::milliseconds(400);
+    r.run(30);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, WithoutAGoalNothingIsLeftOut) {
+    Run r;
+    r.goal.latency = Duration(0);
+    r.link.carries = 5 * mbit;
+    r.run(30);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, AShorterLadderIsEnteredAtItsEnd) {
+    Run r;
+    r.link.carries = 5 * mbit;
+    r.run(10);
+    ASSERT_EQ(r.policy.step(), 5);
+    r.policy.limit(3);
+    EXPECT_EQ(r.policy.step(), 2);
+}
+
+}  // namespace
+}  // namespace theatron::session
