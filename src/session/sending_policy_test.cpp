@@ -53,7 +53,7 @@ private:
     std::mt19937 random_;
 };
 
-struct Run {
+struct Trial {
     Link link;
     SendingPolicy policy;
     SendingGoal goal{std::chrono::milliseconds(130), 0};
@@ -74,14 +74,14 @@ struct Run {
 };
 
 TEST(SendingPolicy, LeavesAFastLinkAlone) {
-    Run r;
+    Trial r;
     r.run(60);
     EXPECT_EQ(r.changes, 0);
     EXPECT_EQ(r.policy.step(), 0);
 }
 
 TEST(SendingPolicy, GoesDownWithinASecondToWhatTheLinkCarries) {
-    Run r;
+    Trial r;
     r.run(5);
     r.link.carries = 10 * mbit;
     r.run(1);
@@ -90,7 +90,7 @@ TEST(SendingPolicy, GoesDownWithinASecondToWhatTheLinkCarries) {
 }
 
 TEST(SendingPolicy, ComesBackWhenTheLinkDoes) {
-    Run r;
+    Trial r;
     r.link.carries = 10 * mbit;
     r.run(10);
     ASSERT_GT(r.policy.step(), 2);
@@ -104,7 +104,7 @@ TEST(SendingPolicy, ComesBackWhenTheLinkDoes) {
 TEST(SendingPolicy, DoesNotSwingOnASlowLink) {
     for (const double megabits : {9.0, 10.0, 14.0, 20.0, 30.0, 39.0}) {
         SCOPED_TRACE(megabits);
-        Run r;
+        Trial r;
         r.link.carries = megabits * mbit;
         r.run(10);
         r.run(120);
@@ -117,7 +117,7 @@ TEST(SendingPolicy, DoesNotSwingOnASlowLink) {
 TEST(SendingPolicy, DoesNotSwingOnANoisyLink) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         SCOPED_TRACE(seed);
-        Run r;
+        Trial r;
         r.link = Link(seed);
         r.link.jitter = std::chrono::milliseconds(60);
         r.link.carries = 15 * mbit;
@@ -128,7 +128,7 @@ TEST(SendingPolicy, DoesNotSwingOnANoisyLink) {
 }
 
 TEST(SendingPolicy, OneLateFrameIsAnAccident) {
-    Run r;
+    Trial r;
     r.run(2);
     LinkMeasure late = r.link.measure(r.needs[0]);
     late.delay = std::chrono::milliseconds(400);
@@ -139,7 +139,7 @@ TEST(SendingPolicy, OneLateFrameIsAnAccident) {
 
 TEST(SendingPolicy, TrialsThatFailBecomeRare) {
     // The link is believed to carry more than it does, so that only trying tells.
-    Run r;
+    Trial r;
     std::vector<TimePoint> trials;
     for (int i = 0; i < 3000; ++i) {
         LinkMeasure m;
@@ -155,7 +155,7 @@ TEST(SendingPolicy, TrialsThatFailBecomeRare) {
 }
 
 TEST(SendingPolicy, StaysBelowACeilingWithoutSwinging) {
-    Run r;
+    Trial r;
     r.goal.max_bytes_per_second = 15 * mbit;
     r.run(1);
     EXPECT_EQ(r.policy.step(), 2);
@@ -176,14 +176,14 @@ TEST(SendingPolicy, StaysBelowACeilingWithoutSwinging) {
 }
 
 TEST(SendingPolicy, AGoalThatCannotBeReachedDoesNotRuinThePicture) {
-    Run r;
+    Trial r;
     r.link.delay = std::chrono::milliseconds(400);
     r.run(30);
     EXPECT_EQ(r.policy.step(), 0);
 }
 
 TEST(SendingPolicy, WithoutAGoalNothingIsLeftOut) {
-    Run r;
+    Trial r;
     r.goal.latency = Duration(0);
     r.link.carries = 5 * mbit;
     r.run(30);
@@ -191,7 +191,7 @@ TEST(SendingPolicy, WithoutAGoalNothingIsLeftOut) {
 }
 
 TEST(SendingPolicy, AShorterLadderIsEnteredAtItsEnd) {
-    Run r;
+    Trial r;
     r.link.carries = 5 * mbit;
     r.run(10);
     ASSERT_EQ(r.policy.step(), 5);
