@@ -63,8 +63,9 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
     for (int i = 0; i < bench.viewers; ++i)
         viewers.push_back(std::make_unique<ChildProcess>(std::vector<std::string>{
             "join", greeting["link"].get<std::string>(), "--json", "--depth-codec",
-            bench.depth_codec, "--color-codec", bench.color_codec, "--warmup",
-            std::to_string(bench.warmup_seconds), "--seconds", std::to_string(bench.seconds)}));
+            bench.depth_codec, "--color-codec", bench.color_codec, "--target-latency", "0",
+            "--warmup", std::to_string(bench.warmup_seconds), "--seconds",
+            std::to_string(bench.seconds)}));
 
     double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, cpu_seconds = 0, memory = 0;
     std::uint64_t dropped = 0;

@@ -321,17 +321,16 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
         shared_->color_wish = color;
 }
 
-<<<<<<< HEAD
 void Participant::announce() const {
     shared_->changed.notify_all();
     if (options_.news)
         options_.news();
-=======
+}
+
 void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
     const std::lock_guard lock(shared_->mutex);
     shared_->delivery_wish = goal;
     shared_->status.goal = goal;
->>>>>>> 66b13d1 (Adaptive sending, in progress: flight, policy, ladder, link shaper, simulation (not built as a whole yet))
 }
 
 void Participant::remark(const std::string& text) const {

@@ -22,6 +22,7 @@ public:
         options.name = "recorder";
         options.depth_codec = codecs.depth;
         options.color_codec = codecs.color;
+        options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
         options.remark = [](const std::string& text) {
             std::fprintf(stderr, "%s\n", text.c_str());
         };

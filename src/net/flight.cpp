@@ -12,6 +12,8 @@ namespace {
 constexpr Duration jitter = std::chrono::milliseconds(5);
 // How fast older measurements of the rate are forgotten, in time of a busy way.
 constexpr double memory_s = 0.06;
+// A rate seen longer ago says nothing about the way of today.
+constexpr Duration rate_validity = std::chrono::seconds(2);
 // The shortest round trip is that of the last one to two of these.
 constexpr Duration bucket = std::chrono::seconds(5);
 // With a queue that never empties the shortest round trip would creep upwards:
@@ -76,6 +78,7 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
         const double kept = std::exp(-busy / memory_s);
         busy_bytes_ = busy_bytes_ * kept + bytes;
         busy_seconds_ = busy_seconds_ * kept + busy;
+        busy_at_ = now;
     } else if (newest.held_back) {
         // It was held back and met no queue: the way carries more than is known.
         if (busy_seconds_ > 0)
@@ -90,8 +93,8 @@ Duration Flight::round_trip() const {
     return shortest == Duration::max() ? Duration(0) : shortest;
 }
 
-double Flight::bytes_per_second() const {
-    return busy_seconds_ > 0 ? busy_bytes_ / busy_seconds_ : 0;
+double Flight::bytes_per_second(TimePoint now) const {
+    return busy_seconds_ > 0 && now - busy_at_ < rate_validity ? busy_bytes_ / busy_seconds_ : 0;
 }
 
 double Flight::window(TimePoint now) const {
@@ -99,7 +102,7 @@ double Flight::window(TimePoint now) const {
         return window_at_first_;
     const double seconds = now < draining_until_ ? drain_share * to_seconds(round_trip())
                                                  : to_seconds(round_trip() + allowed_queue);
-    return std::max(smallest_window, bytes_per_second() * seconds);
+    return std::max(smallest_window, busy_bytes_ / busy_seconds_ * seconds);
 }
 
 bool Flight::may_send(TimePoint now) {

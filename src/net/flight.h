@@ -39,7 +39,8 @@ public:
 
     std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
     double window(TimePoint now) const;
-    double bytes_per_second() const;  // what the way carries; 0 while not known
+    // What the way carries; 0 while it is not known, or was last seen long ago.
+    double bytes_per_second(TimePoint now) const;
     Duration round_trip() const;      // the shortest of the last seconds
 
     // The longest time from queued to arrived, of messages that arrived since the
@@ -65,6 +66,7 @@ private:
 
     // Of the last while in which chunks queued.
     double busy_bytes_ = 0, busy_seconds_ = 0;
+    TimePoint busy_at_;
     double window_at_first_ = first_window;
 
     Duration shortest_now_ = Duration::max(), shortest_before_ = Duration::max();

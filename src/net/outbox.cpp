@@ -134,7 +134,7 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
 
 SendingFigures Outbox::take_figures(TimePoint now) {
     SendingFigures figures;
-    figures.bytes_per_second = flight_.bytes_per_second();
+    figures.bytes_per_second = flight_.bytes_per_second(now);
     figures.round_trip = flight_.round_trip();
     figures.delay = flight_.take_delay(now);
     figures.dropped = std::exchange(dropped_, 0);

@@ -18,9 +18,9 @@ DATA = pathlib.Path(os.environ.get("THEATRON_DATA", "../shared/data"))
 class Process:
     """A running theatron whose output lines can be waited for."""
 
-    def __init__(self, *arguments, **options):
+    def __init__(self, *arguments, prefix=(), **options):
         self.process = subprocess.Popen(
-            [PROGRAM, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            [*prefix, PROGRAM, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, text=True, **options)
         self.lines = queue.Queue()
         self.errors = []
@@ -95,11 +95,11 @@ class Process:
             pipe.close()
 
 
-def host(state, *cameras, listen="127.0.0.1:0", options=()):
+def host(state, *cameras, listen="127.0.0.1:0", options=(), prefix=()):
     arguments = ["host", "--listen", listen, "--json", "--state", state, *options]
     for camera in cameras:
         arguments += ["--camera", camera]
-    process = Process(*arguments)
+    process = Process(*arguments, prefix=prefix)
     process.greeting = process.read_json()
     return process
 
