@@ -92,6 +92,8 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
         facts.push_back({"Drawn", rounded(screen.drawn_per_second, 0, "fps")});
         facts.push_back({"Data", rounded(f["mbit_per_s"], 1, "Mbit/s")});
         facts.push_back({"Dropped", std::to_string(f["dropped"].get<std::uint64_t>())});
+        if (status.delivery.level > 0)
+            facts.push_back({"Sent", status.delivery.what, true});
         facts.push_back({"Depth", common(cameras, "depth_codec")});
         facts.push_back({"Colour", common(cameras, "color_codec")});
         // The stream names no filter, so it is what the camera gave.

@@ -20,12 +20,23 @@ int layer_by_number(FrameNumber frame) {
 }
 
 void Delivery::set_wish(const std::string& depth, const std::string& color,
-                        const CodecSteps& codecs) {
+                        const CodecSteps& codecs, bool region_is_drawn) {
     codecs_ = codecs;
-    ladder_ = make_ladder(depth, color, codecs);
+    ladder_ = make_ladder(depth, color, codecs, region_is_drawn);
     policy_.limit(int(ladder_.size()));
 }
 
+const LadderStep* Delivery::step_with_color(const std::string& codec) const {
+    const auto found = std::find_if(ladder_.begin(), ladder_.end(),
+                                    [&](const LadderStep& s) { return s.color_codec == codec; });
+    return found == ladder_.end() ? nullptr : &*found;
+}
+
+bool Delivery::is_lossy(const std::string& depth_codec) const {
+    return ladder_.back().lossy_outside_region && ladder_.back().depth_codec == depth_codec;
+}
+
+// From what is measured of the encodings that it is given now.
 std::vector<StepNeed> Delivery::needs(const Given& given, StreamRates& rates, TimePoint now) const {
     const int all = served_layers - 1;
     const CodecSteps::Layered layered =
@@ -33,23 +44,24 @@ std::vector<StepNeed> Delivery::needs(const Given& given, StreamRates& rates, Ti
     const bool by_layer =
         layered.independent || (layered.layered && layered.codec == given.depth.codec);
     const double depth = rates.bytes_per_second(given.depth.id, all, now);
-    double color = rates.bytes_per_second(given.color.id, all, now);
-    for (const LadderStep& step : ladder_)
-        if (step.color_codec == given.color.codec) {
-            color /= step.color_size;
-            break;
-        }
+    const double exact = is_lossy(given.depth.codec) ? 1 / lossy_size : 1;
+    const LadderStep* now_colored = step_with_color(given.color.codec);
+    const double whole_color = rates.bytes_per_second(given.color.id, all, now) /
+                               (now_colored ? now_colored->color_size : 1);
+    const bool chain = codecs_.color_is_chain && codecs_.color_is_chain(given.color.codec);
 
     std::vector<StepNeed> result;
     for (const LadderStep& step : ladder_) {
-        double depth_share = by_layer
-                                 ? rates.bytes_per_second(given.depth.id, step.highest_layer, now)
-                                 : depth * step.frames;
-        if (step.depth_codec != ladder_[0].depth_codec && step.depth_codec != layered.codec)
-            depth_share *= lossy_size;
+        const double depth_share =
+            (by_layer ? rates.bytes_per_second(given.depth.id, step.highest_layer, now)
+                      : depth * step.frames) *
+            exact * (step.lossy_outside_region ? lossy_size : 1);
+        const double color_frames = chain ? 1 : step.frames;
+        const double color_share = whole_color * step.color_size * color_frames;
         StepNeed need;
-        need.bytes_per_second = depth_share + color * step.color_size * step.frames;
-        need.bytes_at_once = need.bytes_per_second / (given.frames_per_second * step.frames);
+        need.bytes_per_second = depth_share + color_share;
+        need.bytes_at_once =
+            (depth_share / step.frames + color_share / color_frames) / given.frames_per_second;
         result.push_back(need);
     }
     return result;

@@ -20,7 +20,8 @@ namespace theatron::session {
 class Delivery {
 public:
     // The receiver asked for these codecs. The step stays where there is one.
-    void set_wish(const std::string& depth, const std::string& color, const CodecSteps& codecs);
+    void set_wish(const std::string& depth, const std::string& color, const CodecSteps& codecs,
+                  bool region_is_drawn);
 
     void set_goal(const wire::ChooseDelivery& goal) { goal_ = goal; }
 
@@ -45,6 +46,8 @@ public:
 
 private:
     std::vector<StepNeed> needs(const Given& given, StreamRates& rates, TimePoint now) const;
+    const LadderStep* step_with_color(const std::string& codec) const;
+    bool is_lossy(const std::string& depth_codec) const;
 
     CodecSteps codecs_;
     std::vector<LadderStep> ladder_{LadderStep{}};

@@ -92,7 +92,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
         send(id, state);
     depth_.wish(id, depth);
     color_.wish(id, color);
-    participant.delivery.set_wish(depth, color, config_.steps);
+    set_wish(id);
     set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     apply_settings();
 }
@@ -118,8 +118,26 @@ void HostSession::choose(ParticipantId id, const std::string& depth, const std::
         depth_.wish(id, depth_codec);
     if (!color_codec.empty())
         color_.wish(id, color_codec);
-    participants_[id].delivery.set_wish(depth_.wished(id), color_.wished(id), config_.steps);
+    set_wish(id);
     take_step(id);
+}
+
+// Makes the ladder of what the participant wishes.
+void HostSession::set_wish(ParticipantId id) {
+    participants_[id].delivery.set_wish(depth_.wished(id), color_.wished(id), config_.steps,
+                                        region_is_drawn_);
+}
+
+void HostSession::on_region(bool is_drawn) {
+    if (std::exchange(region_is_drawn_, is_drawn) == is_drawn)
+        return;
+    for (auto& [id, participant] : participants_) {
+        if (!participant.joined || participant.closing)
+            continue;
+        set_wish(id);
+        send(id, participant.delivery.message({}));
+        take_step(id);
+    }
 }
 
 // Asks for the encodings of the participant's step.
@@ -243,6 +261,15 @@ int HostSession::layer_for(const Participant& participant, const wire::MediaHead
     return depth->second.layer;
 }
 
+// Whether no frame of this colour setting can be left out.
+bool HostSession::is_chain(SettingId id) const {
+    const auto& active = color_.active();
+    const auto setting = std::find_if(active.begin(), active.end(),
+                                      [&](const ActiveSetting& s) { return s.id == id; });
+    return setting != active.end() && config_.steps.color_is_chain &&
+           config_.steps.color_is_chain(setting->codec);
+}
+
 std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
                                                  TimePoint now) {
     // A frame that is sent again, or of a camera that lags, says nothing about encoding.
@@ -262,6 +289,8 @@ std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header
     rates_.add(header.stream, header.setting, layer, size, now);
 
     std::vector<ParticipantId> result = receivers(header.stream, header.setting);
+    if (!is_depth(header.stream) && is_chain(header.setting))
+        return result;
     std::erase_if(result, [&](ParticipantId id) {
         Participant& participant = participants_[id];
         return !participant.delivery.lets_through(header.stream, layer_for(participant, header));

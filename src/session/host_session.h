@@ -68,6 +68,9 @@ public:
     void on_control(ParticipantId participant, ByteView message, TimePoint now);
     void on_closed(ParticipantId participant);
     void on_camera(const wire::CameraState& state);
+    // Whether any camera has a region of interest. Without one no depth may be lossy
+    // for the sake of a slow link.
+    void on_region(bool is_drawn);
     // A frame could not be sent: this participant's stream needs a key frame.
     void on_broken_stream(StreamId stream, SettingId setting);
     // Ten times a second for each participant.
@@ -101,7 +104,9 @@ private:
     void join(ParticipantId id, const wire::Join& message);
     void choose(ParticipantId id, const std::string& depth, const std::string& color);
     void set_goal(ParticipantId id, const wire::ChooseDelivery& goal);
+    void set_wish(ParticipantId id);
     void take_step(ParticipantId id);
+    bool is_chain(SettingId color) const;
     int layer_for(const Participant& participant, const wire::MediaHeader& header) const;
     double frames_per_second() const;
     void refuse(ParticipantId id, std::string reason);
@@ -112,6 +117,7 @@ private:
     Config config_;
     std::map<ParticipantId, Participant> participants_;
     std::map<CameraId, wire::CameraState> camera_states_;
+    bool region_is_drawn_ = false;
     SettingTable depth_{SettingId{1}}, color_{SettingId{0x8001}};
     std::vector<ActiveSetting> announced_depth_, announced_color_;
     KeyRequests key_requests_;

@@ -6,7 +6,7 @@
 namespace theatron::session {
 
 std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
-                                    const CodecSteps& codecs) {
+                                    const CodecSteps& codecs, bool region_is_drawn) {
     LadderStep step;
     step.highest_layer = served_layers - 1;
     step.depth_codec = depth;
@@ -34,10 +34,11 @@ std::vector<LadderStep> make_ladder(const std::string& depth, const std::string&
             step.what = frames + "colour as " + coarser.codec;
             ladder.push_back(step);
         }
-    if (codecs.lossy_outside_region)
+    if (region_is_drawn && codecs.lossy_outside_region)
         if (std::string lossy = codecs.lossy_outside_region(step.depth_codec); !lossy.empty()) {
             step.depth_codec = std::move(lossy);
-            step.what += ", depth outside the region as " + step.depth_codec;
+            step.lossy_outside_region = true;
+            step.what += ", bounded loss outside the region";
             ladder.push_back(step);
         }
     return ladder;

@@ -25,7 +25,10 @@ struct CodecSteps {
     };
     std::function<std::vector<Coarser>(const std::string& color)> coarser;
 
-    // The codec with bounded loss outside its region of interest; empty if it has
+    // True if its frames refer to each other, so that none can be left out. Null: false.
+    std::function<bool(const std::string& color)> color_is_chain;
+
+    // The codec with bounded loss outside the region of interest; empty if it has
     // none. Null: no codec has.
     std::function<std::string(const std::string& depth)> lossy_outside_region;
 };
@@ -35,11 +38,13 @@ struct LadderStep {
     double frames = 1;  // share of all
     std::string depth_codec, color_codec;
     double color_size = 1;  // as in Coarser
-    std::string what;       // for people
+    bool lossy_outside_region = false;
+    std::string what;  // for people
 };
 
-// All steps, the first is what was asked for.
+// All steps, the first is what was asked for. Loss is a step only where a region
+// is drawn: without one the whole image stays exact.
 std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
-                                    const CodecSteps& codecs);
+                                    const CodecSteps& codecs, bool region_is_drawn);
 
 }  // namespace theatron::session
