@@ -13,11 +13,12 @@ constexpr double share_to_go_up = 0.7;
 constexpr double ceiling_to_go_up = 0.9;
 // A step that needs so much more than was measured is not even tried.
 constexpr double hopeless = 1.5;
+// Of a link since a trial failed on it: the failure says nothing about it any more.
+constexpr double clearly_better = 1.3;
 
 constexpr int late_measures = 2;  // one late frame is an accident
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
-constexpr Duration trial_time = std::chrono::seconds(3);  // a failure in it is the trial's
 constexpr Duration longest_patience = std::chrono::seconds(60);
 // What remains to the sender's own doing whatever the goal.
 constexpr Duration smallest_margin = std::chrono::milliseconds(40);
@@ -47,11 +48,14 @@ void SendingPolicy::go(int step, SendingReason reason, TimePoint now) {
 }
 
 // True if the step down that follows takes back a step up that was too much.
-bool SendingPolicy::take_back_trial() {
+bool SendingPolicy::fail_trial(const LinkMeasure& link) {
     if (!trying_)
         return false;
     trying_ = false;
-    patience_ = std::min(2 * patience_, longest_patience);
+    History& history = history_[std::size_t(step_)];
+    history.patience = std::min(2 * history.patience, longest_patience);
+    history.failed = true;
+    history.carried = link.bytes_per_second;
     return true;
 }
 
@@ -79,18 +83,20 @@ bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> ne
     const int before = step_;
     const int last = int(needs.size()) - 1;
     step_ = std::min(step_, last);
+    history_.resize(needs.size());
     const auto need = [&](int s) { return needs[std::size_t(s)].bytes_per_second; };
 
-    if (trying_ && now - went_up_ > trial_time) {
+    // A step that failed before has to hold for as long as it had to wait.
+    if (trying_ && now - went_up_ > history_[std::size_t(step_)].patience) {
         trying_ = false;
-        patience_ = first_patience;
+        history_[std::size_t(step_)] = {};
     }
 
     if (goal.max_bytes_per_second > 0 && step_ < last && need(step_) > goal.max_bytes_per_second) {
         int s = step_ + 1;
         while (s < last && need(s) > goal.max_bytes_per_second)
             ++s;
-        take_back_trial();
+        fail_trial(link);
         go(s, SendingReason::ceiling, now);
         settled_ = now + shortest_settling;
         return true;
@@ -102,8 +108,11 @@ bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> ne
     if (link.delay > reachable || link.dropped > 0)
         calm_since_ = now;
     if (late && now >= settled_ && step_ < last) {
-        go(step_for(link, needs, reachable),
-           take_back_trial() ? SendingReason::trial_failed : SendingReason::late, now);
+        // What the link carried before the trial it most likely still does.
+        if (fail_trial(link) && carries(link, needs[std::size_t(step_ + 1)], 1))
+            go(step_ + 1, SendingReason::trial_failed, now);
+        else
+            go(step_for(link, needs, reachable), SendingReason::late, now);
         // What is on its way has to arrive before the step can show.
         settled_ = now + shortest_settling + 2 * link.round_trip;
         return true;
@@ -122,8 +131,11 @@ bool SendingPolicy::step_up(const LinkMeasure& link, std::span<const StepNeed> n
                           predicted_delay(link, better) <= reachable - smallest_margin / 2;
     if (!has_room && !carries(link, better, hopeless))
         return false;
-    const bool failed_before = patience_ > first_patience;
-    const Duration calm = has_room && !failed_before ? calm_to_go_up : patience_;
+    const History& history = history_[std::size_t(step_ - 1)];
+    const bool better_link =
+        history.carried > 0 && link.bytes_per_second > clearly_better * history.carried;
+    const Duration calm =
+        has_room && (!history.failed || better_link) ? calm_to_go_up : history.patience;
     if (now - calm_since_ < calm)
         return false;
     trying_ = true;

@@ -5,12 +5,14 @@
 //
 // Down: at once when the ceiling is exceeded; when frames arrive too late, to the
 // first step that the link is measured to carry. Up: one step at a time, when
-// the measured link has room for it, else as a trial. A trial that fails is
-// taken back and the next waits twice as long, so nothing swings.
+// the measured link has room for it, else as a trial. A step up that fails is
+// taken back, and the next time to that step waits twice as long unless the link
+// has become better, so nothing swings.
 #pragma once
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "base/time.h"
 
@@ -52,7 +54,7 @@ public:
 
 private:
     void go(int step, SendingReason reason, TimePoint now);
-    bool take_back_trial();
+    bool fail_trial(const LinkMeasure& link);
     int step_for(const LinkMeasure& link, std::span<const StepNeed> needs, Duration goal) const;
     bool is_late(const LinkMeasure& link, Duration goal);
     bool step_up(const LinkMeasure& link, std::span<const StepNeed> needs, const SendingGoal& goal,
@@ -65,9 +67,14 @@ private:
     TimePoint calm_since_;  // nothing late and nothing dropped
     bool trying_ = false;   // the last step up has not proved itself yet
     TimePoint went_up_;
-    Duration patience_ = first_patience;  // before a trial
 
     static constexpr Duration first_patience = std::chrono::seconds(3);
+    struct History {
+        Duration patience = first_patience;  // before a trial, and until it is proved
+        bool failed = false;                 // the last trial
+        double carried = 0;                  // by the link when it failed
+    };
+    std::vector<History> history_;  // by step
 };
 
 }  // namespace theatron::session

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 #include <vector>
+
+#include "session/ladder.h"
 
 namespace theatron::session {
 namespace {
@@ -93,7 +96,7 @@ TEST(SendingPolicy, ComesBackWhenTheLinkDoes) {
     Trial r;
     r.link.carries = 10 * mbit;
     r.run(10);
-    ASSERT_GT(r.policy.step(), 2);
+    ASSERT_GT(r.worst, 2);
     r.link.carries = 100 * mbit;
     r.run(6);
     EXPECT_EQ(r.policy.step(), 0);
@@ -197,6 +200,31 @@ TEST(SendingPolicy, AShorterLadderIsEnteredAtItsEnd) {
     ASSERT_EQ(r.policy.step(), 5);
     r.policy.limit(3);
     EXPECT_EQ(r.policy.step(), 2);
+}
+
+TEST(Ladder, FramesThenColourThenLossOutsideTheRegion) {
+    CodecSteps codecs;
+    codecs.layered = [](const std::string& depth) {
+        return CodecSteps::Layered{depth + ":layers", false, true};
+    };
+    codecs.coarser = [](const std::string& color) {
+        return std::vector<CodecSteps::Coarser>{{color + "-", 0.5}, {color + "--", 0.25}};
+    };
+    codecs.lossy_outside_region = [](const std::string& depth) { return depth + ",loss"; };
+
+    const auto ladder = make_ladder("d", "c", codecs, true);
+    std::string steps;
+    for (const LadderStep& s : ladder)
+        steps += std::to_string(s.highest_layer) + " " + s.depth_codec + " " + s.color_codec + "; ";
+    EXPECT_EQ(steps,
+              "2 d c; 1 d:layers c; 0 d:layers c; 0 d:layers c-; 0 d:layers c--; "
+              "0 d:layers,loss c--; ");
+    EXPECT_TRUE(ladder.back().lossy_outside_region);
+
+    const auto without_region = make_ladder("d", "c", codecs, false);
+    EXPECT_EQ(without_region.size(), ladder.size() - 1);
+    for (const LadderStep& s : without_region)
+        EXPECT_FALSE(s.lossy_outside_region);
 }
 
 }  // namespace
