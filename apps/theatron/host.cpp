@@ -6,11 +6,13 @@
 #include <net/if.h>
 #include <netinet/in.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -97,6 +99,8 @@ struct Host::Impl {
     std::unique_ptr<net::Server> server;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::thread thread;
+    // Which cameras have a region of interest; server's thread.
+    std::set<std::size_t> with_region;
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
@@ -326,6 +330,31 @@ std::vector<std::string> Host::camera_names() const {
     for (const auto& lane : impl_->lanes)
         names.push_back(lane->info().name);
     return names;
+}
+
+void Host::set_region(std::size_t camera, codec::strata::Region region) {
+    namespace strata = codec::strata;
+    const auto& lane = impl_->lanes.at(camera);
+    if (!strata::is_valid(region))
+        throw Error("A region has at most " + std::to_string(strata::max_polygons) + " parts.");
+    const Size size = lane->info().calibration.depth.size;
+    for (const strata::Polygon& polygon : region)
+        if (std::none_of(polygon.begin(), polygon.end(), [&](const strata::Corner& c) {
+                return c.x < size.width && c.y < size.height;
+            }))
+            throw Error("The region lies outside the depth image of camera '" + lane->info().name +
+                        "', which has " + std::to_string(size.width) + "x" +
+                        std::to_string(size.height) + " pixels.");
+    const bool is_drawn = !region.empty();
+    lane->set_region(std::move(region));
+    impl_->server->post([impl = impl_.get(), camera, is_drawn] {
+        if (is_drawn)
+            impl->with_region.insert(camera);
+        else
+            impl->with_region.erase(camera);
+        impl->session->on_region(!impl->with_region.empty());
+        impl->carry_out();
+    });
 }
 
 nlohmann::json Host::figures() const {

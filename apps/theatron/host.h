@@ -11,6 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "codec/strata_region.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
 
@@ -35,6 +36,11 @@ public:
     std::string link() const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
+
+    // The part of a camera's depth image, in its pixels, that stays exact whatever the
+    // links carry, from the next frame on; empty: all of it. From any thread. Throws
+    // Error with one sentence if it has too many parts or lies outside the image.
+    void set_region(std::size_t camera, codec::strata::Region region);
 
     // What went on so far: cameras with stages, participants, drops.
     nlohmann::json figures() const;

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "base/error.h"
@@ -15,7 +17,9 @@
 #include "capture/camera.h"
 #include "commands.h"
 #include "host.h"
+#include "input_lines.h"
 #include "progress.h"
+#include "region_text.h"
 #include "stop_signal.h"
 
 namespace theatron::app {
@@ -23,6 +27,7 @@ namespace {
 
 struct Flags {
     HostOptions options;
+    std::vector<std::string> regions;
     std::string listen = "0.0.0.0:4400";
     std::string state;
     std::string summary;
@@ -30,11 +35,52 @@ struct Flags {
     bool json = false;
 };
 
+// All parts that are given for a camera make its region.
+void draw_regions(Host& host, const std::vector<std::string>& texts) {
+    std::map<std::size_t, codec::strata::Region> regions;
+    for (const std::string& text : texts) {
+        RegionText part = parse_region(text);
+        regions[find_camera(part.camera, host.camera_names())].push_back(std::move(part.polygon));
+    }
+    for (auto& [camera, region] : regions)
+        host.set_region(camera, std::move(region));
+}
+
+// "region CAMERA PART...", "region CAMERA none". Throws Error if it cannot be done.
+void obey(Host& host, const std::string& line) {
+    std::istringstream words(line);
+    std::string what, camera, part;
+    words >> what >> camera;
+    if (what.empty())
+        return;
+    codec::strata::Region region;
+    bool none = false;
+    while (words >> part)
+        if (part == "none")
+            none = true;
+        else
+            region.push_back(parse_polygon(part));
+    if (what != "region" || none == !region.empty())
+        throw Error("Say 'region CAMERA X:Y:WIDTH:HEIGHT...' or 'region CAMERA none'.");
+    host.set_region(find_camera(camera, host.camera_names()), std::move(region));
+}
+
+void obey(Host& host, InputLines& input) {
+    while (const auto line = input.next()) {
+        try {
+            obey(host, *line);
+        } catch (const Error& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+        }
+    }
+}
+
 void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     catch_stop_signals();
     Host host(flags.options, show_progress());
+    draw_regions(host, flags.regions);
 
     if (flags.json) {
         std::cout << nlohmann::json{{"link", host.link()},
@@ -49,12 +95,14 @@ void run(Flags& flags) {
                   << std::flush;
     }
 
+    InputLines input;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
     while (!stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        obey(host, input);
         if (live_line && steady_now() >= next_line) {
             std::cout << "\r\033[K" << host.status_line() << std::flush;
             next_line = steady_now() + 500ms;
@@ -78,12 +126,23 @@ void add_host_command(CLI::App& app) {
     std::string cameras = "The kinds of camera:\n";
     for (const std::string& kind : capture::camera_kinds())
         cameras += "  " + kind + "\n";
-    command->footer(cameras +
-                    "\nExamples:\n"
-                    "  theatron host --camera folder:recordings/table,loop=1\n"
-                    "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
-                    "--listen 0.0.0.0:4400 --name 'OR 3'");
+    command->footer(
+        cameras +
+        "\nLines on standard input change the region of interest at any time: 'region 0 "
+        "100:50:300:200',\n'region 0 none'.\n"
+        "\nExamples:\n"
+        "  theatron host --camera folder:recordings/table,loop=1\n"
+        "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
+        "--listen 0.0.0.0:4400 --name 'OR 3'\n"
+        "  theatron host --camera k4a:0 --region 0=200:150:240:180");
     add_camera_option(*command, flags->options.cameras)->required();
+    command
+        ->add_option("--region", flags->regions,
+                     "CAMERA=X:Y:WIDTH:HEIGHT, the part of a camera's depth image that stays exact "
+                     "when a slow link makes the rest coarser; a polygon is CAMERA=X:Y:X:Y:X:Y. "
+                     "CAMERA is a number from 0 or a name. Repeat for more parts. Without a region "
+                     "the whole image stays exact")
+        ->allow_extra_args(false);
     command->add_option("--listen", flags->listen, "ADDRESS:PORT; port 0 lets the system choose")
         ->capture_default_str();
     command->add_option("--name", flags->options.name, "What participants see as the room's name")

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron join
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/png_file.h"
+#include "input_lines.h"
 #include "participant.h"
 #include "participant_figures.h"
 #include "stop_signal.h"
@@ -94,64 +94,43 @@ std::uint32_t to_kbit(double mbit) {
     return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
 }
 
-// Lines on standard input change what is sent: "depth rvl", "latency 200".
-class InputCommands {
-public:
-    // Obeys what has been typed so far. False after "quit", and where a person
-    // has closed the terminal's input; other input may simply end.
-    bool obey(Participant& participant) {
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        while (!ended_ && poll(&input, 1, 0) > 0) {
-            char bytes[512];
-            const ssize_t count = read(STDIN_FILENO, bytes, sizeof(bytes));
-            if (count <= 0) {
-                ended_ = true;
-                return !isatty(STDIN_FILENO);
-            }
-            typed_.append(bytes, std::size_t(count));
-            for (auto end = typed_.find('\n'); end != std::string::npos; end = typed_.find('\n')) {
-                const std::string line = typed_.substr(0, end);
-                typed_.erase(0, end + 1);
-                if (!obey(participant, line))
-                    return false;
-            }
-        }
-        return true;
-    }
+void choose_delivery(Participant& participant, bool latency, double value) {
+    wire::ChooseDelivery goal = participant.status().goal;
+    if (latency)
+        goal.target_latency_ms = std::uint32_t(std::min(value, 60'000.0));
+    else
+        goal.max_kbit_per_s = to_kbit(value);
+    participant.choose_delivery(goal);
+}
 
-private:
-    static bool obey(Participant& participant, const std::string& line) {
-        std::istringstream words(line);
-        std::string what, codec;
-        words >> what >> codec;
-        if (what == "quit")
+// Lines on standard input change what is sent: "depth rvl", "latency 200". False
+// after "quit".
+bool obey(Participant& participant, const std::string& line) {
+    std::istringstream words(line);
+    std::string what, value;
+    words >> what >> value;
+    if (what == "quit")
+        return false;
+    if (what == "depth" && !value.empty())
+        participant.choose_codecs(value, "");
+    else if (what == "color" && !value.empty())
+        participant.choose_codecs("", value);
+    else if (double number = 0; (what == "latency" || what == "ceiling") &&
+                                std::sscanf(value.c_str(), "%lf", &number) == 1 && number >= 0)
+        choose_delivery(participant, what == "latency", number);
+    else if (!what.empty())
+        std::fprintf(stderr,
+                     "Say 'depth CODEC', 'color CODEC', 'latency MS', 'ceiling MBIT' or 'quit'.\n");
+    return true;
+}
+
+// Obeys what has been typed so far. False if this ends the program.
+bool obey(Participant& participant, InputLines& input) {
+    while (const auto line = input.next())
+        if (!obey(participant, *line))
             return false;
-        if (what == "depth" && !codec.empty())
-            participant.choose_codecs(codec, "");
-        else if (what == "color" && !codec.empty())
-            participant.choose_codecs("", codec);
-        else if (double value = 0; (what == "latency" || what == "ceiling") &&
-                                   std::sscanf(codec.c_str(), "%lf", &value) == 1 && value >= 0)
-            choose_delivery(participant, what == "latency", value);
-        else if (!what.empty())
-            std::fprintf(stderr,
-                         "Say 'depth CODEC', 'color CODEC', 'latency MS', 'ceiling MBIT' or "
-                         "'quit'.\n");
-        return true;
-    }
-
-    static void choose_delivery(Participant& participant, bool latency, double value) {
-        wire::ChooseDelivery goal = participant.status().goal;
-        if (latency)
-            goal.target_latency_ms = std::uint32_t(std::min(value, 60'000.0));
-        else
-            goal.max_kbit_per_s = to_kbit(value);
-        participant.choose_delivery(goal);
-    }
-
-    std::string typed_;
-    bool ended_ = false;
-};
+    return !input.closed_by_person();
+}
 
 void run(const Flags& flags) {
     Participant::Options options;
@@ -192,7 +171,7 @@ void run(const Flags& flags) {
     const TimePoint started = steady_now();
     TimePoint first_frame{}, next_line{};
     bool warm = flags.warmup <= 0;
-    InputCommands commands;
+    InputLines input;
 
     while (!stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
@@ -205,7 +184,7 @@ void run(const Flags& flags) {
         const auto status = participant.status();
         if (status.phase == Participant::Phase::refused)
             throw Error(status.problem);
-        if (!commands.obey(participant))
+        if (!obey(participant, input))
             break;
         const TimePoint now = steady_now();
         if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {

@@ -21,6 +21,18 @@ const char* text_of(wire::CameraCondition condition) {
     return "unknown";
 }
 
+const char* text_of(receive::Exactness exact) {
+    switch (exact) {
+        case receive::Exactness::nowhere:
+            return "nowhere";
+        case receive::Exactness::region:
+            return "region";
+        case receive::Exactness::everywhere:
+            return "everywhere";
+    }
+    return "unknown";
+}
+
 const char* text_of(Participant::Phase phase) {
     switch (phase) {
         case Participant::Phase::connecting:
@@ -80,10 +92,12 @@ nlohmann::json participant_figures(const Participant& participant) {
                            {"frames", depth.frames},
                            {"mbit_per_s", camera_mbit},
                            {"newest_age_ms", depth.age_ms},
+                           {"age_now_ms", depth.age_now_ms},
                            {"age_ms", age(depth)},
                            {"color_age_ms", age(color)},
                            {"dropped", depth.dropped + color.dropped},
                            {"depth_codec", depth.codec},
+                           {"depth_exact", text_of(depth.exact)},
                            {"color_codec", color.codec}});
         fps =
             cameras.size() == 1 ? depth.frames_per_second : std::min(fps, depth.frames_per_second);

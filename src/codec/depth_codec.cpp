@@ -80,7 +80,7 @@ const std::vector<Kind>& kinds() {
         {"lz4", DepthCodecId::lz4, has_lz4(), read_lz4, make_lz4},
         {"ans", DepthCodecId::ans, true, read_delta, [](P p) { return make_ans(p.delta); }},
         {"strata", DepthCodecId::strata, true, read_strata,
-         [](P p) -> std::unique_ptr<DepthCodec> { return make_strata(p.strata); }},
+         [](P p) { return make_strata(p.strata); }},
     };
     return all;
 }

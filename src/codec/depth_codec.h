@@ -13,6 +13,7 @@
 
 #include "base/bytes.h"
 #include "base/status.h"
+#include "codec/strata_region.h"
 #include "image/image.h"
 
 namespace theatron::codec {
@@ -34,6 +35,10 @@ public:
     virtual bool lossless() const = 0;
     // True if the codec makes use of a reference frame.
     virtual bool temporal() const = 0;
+    // The part of the image that stays exact from the next encoded frame on, for
+    // codecs whose error is bounded outside of it; others leave it alone. Empty
+    // while none is drawn. It must be strata::is_valid.
+    virtual void set_region(strata::Region) {}
     // Bytes that always suffice for an image of this size.
     virtual std::size_t max_encoded_size(Size size) const = 0;
 

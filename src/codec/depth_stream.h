@@ -78,6 +78,9 @@ public:
 
     std::size_t max_encoded_size(Size size) const { return codec_->max_encoded_size(size); }
 
+    // As DepthCodec::set_region.
+    void set_region(strata::Region region) { codec_->set_region(std::move(region)); }
+
     // Encodes `depth` into `out` (max_encoded_size bytes). It becomes a key frame
     // if `key` says so, if it is the first, if the image has changed its size, or
     // if the codec is not temporal. A key frame starts a new group. Frame numbers

@@ -43,7 +43,7 @@ std::uint8_t next_age(bool delta, const Memory& before) {
     return delta ? std::uint8_t(before.head->age % period + 1) : std::uint8_t(0);
 }
 
-class Codec final : public StrataCodec {
+class Codec final : public DepthCodec {
 public:
     explicit Codec(const StrataParams& params) {
         tolerance_.constant = std::uint16_t(params.max_error_mm);
@@ -340,7 +340,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
 
 }  // namespace
 
-std::unique_ptr<StrataCodec> make_strata(const StrataParams& params) {
+std::unique_ptr<DepthCodec> make_strata(const StrataParams& params) {
     return std::make_unique<Codec>(params);
 }
 

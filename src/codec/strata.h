@@ -32,14 +32,7 @@ struct StrataExactness {
     strata::Region region;  // if it is not the whole image
 };
 
-class StrataCodec : public DepthCodec {
-public:
-    // The part of the image that stays exact from the next encoded frame on;
-    // empty as long as none is drawn. It must be strata::is_valid.
-    virtual void set_region(strata::Region region) = 0;
-};
-
-std::unique_ptr<StrataCodec> make_strata(const StrataParams& params);
+std::unique_ptr<DepthCodec> make_strata(const StrataParams& params);
 
 // Where an encoded image is exact. Safe for untrusted input.
 Result<StrataExactness> read_strata_exactness(ByteView encoded);

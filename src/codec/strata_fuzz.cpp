@@ -10,7 +10,7 @@
 namespace theatron::codec {
 namespace {
 
-Reference reference_of(StrataCodec& codec, Size size) {
+Reference reference_of(DepthCodec& codec, Size size) {
     const DepthImage image = scene(size, 1);
     Reference reference;
     Bytes encoded(codec.max_encoded_size(size));
@@ -18,7 +18,7 @@ Reference reference_of(StrataCodec& codec, Size size) {
     return reference;
 }
 
-void check(StrataCodec& codec, ByteView input) {
+void check(DepthCodec& codec, ByteView input) {
     const Result<Size> size = codec.read_size(input);
     if (!size || size->area() > 1 << 14)
         return;

@@ -40,7 +40,7 @@ struct Chain {
         return status;
     }
 
-    std::unique_ptr<StrataCodec> encoder, decoder;
+    std::unique_ptr<DepthCodec> encoder, decoder;
     Reference at_encoder, at_decoder, sent, received;
     bool has_reference = false;
     Bytes encoded;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "codec/strata.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::receive {
@@ -46,9 +47,12 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
         if (stream.is_depth) {
             const auto parsed = video::parse_depth_setting(s.codec);
             problem = parsed.problem;
-            if (problem.empty())
+            if (problem.empty()) {
+                stream.depth_setting = parsed.setting;
+                stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
                 stream.depth = std::make_unique<codec::DepthStreamDecoder>(
                     video::make_depth_decoder(parsed.setting));
+            }
         } else {
             const auto parsed = video::parse_color_setting(s.codec);
             problem = parsed.problem;
@@ -136,6 +140,9 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     stream.age_ms = to_ms(now - header.captured);
     stream.ages.add(stream.age_ms);
 
+    stream.newest_captured = header.captured;
+    stream.exact = exactness(stream, payload);
+
     CameraState& camera = cameras_[stream.camera];
     // Its colour never came: better shown with an older one than not at all.
     if (camera.depth)
@@ -145,6 +152,18 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
         (camera.color && frames_after(camera.color_number, frame->number) >= 0))
         hand_on(camera);
     return Status::ok;
+}
+
+// `payload` has been decoded.
+Exactness Receiver::exactness(const Stream& stream, ByteView payload) {
+    if (stream.depth_is_lossless)
+        return Exactness::everywhere;
+    if (stream.depth_setting.id != codec::DepthCodecId::strata)
+        return Exactness::nowhere;
+    const auto exact = codec::read_strata_exactness(payload);
+    if (exact && exact->whole_image)
+        return Exactness::everywhere;
+    return exact && !exact->region.empty() ? Exactness::region : Exactness::nowhere;
 }
 
 Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
@@ -161,6 +180,7 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
         stream.asked_for_key = false;
     while (auto decoded = stream.color->poll()) {
         ++stream.frames;
+        stream.newest_captured = header.captured;
         stream.frame_rate.add(now);
         stream.age_ms = to_ms(now - header.captured);
         stream.ages.add(stream.age_ms);
@@ -192,10 +212,12 @@ void Receiver::ask_for_key(StreamId id, Stream& stream, TimePoint now) {
 
 std::vector<StreamFigures> Receiver::figures(TimePoint now) {
     std::vector<StreamFigures> result;
-    for (auto& [id, s] : streams_)
+    for (auto& [id, s] : streams_) {
+        const double age_now = s.frames > 0 ? to_ms(now - s.newest_captured) : 0;
         result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
-                          s.frames, s.bytes, s.dropped, s.newest, s.age_ms, s.ages.percentile(0.5),
-                          s.ages.percentile(0.99), s.ages.max()});
+                          s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
+                          s.ages.percentile(0.5), s.ages.percentile(0.99), s.ages.max()});
+    }
     return result;
 }
 

@@ -35,6 +35,13 @@ struct CameraFrame {
 };
 using CameraFramePtr = std::shared_ptr<const CameraFrame>;
 
+// Where depth is what the host's filters gave, to the bit.
+enum class Exactness {
+    nowhere,
+    region,  // bounded error outside of the region of interest
+    everywhere,
+};
+
 // What of one stream came so far, for status lines and reports to the host.
 struct StreamFigures {
     StreamId stream{};
@@ -45,7 +52,9 @@ struct StreamFigures {
     std::uint64_t bytes = 0;
     std::uint64_t dropped = 0;  // frames made by the host that were not decoded here
     FrameNumber newest = 0;
-    double age_ms = 0;  // of the newest frame, when it was decoded
+    double age_ms = 0;                     // of the newest frame, when it was decoded
+    double age_now_ms = 0;                 // of the newest frame, now
+    Exactness exact = Exactness::nowhere;  // of the newest depth frame
     double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
 };
 
@@ -80,6 +89,8 @@ private:
         bool is_depth = false;
         SettingId setting{};
         std::string codec;
+        codec::DepthSetting depth_setting;
+        bool depth_is_lossless = false;  // as the setting says, whatever the region
         std::unique_ptr<codec::DepthStreamDecoder> depth;
         std::unique_ptr<video::ColorDecoder> color;
         video::ColorCodecId color_codec{};
@@ -92,6 +103,8 @@ private:
         RateWindow frame_rate, bit_rate;
         SampleWindow ages{4000};
         double age_ms = 0;
+        TimePoint newest_captured;
+        Exactness exact = Exactness::nowhere;
         bool asked_for_key = false;
         TimePoint asked_at;
     };
@@ -108,6 +121,7 @@ private:
     Status decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
     void count(Stream& stream, const wire::MediaHeader& header, std::size_t size, TimePoint now);
+    static Exactness exactness(const Stream& stream, ByteView payload);
     void ask_for_key(StreamId id, Stream& stream, TimePoint now);
     void hand_on(CameraState& camera);
 

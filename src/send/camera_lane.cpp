@@ -78,6 +78,13 @@ void CameraLane::set_settings(std::vector<LaneSetting> depth, std::vector<LaneSe
     newest_.wake();
 }
 
+void CameraLane::set_region(codec::strata::Region region) {
+    assert(codec::strata::is_valid(region));
+    const std::lock_guard lock(mutex_);
+    region_ = std::move(region);
+    settings_changed_ = true;
+}
+
 void CameraLane::request_key(StreamId stream, SettingId setting) {
     const std::lock_guard lock(mutex_);
     keys_wanted_.insert({stream, setting});
@@ -153,6 +160,8 @@ void CameraLane::update_encoders(Encoders& encoders) {
             keys_wanted_.insert({color_stream(id_), s.id});
         }
         encoders.depth = std::move(depth);
+        for (Encoders::Depth& setting : encoders.depth)
+            setting.encoder.set_region(region_);
         encoders.color = std::move(color);
     }
     encoders.keys.merge(keys_wanted_);

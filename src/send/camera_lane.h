@@ -21,6 +21,7 @@
 #include "base/pool.h"
 #include "base/statistics.h"
 #include "capture/camera.h"
+#include "codec/strata_region.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
 
@@ -74,6 +75,11 @@ public:
     // begins with a key frame.
     void set_settings(std::vector<LaneSetting> depth, std::vector<LaneSetting> color);
 
+    // From any thread. The part of the depth image, in its pixels, that stays exact
+    // from the next frame on where a codec's error is bounded; empty: all of it.
+    // It must be strata::is_valid.
+    void set_region(codec::strata::Region region);
+
     // From any thread. The next frame, or if none comes soon the last one again,
     // becomes a key frame.
     void request_key(StreamId stream, SettingId setting);
@@ -99,7 +105,8 @@ private:
 
     mutable std::mutex mutex_;  // guards all below
     std::vector<LaneSetting> depth_settings_, color_settings_;
-    bool settings_changed_ = false;
+    codec::strata::Region region_;
+    bool settings_changed_ = false;  // or the region
     std::set<std::pair<StreamId, SettingId>> keys_wanted_;
     std::uint64_t frames_ = 0, dropped_newest_ = 0, bytes_ = 0;
     mutable RateWindow rate_;
