@@ -166,6 +166,42 @@ TEST_F(Lane, ColorFramesNameWhatTheyReferTo) {
     }
 }
 
+TEST_F(Lane, TheRegionHoldsFromTheNextFrameOn) {
+    lane->set_settings({{SettingId{1}, "strata:max_error_mm=9"}}, {});
+    const auto give_slope = [&] {
+        auto frame = std::make_shared<Frame>();
+        frame->depth = DepthImage(size);
+        for (std::size_t i = 0; i < size.area(); ++i)
+            frame->depth.pixels[i] = std::uint16_t(1000 + i * 7919 % 1000);
+        frame->times.captured = frame->times.delivered = steady_now();
+        script->give({capture::Capture::Kind::frame, frame, ""});
+        return frame->depth.pixels;
+    };
+    const codec::strata::Region regions[] = {{}, {codec::strata::box(4, 3, 9, 8)}, {}};
+    codec::DepthStreamDecoder decoder(codec::parse_depth_setting("strata").setting);
+    DepthImage image(size);
+    for (std::size_t n = 0; n < std::size(regions); ++n) {
+        lane->set_region(regions[n]);
+        const auto given = give_slope();
+        ASSERT_TRUE(wait_for(n + 1));
+        const std::lock_guard lock(mutex);
+        const wire::MediaHeader& h = published[n].header;
+        EXPECT_EQ(h.key, n == 0);
+        ASSERT_EQ(decoder.decode({h.frame, h.reference, h.temporal_layer, h.key},
+                                 wire::media_payload(*published[n].message), image.view()),
+                  Status::ok);
+        int changed_inside = 0, changed_outside = 0;
+        for (std::size_t i = 0; i < size.area(); ++i) {
+            const int x = int(i) % size.width, y = int(i) / size.width;
+            const bool inside = regions[n].empty() || (x >= 4 && x < 9 && y >= 3 && y < 8);
+            (inside ? changed_inside : changed_outside) += image.pixels[i] != given[i];
+            EXPECT_LE(std::abs(int(image.pixels[i]) - int(given[i])), 9);
+        }
+        EXPECT_EQ(changed_inside, 0) << n;
+        EXPECT_EQ(changed_outside > 0, !regions[n].empty()) << n;
+    }
+}
+
 TEST_F(Lane, NothingIsEncodedForNobody) {
     script->give_frame(1000);
     script->give_frame(1001);
