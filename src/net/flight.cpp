@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wire/control.h"
+
 namespace theatron::net {
 namespace {
 
@@ -20,6 +22,8 @@ constexpr Duration bucket = std::chrono::seconds(5);
 // after so long without a short one, less is sent for a moment.
 constexpr Duration low_patience = std::chrono::seconds(3);
 constexpr double drain_share = 0.75;
+// Whatever the window, the peer's last word lets something more be sent.
+static_assert(wire::max_unacknowledged < std::size_t(Flight::smallest_window));
 // A peer that acknowledges nothing must not cost memory.
 constexpr std::size_t max_chunks = 8192;
 

@@ -255,6 +255,21 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     EXPECT_EQ(viewer.settings()[0].codec, "rvl");
 }
 
+TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {
+    ViewerSession viewer({});
+    ASSERT_EQ(viewer.on_control(wire::encode_control(wire::Welcome{})),
+              ViewerSession::Change::welcomed);
+    // All at once, and no message ends: the host may wait for the word before it goes on.
+    const TimePoint now = from_us(1'000'000);
+    std::uint64_t told = 0;
+    for (std::uint64_t bytes = 0; bytes < 1'000'000; bytes += 16 * 1024) {
+        if (const auto message = viewer.on_received(bytes, false, now))
+            told = std::get<wire::Received>(*wire::decode_control(*message)).media_bytes;
+        EXPECT_LT(bytes - told, wire::max_unacknowledged);
+    }
+    EXPECT_TRUE(viewer.on_received(1'000'001, true, now));
+}
+
 TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
     ViewerSession viewer({});
     EXPECT_EQ(viewer.on_control(Bytes(7)), ViewerSession::Change::nothing);

@@ -16,7 +16,8 @@ Bytes ViewerSession::begin() {
     settings_.clear();
     camera_states_.clear();
     delivery_ = {};
-    acknowledged_ = {};
+    acknowledged_at_ = {};
+    acknowledged_ = 0;
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -76,9 +77,12 @@ Bytes ViewerSession::choose_delivery(const wire::ChooseDelivery& goal) {
 
 std::optional<Bytes> ViewerSession::on_received(std::uint64_t media_bytes, bool message_complete,
                                                 TimePoint now) {
-    if (!joined_ || (!message_complete && now - acknowledged_ < acknowledge_interval))
+    const bool may_wait = !message_complete && now - acknowledged_at_ < acknowledge_interval &&
+                          media_bytes - acknowledged_ < wire::max_unacknowledged;
+    if (!joined_ || may_wait)
         return std::nullopt;
-    acknowledged_ = now;
+    acknowledged_at_ = now;
+    acknowledged_ = media_bytes;
     return wire::encode_control(wire::Received{media_bytes});
 }
 

@@ -74,7 +74,8 @@ private:
     std::string refusal_;
     wire::Pong pong_;
     wire::Delivery delivery_;
-    TimePoint acknowledged_;
+    TimePoint acknowledged_at_;
+    std::uint64_t acknowledged_ = 0;
 };
 
 }  // namespace theatron::session

@@ -290,7 +290,8 @@ int main(int argc, char** argv) {
             listening = read(STDIN_FILENO, line, sizeof(line)) > 0;
             if (listening) {
                 begin = Clock::now();
-                next_change = 1;
+                shape = {};
+                next_change = 0;
             }
         }
     }
