@@ -16,7 +16,9 @@ constexpr double hopeless = 1.5;
 // Of a link since a trial failed on it: the failure says nothing about it any more.
 constexpr double clearly_better = 1.3;
 
-constexpr int late_measures = 2;  // one late frame is an accident
+// One late frame is an accident, and BBR's probing (a fifth of a second, every ten) is
+// no slow link.
+constexpr int late_measures = 3;
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
 constexpr Duration longest_patience = std::chrono::seconds(60);
@@ -60,9 +62,8 @@ bool SendingPolicy::fail_trial(const LinkMeasure& link) {
 }
 
 bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal) {
-    const bool late = link.delay > goal;
-    late_in_a_row_ = late ? late_in_a_row_ + 1 : 0;
-    return late_in_a_row_ >= late_measures || (late && link.dropped > 0);
+    late_in_a_row_ = link.delay > goal ? late_in_a_row_ + 1 : 0;
+    return late_in_a_row_ >= late_measures;
 }
 
 // The best step below the present one that the link is measured to carry in time.
@@ -109,12 +110,14 @@ bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> ne
         calm_since_ = now;
     if (late && now >= settled_ && step_ < last) {
         // What the link carried before the trial it most likely still does.
-        if (fail_trial(link) && carries(link, needs[std::size_t(step_ + 1)], 1))
+        const bool back = fail_trial(link) && carries(link, needs[std::size_t(step_ + 1)], 1);
+        if (back)
             go(step_ + 1, SendingReason::trial_failed, now);
         else
             go(step_for(link, needs, reachable), SendingReason::late, now);
-        // What is on its way has to arrive before the step can show.
-        settled_ = now + shortest_settling + 2 * link.round_trip;
+        // What is on its way has to arrive before the step can show; on a link that
+        // carries the step just so that takes longer.
+        settled_ = now + (back ? 2 : 1) * shortest_settling + 2 * link.round_trip;
         return true;
     }
     return (step_ > 0 && step_up(link, needs, goal, reachable, now)) || step_ != before;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -38,9 +39,9 @@ public:
         waiting_ += (need.bytes_per_second - carries) * 0.1;
         waiting_ = std::max(waiting_, 0.0);
         LinkMeasure m;
-        // No more than two frames wait, the others are dropped.
-        if (waiting_ > 2 * need.bytes_at_once) {
-            waiting_ = 2 * need.bytes_at_once;
+        // The newest wins: it takes the place of the one that waits.
+        if (waiting_ > need.bytes_at_once) {
+            waiting_ = std::fmod(waiting_, need.bytes_at_once);
             m.dropped = 1;
         }
         m.bytes_per_second = carries;

@@ -27,13 +27,13 @@ def missing():
 class ShapedLink:
     """settings: words of link_shaper, for example ["delay_ms=30", "--at", "10", "rate=25%"]."""
 
-    def __init__(self, *settings):
+    def __init__(self, *settings, priority=()):
         mark = uuid.uuid4().hex[:8]
         self.names = [f"theatron{mark}{side}" for side in "ab"]
         for name in self.names:
             subprocess.run(["ip", "netns", "add", name], check=True)
             subprocess.run(["ip", "-n", name, "link", "set", "lo", "up"], check=True)
-        self.shaper = subprocess.Popen([SHAPER, *self.names, *map(str, settings)], stdin=subprocess.PIPE,
+        self.shaper = subprocess.Popen([*priority, SHAPER, *self.names, *map(str, settings)], stdin=subprocess.PIPE,
                                        stdout=subprocess.PIPE, text=True)
         if self.shaper.stdout.readline() != "ready\n":
             self.close()

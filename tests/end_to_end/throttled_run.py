@@ -30,6 +30,7 @@ class Sample:
         self.mbit = figures["mbit_per_s"]
         self.fps = figures["fps"]
         self.ages = [camera["newest_age_ms"] for camera in figures["cameras"]]
+        self.shown_ages = [camera["age_now_ms"] for camera in figures["cameras"]]
         self.frames = [camera["frames"] for camera in figures["cameras"]]
         self.age_max = figures["age_ms"]["max"]
 
@@ -46,7 +47,7 @@ def run(state, cameras, link, before, slow, after, arguments=(), priority=()):
     """Returns the samples of a run with the given link settings before, while slow, and after."""
     settings = [*link, "--at", before, *slow_settings(slow), "--at", before + slow["seconds"], "rate=100%"]
     samples = []
-    with ShapedLink(*settings) as shaped, \
+    with ShapedLink(*settings, priority=priority) as shaped, \
             host(state, *cameras, listen=f"{HOST_ADDRESS}:0", prefix=[*shaped.at_host(), *priority]) as h, \
             Process("join", h.greeting["link"], "--every", "0.05", *arguments,
                     prefix=[*shaped.at_viewer(), *priority]) as viewer:
@@ -78,6 +79,9 @@ def summary(samples, before, slow_seconds):
     def ages(part):
         return [max(s.ages) for s in part]
 
+    def shown(part):
+        return [max(s.shown_ages) for s in part]
+
     def longest_pause(part):
         longest, last, frames = 0, None, None
         for s in part:
@@ -94,6 +98,8 @@ def summary(samples, before, slow_seconds):
     return {
         "age_before_p50_ms": percentile(ages(quiet), 0.5), "age_before_p95_ms": percentile(ages(quiet), 0.95),
         "age_slow_p50_ms": percentile(ages(late), 0.5), "age_slow_p95_ms": percentile(ages(late), 0.95),
+        "shown_slow_p95_ms": percentile(shown(late), 0.95),
+        "shown_recovered_p95_ms": percentile(shown(recovered), 0.95),
         "age_max_ms": max(ages(throttled_and_after), default=float("inf")),
         "longest_pause_ms": 1000 * longest_pause(slow),
         "fps_slow": percentile([s.fps for s in late], 0.5), "mbit_slow": percentile([s.mbit for s in late], 0.5),

@@ -298,6 +298,17 @@ TEST(AdaptiveSending, LossesHoldUpButDoNotRuin) {
     }
 }
 
+TEST(AdaptiveSending, AShortStallIsNoSlowLink) {
+    Simulation s(40 * mbit);
+    s.down.bytes_per_second = 80 * mbit;
+    for (int i = 0; i < 6; ++i) {
+        s.run(3);
+        s.down.stall(200ms, s.now);
+    }
+    EXPECT_TRUE(s.levels.empty());
+    EXPECT_GE(s.depth.size(), 500u);
+}
+
 TEST(AdaptiveSending, KeepsToACeiling) {
     Simulation s(40 * mbit, 1, {150, 15'000});
     s.down.bytes_per_second = 200 * mbit;

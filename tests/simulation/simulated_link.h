@@ -29,6 +29,9 @@ public:
         under_way_.push_back({arrives_, std::move(envelope)});
     }
 
+    // Nothing arrives for so long, all the sooner afterwards.
+    void stall(Duration length, TimePoint now) { stalled_until_ = now + length; }
+
     // The next envelope that has arrived by now.
     bool receive(Bytes& envelope, TimePoint now) {
         if (under_way_.empty() || under_way_.front().first > now)
