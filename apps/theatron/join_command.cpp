@@ -237,7 +237,8 @@ void add_join_command(CLI::App& app) {
         "  theatron join LINK\n"
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
         "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
-        "--json");
+        "--json\n"
+        "  theatron join LINK --target-latency 250 --max-mbit 15");
     command->add_option("link", flags->link, "The link that the host printed")->required();
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->capture_default_str();
@@ -266,7 +267,8 @@ void add_join_command(CLI::App& app) {
         ->add_option(
             "--target-latency", flags->target_latency_ms,
             "Age in milliseconds that the host should aim at; on a slow link it leaves out "
-            "frames, then makes colour coarser. 0: nothing is left out on purpose")
+            "frames, then makes colour coarser, last depth outside the region of interest. 0: "
+            "nothing is left out on purpose")
         ->capture_default_str()
         ->check(CLI::Range(0, 60'000));
     command

@@ -36,6 +36,7 @@ session::CodecSteps codec_steps() {
     steps.coarser = [](const std::string&) {
         return std::vector<session::CodecSteps::Coarser>{{"q60", 0.5}, {"q40", 0.4}, {"q20", 0.25}};
     };
+    steps.lossy_outside_region = [](const std::string& depth) { return depth + ",loss"; };
     return steps;
 }
 
@@ -65,6 +66,13 @@ public:
             }
             carry();
         }
+    }
+
+    void draw_region(bool drawn) { host_.on_region(drawn); }
+    // What is encoded of depth now.
+    bool is_lossy() const {
+        return std::any_of(host_.depth_settings().begin(), host_.depth_settings().end(),
+                           [](const auto& s) { return s.codec.ends_with(",loss"); });
     }
 
     struct Arrived {
@@ -146,7 +154,12 @@ private:
                           : in_group == 0 ? number - 4
                           : in_group == 2 ? number - 2
                                           : number - 1;
-            publish(h, number, need_ / 30 * 0.67 * wave * (key ? 1.3 : in_group == 0 ? 1.1 : 1));
+            const double loss = setting.codec.ends_with(",loss") ? 0.6 : 1;
+            publish(h, number,
+                    need_ / 30 * 0.67 * loss * wave *
+                        (key             ? 1.3
+                         : in_group == 0 ? 1.1
+                                         : 1));
         }
         for (const auto& setting : host_.color_settings()) {
             wire::MediaHeader h;
@@ -318,6 +331,27 @@ TEST(AdaptiveSending, KeepsToACeiling) {
     EXPECT_LE(double(s.bytes - before) / 20, 15 * mbit);
     EXPECT_GE(double(s.bytes - before) / 20, 8 * mbit);
     EXPECT_LE(percentile(s.ages(s.now - 20s, s.now), 0.95), 250);
+}
+
+TEST(AdaptiveSending, DepthIsLossyOnlyWhileARegionIsDrawn) {
+    Simulation s(40 * mbit);
+    s.down.bytes_per_second = 5 * mbit;
+    s.run(20);
+    const int last = s.level();
+    EXPECT_FALSE(s.is_lossy());
+    s.draw_region(true);
+    s.run(10);
+    EXPECT_TRUE(s.is_lossy());
+    EXPECT_EQ(s.level(), last + 1);
+    s.draw_region(false);
+    EXPECT_FALSE(s.is_lossy());
+    s.run(1);
+    EXPECT_EQ(s.level(), last);
+    s.draw_region(true);
+    s.down.bytes_per_second = 80 * mbit;
+    s.run(20);
+    EXPECT_FALSE(s.is_lossy());
+    EXPECT_EQ(s.level(), 0);
 }
 
 TEST(AdaptiveSending, AViewerThatStopsReadingFindsLittleWhenItWakes) {
