@@ -23,7 +23,7 @@ public:
     static constexpr Duration allowed_queue = std::chrono::milliseconds(30);
     // Before anything is known about the way, and never less than the latter.
     static constexpr double first_window = 1 << 20;
-    static constexpr double smallest_window = 48 * 1024;
+    static constexpr double smallest_window = 28 * 1024;
 
     // A chunk leaves. `queued` is when its message was there to be sent.
     void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now);
@@ -41,7 +41,7 @@ public:
     double window(TimePoint now) const;
     // What the way carries; 0 while it is not known, or was last seen long ago.
     double bytes_per_second(TimePoint now) const;
-    Duration round_trip() const;      // the shortest of the last seconds
+    Duration round_trip() const;  // the shortest of the last seconds
 
     // The longest time from queued to arrived, of messages that arrived since the
     // last call and of the oldest that has not.

@@ -63,7 +63,7 @@ struct Report {
 // Sent as media arrives: the host keeps no more on the way than the link carries.
 // A participant never owes word of more than max_unacknowledged bytes, so a host
 // that waits for less than that to be left on the way waits for nothing.
-inline constexpr std::size_t max_unacknowledged = 32 * 1024;
+inline constexpr std::size_t max_unacknowledged = 24 * 1024;
 struct Received {
     std::uint64_t media_bytes = 0;  // of chunks, since the connection began
 };

@@ -27,6 +27,7 @@ class Sample:
         self.level = figures["level"]
         self.sent = figures["sent"]
         self.reason = figures["level_reason"]
+        self.exact = [camera["depth_exact"] for camera in figures["cameras"]]
         self.mbit = figures["mbit_per_s"]
         self.fps = figures["fps"]
         self.ages = [camera["newest_age_ms"] for camera in figures["cameras"]]
@@ -43,12 +44,13 @@ def measure_need(state, cameras, arguments):
         return viewer.read_json(60)["mbit_per_s"]
 
 
-def run(state, cameras, link, before, slow, after, arguments=(), priority=()):
+def run(state, cameras, link, before, slow, after, arguments=(), priority=(), host_options=()):
     """Returns the samples of a run with the given link settings before, while slow, and after."""
     settings = [*link, "--at", before, *slow_settings(slow), "--at", before + slow["seconds"], "rate=100%"]
     samples = []
     with ShapedLink(*settings, priority=priority) as shaped, \
-            host(state, *cameras, listen=f"{HOST_ADDRESS}:0", prefix=[*shaped.at_host(), *priority]) as h, \
+            host(state, *cameras, listen=f"{HOST_ADDRESS}:0", options=host_options,
+                 prefix=[*shaped.at_host(), *priority]) as h, \
             Process("join", h.greeting["link"], "--every", "0.05", *arguments,
                     prefix=[*shaped.at_viewer(), *priority]) as viewer:
         viewer.wait_for(lambda f: f["fps"] > 0, 30)
@@ -102,6 +104,7 @@ def summary(samples, before, slow_seconds):
         "shown_recovered_p95_ms": percentile(shown(recovered), 0.95),
         "age_max_ms": max(ages(throttled_and_after), default=float("inf")),
         "longest_pause_ms": 1000 * longest_pause(slow),
+        "exact_slow": sorted({e for s in slow for e in s.exact}),
         "fps_slow": percentile([s.fps for s in late], 0.5), "mbit_slow": percentile([s.mbit for s in late], 0.5),
         "level_slow": percentile([s.level for s in late], 0.5), "level_slow_max": max(s.level for s in slow),
         "age_recovered_p50_ms": percentile(ages(recovered), 0.5),
@@ -124,6 +127,7 @@ def main():
     parser.add_argument("--loss", type=float, default=0, help="percent of packets")
     parser.add_argument("--priority", help="a command to run host and viewer with, such as 'chrt -r 5'", default="")
     parser.add_argument("--join", help="further words for theatron join", default="")
+    parser.add_argument("--host", help="further words for theatron host", default="")
     parser.add_argument("--samples", help="write every sample to this CSV file")
     parser.add_argument("--json", help="write the figures to this file")
     flags = parser.parse_args()
@@ -138,7 +142,7 @@ def main():
                 f"loss={flags.loss}%"]
         slow = {"seconds": flags.slow_seconds, "percent": 100 * flags.slow / flags.link}
         samples = run(state, flags.camera, link, flags.before, slow, flags.after, flags.join.split(),
-                      flags.priority.split())
+                      flags.priority.split(), flags.host.split())
     finally:
         shutil.rmtree(state)
     figures = {"need_mbit": need, "link_mbit": rate, "slow_mbit": flags.slow * need,
