@@ -20,9 +20,12 @@ struct Way {
 
     void run(double seconds) {
         for (const TimePoint end = now + seconds_to_duration(seconds); now < end; now += 500us) {
-            for (; !answers_.empty() && answers_.front().at <= now; answers_.pop_front())
+            for (; !answers_.empty() && answers_.front().at <= now; answers_.pop_front()) {
                 flight.acknowledge(answers_.front().total, now);
-            while (flight.may_send(now)) {
+                answered_ = true;
+            }
+            // Nothing holds back a sender that has had no answer yet.
+            while (flight.may_send(now) && (answered_ || total == 0)) {
                 flight.sent(chunk, now, true, now);
                 total += chunk;
                 free_at_ =
@@ -39,6 +42,7 @@ private:
         std::uint64_t total;
     };
     std::deque<Answer> answers_;
+    bool answered_ = false;
     TimePoint free_at_;
 };
 

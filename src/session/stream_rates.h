@@ -3,6 +3,7 @@
 // receiver's share of it would take.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
