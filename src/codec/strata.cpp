@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "codec/remember.h"
 #include "codec/strata_kernel.h"
 #include "codec/strata_memory.h"
 #include "codec/strata_payload.h"
@@ -249,11 +248,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());
-        next->depth.resize(depth.size);
-        if (lossy)
-            steps_to_rows(layout_, pixels_.data(), next->depth.view());
-        else
-            remember(depth, next);
+        next->depth.pixels.clear();
     }
     return put_payload(payload, side_, stream, out);
 }
@@ -327,7 +322,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());
-        remember(out, next);
+        next->depth.pixels.clear();
     }
     return Status::ok;
 }

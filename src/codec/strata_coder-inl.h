@@ -239,10 +239,11 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
                 const int lane = i * chunk_lanes;
                 const V32 token = hn::And(load32(tokens + lane), hn::Set(d, token_count - 1));
                 const V32 bits = extra_bits_of(token);
-                const V32 bound =
-                    hn::Sub(hn::Shl(hn::Set(d, 1), hn::Sub(hn::Set(d, 31), bits)), hn::Set(d, 1));
+                const V32 one = hn::Set(d, 1);
+                const V32 bound = hn::Sub(hn::Shl(one, hn::Sub(hn::Set(d, 31), bits)), one);
                 const V32 state = emit(states[i], above(states[i], bound), out);
-                states[i] = hn::Or(hn::Shl(state, bits), load32(extras + lane));
+                const V32 extra = hn::And(load32(extras + lane), hn::Sub(hn::Shl(one, bits), one));
+                states[i] = hn::Or(hn::Shl(state, bits), extra);
             }
         }
         for (int i = 0; i < max_chunks; ++i) {

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <vector>
 
-#include "codec/lanes.h"
-
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "codec/strata_kernel.cpp"
@@ -134,11 +132,11 @@ HWY_INLINE void load_weights(const Weights& from, LinearWeights& weights) {
         weights[i] = hn::Set(S16(), from[i]);
 }
 
-// The code of each difference as a token, and its further bits. True if any has.
-HWY_INLINE bool tokens_of(V16 code, V16& token, V16& extra) {
+// The code of each difference as a token. True if any has further bits; they are
+// then stored.
+HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     const D16 d;
     token = hn::Add(code, hn::Set(d, first_token));
-    extra = hn::Zero(d);
     const auto is_long = hn::Gt(code, hn::Set(d, direct_tokens - 1));
     if (HWY_LIKELY(hn::AllFalse(d, is_long)))
         return false;
@@ -156,7 +154,7 @@ HWY_INLINE bool tokens_of(V16 code, V16& token, V16& extra) {
         extras[i] = hn::And(wide[i], hn::Sub(hn::Shl(one, hn::And(bits, hn::Set(d32, 15))), one));
     }
     token = hn::IfThenElse(is_long, narrow(tokens), token);
-    extra = hn::IfThenElseZero(is_long, narrow(extras));
+    hn::StoreU(hn::IfThenElseZero(is_long, narrow(extras)), d, extra);
     return true;
 }
 
@@ -164,9 +162,8 @@ HWY_INLINE bool tokens_of(V16 code, V16& token, V16& extra) {
 // row do not wait for each other.
 HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
     for (int lane = 0; lane < lane_count; lane += 4) {
-        const Lanes four = load_lanes(tokens + lane);
-        for (unsigned i = 0; i < 4; ++i)
-            ++counts.of[i][codec::lane(four, i)];
+        for (int i = 0; i < 4; ++i)
+            ++counts.of[i][tokens[lane + i]];
     }
 }
 
@@ -194,18 +191,20 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
             const auto is_measured = hn::Gt(hn::Add(depth, one), one);
 
             V16 difference = hn::IfThenElseZero(is_measured, hn::Sub(depth, p.depth));
-            V16 token, extra;
+            V16 token;
             // 0 and 65535 as tokens.
             const V16 hole = hn::And(depth, one);
+            std::uint16_t* const extra = coded.extra + at;
             if constexpr (lossy) {
                 const Quantised q = quantise(model, p.depth, depth, is_measured, model.region + at);
                 difference = q.difference;
                 depth = q.depth;
+                hn::StoreU(hn::Zero(d), d, extra);
                 has_extra |=
                     tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
                 has_extra |= !hn::AllFalse(d, q.is_literal);
                 token = hn::IfThenElse(q.is_literal, q.literal_token, token);
-                extra = hn::IfThenElse(q.is_literal, q.literal, extra);
+                hn::StoreU(hn::IfThenElse(q.is_literal, q.literal, hn::LoadU(d, extra)), d, extra);
                 hn::StoreU(depth, d, pixels + at);
             } else {
                 has_extra |=
@@ -220,7 +219,8 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
             V16 context = p.context;
             if (HWY_UNLIKELY(!step.inside)) {
                 const Outside outside =
-                    outside_of(model.layout, step, window.left, window.valid[0], lane);
+                    outside_of(model.layout, step.position, step.group, step.depth, step.valid,
+                               window.left, window.valid[0], lane);
                 is_pixel = outside.is_pixel;
                 const auto mask = hn::MaskFromVec(is_pixel);
                 context = hn::IfThenElse(mask, context, hn::Set(d, idle_context));
@@ -228,7 +228,6 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
                 valid = hn::IfThenElse(mask, valid, outside.valid);
             }
             hn::StoreU(hn::Add(hn::ShiftLeft<6>(context), token), d, coded.token + at);
-            hn::StoreU(hn::IfThenElseZero(is_measured, extra), d, coded.extra + at);
             keep<blend>(p.candidate, depth, size, is_pixel, valid, step, walk.traces, window, lane);
         }
         coded.has_extra[t] = has_extra;
@@ -263,7 +262,8 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             Prediction& p = predictions[part];
             p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
             if (HWY_UNLIKELY(!step.inside)) {
-                outsides[part] = outside_of(model.layout, step, window.left, window.valid[0], lane);
+                outsides[part] = outside_of(model.layout, step.position, step.group, step.depth,
+                                            step.valid, window.left, window.valid[0], lane);
                 p.context = hn::IfThenElse(hn::MaskFromVec(outsides[part].is_pixel), p.context,
                                            hn::Set(d, idle_context));
             }

@@ -55,8 +55,8 @@ struct TokenCounts {
 // What the model pass makes of the pixels. One value per step and lane, without
 // margins, but has_extra, which is by step.
 struct CodedPixels {
-    std::uint16_t* token = nullptr;  // context * token_count + token
-    std::uint16_t* extra = nullptr;
+    std::uint16_t* token = nullptr;     // context * token_count + token
+    std::uint16_t* extra = nullptr;     // only where a token has further bits
     std::uint8_t* has_extra = nullptr;  // 1 if any lane's token has further bits
     TokenCounts* counts = nullptr;      // is added to
 };

@@ -6,6 +6,8 @@
 // the pixels are. docs/formats/strata.md has the same in words.
 
 // No include guard: the namespace differs from one inclusion to the next.
+#include <algorithm>
+
 #include "codec/strata_kernel.h"
 #include "hwy/highway.h"
 
@@ -144,14 +146,51 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w,
     return hn::IfThenElse(close, hn::AverageRound(pick, next), pick);
 }
 
-// The context's part that says how large the differences nearby are, times 3:
-// how many of activity_bounds are reached.
-HWY_INLINE V16 level_of_activity(V16 activity) {
+// How many activity_bounds an activity reaches, times 3.
+constexpr std::uint8_t activity_part(unsigned activity) {
+    unsigned part = 0;
+    for (const std::uint16_t bound : activity_bounds)
+        part += activity >= bound ? 3 : 0;
+    return std::uint8_t(part);
+}
+
+// The same as a sum of entries for min(activity, 15) and min(activity / 8, 15),
+// and the last bound; and what to add by the distance of the linear predictor.
+struct ContextTables {
+    alignas(16) std::uint8_t low[16] = {}, high[16] = {}, side[16] = {};
+    constexpr ContextTables() {
+        for (unsigned i = 0; i < 16; ++i) {
+            low[i] = activity_part(i);
+            high[i] =
+                i < 2 ? std::uint8_t(0) : std::uint8_t(activity_part(8 * i) - activity_part(15));
+            side[i] = i >= 4 ? 2 : i >= 1 ? 1 : 0;
+        }
+    }
+};
+inline constexpr ContextTables context_tables;
+static_assert(activity_bounds[5] % 8 == 0 && activity_bounds[6] % 8 == 0 &&
+              activity_bounds[7] % 8 == 0 && activity_bounds[8] >= 128);
+
+// The context of a pixel whose neighbours were all measured.
+HWY_INLINE V16 level_of(V16 activity, V16 how_far) {
     const D16 d;
-    V16 level = hn::Min(activity, hn::Set(d, activity_bounds[2]));
-    for (int i = 3; i < 9; ++i)
-        level = hn::Sub(level, as_value(hn::Gt(activity, hn::Set(d, activity_bounds[i] - 1))));
-    return hn::Add(level, hn::Add(level, level));
+#if HWY_TARGET == HWY_SCALAR
+    const unsigned far = hn::GetLane(how_far);
+    return hn::Set(d, std::uint16_t(activity_part(hn::GetLane(activity)) +
+                                    context_tables.side[std::min(far, 15u)]));
+#else
+    const hn::Repartition<std::uint8_t, D16> d8;
+    const V16 most = hn::Set(d, 15);
+    const auto look_up = [&](const std::uint8_t* table, V16 index) HWY_ATTR {
+        const auto bytes = hn::BitCast(d8, hn::Min(index, most));
+        return hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, table), bytes));
+    };
+    const V16 side = look_up(context_tables.side, how_far);
+    const V16 part = hn::Add(look_up(context_tables.low, activity),
+                             look_up(context_tables.high, hn::ShiftRight<3>(activity)));
+    const auto is_last = hn::Gt(activity, hn::Set(d, activity_bounds[8] - 1));
+    return hn::Add(hn::Add(part, side), hn::IfThenElseZero(is_last, hn::Set(d, 3)));
+#endif
 }
 
 template <bool temporal>
@@ -177,7 +216,6 @@ template <bool temporal, bool blend>
 HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Traces& traces,
                               Window& w, int lane) {
     const D16 d;
-    const V16 one = hn::Set(d, 1);
     Prediction p;
 
     const V16 above = load(s.depth, 4, lane - 1);
@@ -212,11 +250,9 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
     const V16 aside = hn::Sub(linear, p.depth);
     p.flip = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), aside)));
     const V16 how_far = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), aside)));
-    const V16 side = hn::Add(hn::Min(how_far, one), hn::Min(hn::ShiftRight<2>(how_far), one));
-
     const V16 activity = hn::Add(hn::Add(w.activity[0], w.activity[0]),
                                  hn::LoadU(d, traces.at(s.index - 3, activity_above) + lane - 1));
-    const V16 level = hn::Add(level_of_activity(activity), side);
+    const V16 level = level_of(activity, how_far);
 
     const V16 around = hn::Add(hn::Add(w.valid[0], w.valid[0]),
                                hn::LoadU(d, traces.at(s.index - 3, valid_above) + lane - 1));
@@ -252,15 +288,17 @@ struct Outside {
 
 // Left of the image stands what is above right, right of it the last pixel,
 // below it the row above. `w` as before predict.
-HWY_NOINLINE Outside outside_of(const Layout& layout, const Step& s, V16 left, V16 valid_left,
-                                int lane) {
+// (Without the whole Step, which would then have to be in memory.)
+HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
+                                const std::uint16_t* depth, const std::uint8_t* valid, V16 left,
+                                V16 valid_left, int lane) {
     const D16 d;
     const V16 lanes = hn::Iota(d, std::uint16_t(lane));
-    V16 x = hn::Sub(hn::Set(d, std::uint16_t(s.position)), hn::ShiftLeft<2>(lanes));
+    V16 x = hn::Sub(hn::Set(d, std::uint16_t(position)), hn::ShiftLeft<2>(lanes));
     // Lanes that have not yet ended their row of the group before.
     const V16 is_behind = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), x)));
-    V16 rows = hn::Sub(hn::Set(d, std::uint16_t(layout.size.height - lane_count * s.group)), lanes);
-    if (s.group > 0) {
+    V16 rows = hn::Sub(hn::Set(d, std::uint16_t(layout.size.height - lane_count * group)), lanes);
+    if (group > 0) {
         x = hn::Add(x, hn::And(is_behind, hn::Set(d, std::uint16_t(layout.pitch))));
         rows = hn::Add(rows, hn::And(is_behind, hn::Set(d, lane_count)));
     }
@@ -274,8 +312,8 @@ HWY_NOINLINE Outside outside_of(const Layout& layout, const Step& s, V16 left, V
     };
     Outside outside;
     outside.is_pixel = as_value(hn::And(in_rows, in_columns));
-    outside.depth = choose(left, static_cast<const std::uint16_t*>(s.depth));
-    outside.valid = choose(valid_left, static_cast<const std::uint8_t*>(s.valid));
+    outside.depth = choose(left, depth);
+    outside.valid = choose(valid_left, valid);
     return outside;
 }
 

@@ -127,7 +127,7 @@ void sample_equations(const Model& model, const std::uint16_t* pixels, int limit
                       Equations& equations) {
     // Lanes whose neighbours above are lanes of the same group.
     constexpr int first = 8, sampled = 16;
-    constexpr int stride = 11;
+    constexpr int stride = 17;
     const hn::CappedTag<float, sampled> d;
     const hn::Rebind<std::int32_t, decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
