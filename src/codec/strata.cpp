@@ -95,7 +95,7 @@ private:
     TokenCounts token_counts_;
     Counts counts_;
     Frequencies frequencies_;
-    SlotTable slots_;
+    Slots slots_;
 };
 
 void Codec::prepare(Size size) {
@@ -302,8 +302,6 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
             model.reference_depth = moved_.data();
         }
     }
-    make_frequencies(after.head->levels, frequencies_);
-    make_slots(frequencies_, slots_);
 
     words_.resize(payload->words.size() / 2 + 2 * word_slack);
     Stream stream;
@@ -314,7 +312,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
 
     tokens_.resize(layout_.coded_values());
-    if (!decode_steps(model, slots_, stream, tokens_.data()))
+    if (!decode_steps(model, slots_.of(after.head->levels), stream, tokens_.data()))
         return Status::malformed;
     steps_to_rows(layout_, tokens_.data(), out);
     if (payload->ranks)
