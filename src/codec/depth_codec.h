@@ -18,8 +18,8 @@
 
 namespace theatron::codec {
 
-// What a temporal frame refers to: a frame that both sides have, and whatever
-// else the codec remembers of it (empty for most codecs).
+// What a temporal frame refers to: a frame that both sides have, as depth or as
+// whatever the codec remembers of it instead. Most codecs use `depth` alone.
 struct Reference {
     DepthImage depth;
     Bytes memory;
@@ -43,9 +43,9 @@ public:
     virtual std::size_t max_encoded_size(Size size) const = 0;
 
     // Encodes `depth` into `out` (max_encoded_size bytes) and returns the bytes
-    // used. `reference` is null for a key frame; its size equals depth.size.
-    // `next` receives what a later frame needs to refer to this one: the depth
-    // as the decoder will have it, and the codec's memory. It may be null where
+    // used. `reference` is null for a key frame; it is of an image of the same
+    // size. `next` receives what a later frame needs to refer to this one: the
+    // depth as the decoder will have it, or the codec's memory. It may be null where
     // no frame will refer to this one, and may not be `reference`. A codec that
     // is not temporal leaves it alone.
     virtual std::size_t encode(DepthView depth, const Reference* reference,

@@ -82,6 +82,7 @@ TEST_P(EveryDepthCodec, HandsOnWhatTheNextFrameRefersTo) {
                   Status::ok);
         ASSERT_EQ(decoded, image);
         EXPECT_EQ(at_decoder[now].depth, at_encoder[now].depth);
+        EXPECT_EQ(at_decoder[now].memory, at_encoder[now].memory);
     }
 }
 

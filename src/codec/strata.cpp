@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "codec/remember.h"
 #include "codec/strata_kernel.h"
 #include "codec/strata_memory.h"
 #include "codec/strata_payload.h"
@@ -76,8 +75,8 @@ public:
 private:
     void prepare(Size size);
     bool rank(DepthView depth, Values& values);
-    bool blend_pays(Model model);
-    void count(const CodedPixels& coded, std::size_t values);
+    bool blend_pays(Model model, const CodedPixels& coded);
+    void encode_and_count(const Model& model, std::uint16_t* pixels, const CodedPixels& coded);
     const std::uint8_t* draw(const Region& region);
 
     Tolerance tolerance_;
@@ -92,9 +91,11 @@ private:
     DepthImage ranks_;
     RankTables tables_;
     Bytes side_, own_memory_;
+    std::vector<std::uint8_t> has_extra_;
+    TokenCounts token_counts_;
     Counts counts_;
     Frequencies frequencies_;
-    SlotTable slots_;
+    Slots slots_;
 };
 
 void Codec::prepare(Size size) {
@@ -126,29 +127,23 @@ const std::uint8_t* Codec::draw(const Region& region) {
     return region_steps_.data();
 }
 
-void Codec::count(const CodedPixels& coded, std::size_t values) {
-    // Four tables, so that equal tokens in a row do not wait for each other.
-    static thread_local std::array<Counts, 4> tables;
-    for (Counts& table : tables)
+void Codec::encode_and_count(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
+    for (Counts& table : token_counts_.of)
         table.fill(0);
-    for (std::size_t i = 0; i < values; i += 4) {
-        for (std::size_t k = 0; k < 4; ++k)
-            ++tables[k][coded.token[i + k]];
-    }
+    encode_model(model, pixels, coded);
+    const auto& of = token_counts_.of;
     for (std::size_t i = 0; i < counts_.size(); ++i)
-        counts_[i] = tables[0][i] + tables[1][i] + tables[2][i] + tables[3][i];
+        counts_[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
 }
 
 // The ranks of an image, whose new values are added. False if there are too many.
 bool Codec::rank(DepthView depth, Values& values) {
     ranks_.resize(depth.size);
-    if (tables_.to_ranks(depth, values, ranks_.view()))
-        return true;
-    return add_values(depth, values) && tables_.to_ranks(depth, values, ranks_.view());
+    return tables_.to_ranks(depth, values, ranks_.view());
 }
 
 // Tries both ways of predicting on 32 rows in the middle of the image.
-bool Codec::blend_pays(Model model) {
+bool Codec::blend_pays(Model model, const CodedPixels& coded) {
     const int group = (layout_.groups - 1) / 2;
     const std::size_t at = std::size_t(group) * std::size_t(layout_.pitch);
     model.layout.size.height = std::min(lane_count, layout_.size.height - group * lane_count);
@@ -159,12 +154,10 @@ bool Codec::blend_pays(Model model) {
         model.reference_valid += at * plane_stride;
     }
     model.tolerance = {};
-    const CodedPixels coded{tokens_.data(), extras_.data()};
     double bits[2];
     for (const bool blend : {false, true}) {
         model.blend = blend;
-        encode_model(model, pixels_.data() + at * lane_count, coded);
-        count(coded, model.layout.coded_values());
+        encode_and_count(model, pixels_.data() + at * lane_count, coded);
         bits[blend] = ideal_bits(counts_);
     }
     return bits[true] < bits[false];
@@ -177,6 +170,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     const std::size_t plane = layout_.plane_values();
     tokens_.resize(layout_.coded_values());
     extras_.resize(layout_.coded_values());
+    has_extra_.resize(std::size_t(layout_.steps));
     words_.resize(max_words(layout_) + 2 * word_slack);
 
     Payload payload;
@@ -222,22 +216,21 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
         model.reference_valid = before.valid;
         if (old_values.size() != values.size()) {
             moved_.resize(plane);
-            move_ranks(old_values, values, before.depth, plane, moved_.data());
+            RankShift(old_values, values).apply(before.depth, plane, moved_.data());
             model.reference_depth = moved_.data();
         }
     }
+    const CodedPixels coded{tokens_.data(), extras_.data(), has_extra_.data(), &token_counts_};
     Equations equations;
     sample_equations(model, pixels_.data(), payload.ranks ? 8 : 40, equations);
     model.weights = solve(equations, payload.delta ? tap_count : intra_taps);
     after.head->age = next_age(payload.delta, before);
-    model.blend = after.head->age <= 1 ? blend_pays(model) : before.head->blend != 0;
+    model.blend = after.head->age <= 1 ? blend_pays(model, coded) : before.head->blend != 0;
     after.head->blend = model.blend;
     payload.weights = model.weights;
     payload.blend = model.blend;
 
-    const CodedPixels coded{tokens_.data(), extras_.data()};
-    encode_model(model, pixels_.data(), coded);
-    count(coded, layout_.coded_values());
+    encode_and_count(model, pixels_.data(), coded);
     const Levels& old_levels = payload.delta ? before.head->levels : standard_levels();
     choose_levels(counts_, old_levels, after.head->levels);
     make_frequencies(after.head->levels, frequencies_);
@@ -255,11 +248,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());
-        next->depth.resize(depth.size);
-        if (lossy)
-            steps_to_rows(layout_, pixels_.data(), next->depth.view());
-        else
-            remember(depth, next);
+        next->depth.pixels.clear();
     }
     return put_payload(payload, side_, stream, out);
 }
@@ -309,12 +298,10 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         if (old_values.size() != values.size()) {
             const std::size_t plane = layout_.plane_values();
             moved_.resize(plane);
-            move_ranks(old_values, values, before.depth, plane, moved_.data());
+            RankShift(old_values, values).apply(before.depth, plane, moved_.data());
             model.reference_depth = moved_.data();
         }
     }
-    make_frequencies(after.head->levels, frequencies_);
-    make_slots(frequencies_, slots_);
 
     words_.resize(payload->words.size() / 2 + 2 * word_slack);
     Stream stream;
@@ -325,7 +312,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
 
     tokens_.resize(layout_.coded_values());
-    if (!decode_steps(model, slots_, stream, tokens_.data()))
+    if (!decode_steps(model, slots_.of(after.head->levels), stream, tokens_.data()))
         return Status::malformed;
     steps_to_rows(layout_, tokens_.data(), out);
     if (payload->ranks)
@@ -333,7 +320,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());
-        remember(out, next);
+        next->depth.pixels.clear();
     }
     return Status::ok;
 }

@@ -34,6 +34,15 @@ HWY_INLINE void store16(V32 v, std::uint16_t* to) {
     hn::StoreU(hn::DemoteTo(Half16(), hn::BitCast(S32(), v)), Half16(), to);
 }
 
+HWY_INLINE V32 gather(const std::uint32_t* from, hn::Vec<S32> index) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    // Into a register that is 0: the instruction waits for what stood there before.
+    return V32{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, index.raw, from, 4)};
+#else
+    return hn::GatherIndex(D32(), from, index);
+#endif
+}
+
 // The first words, in order, to the lanes of the mask.
 HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
     const D32 d;
@@ -62,87 +71,125 @@ HWY_INLINE V32 extra_bits_of(V32 token) {
 static_assert(extra_bits(first_long_token) == first_long_token / 2 - 10);
 static_assert(extra_bits(literal_high_token) == literal_high_token / 2 - 10);
 
+// 16-bit values as 32-bit ones and, if they fit, back.
+#if HWY_TARGET == HWY_SCALAR
+inline constexpr int wide_parts = 1;
+HWY_INLINE void widen(V16 v, V32 (&wide)[wide_parts]) {
+    wide[0] = hn::PromoteTo(D32(), v);
+}
+HWY_INLINE V16 narrow(const V32 (&wide)[wide_parts]) {
+    return V16(static_cast<std::uint16_t>(hn::GetLane(wide[0])));
+}
+#else
+inline constexpr int wide_parts = 2;
+HWY_INLINE void widen(V16 v, V32 (&wide)[wide_parts]) {
+    wide[0] = hn::PromoteTo(D32(), hn::LowerHalf(Half16(), v));
+    wide[1] = hn::PromoteTo(D32(), hn::UpperHalf(Half16(), v));
+}
+HWY_INLINE V16 narrow(const V32 (&wide)[wide_parts]) {
+    return hn::ConcatEven(D16(), hn::BitCast(D16(), wide[1]), hn::BitCast(D16(), wide[0]));
+}
+#endif
+static_assert(wide_parts * part_count == max_chunks);
+
+// a > b, both below 2^31.
+HWY_INLINE M32 above(V32 a, V32 b) {
+    return hn::RebindMask(D32(), hn::Gt(hn::BitCast(S32(), a), hn::BitCast(S32(), b)));
+}
+
 class TokenReader {
 public:
     TokenReader(const SlotTable& slots, const Stream& stream)
         : slots_(slots.data()), words_(stream.words), left_(std::ptrdiff_t(stream.word_count)) {
-        std::memcpy(states_, stream.states.data(), sizeof(states_));
+        for (int i = 0; i < max_chunks; ++i)
+            states_[i] = hn::LoadU(D32(), stream.states.data() + i * chunk_lanes);
     }
 
     // Reads one token of each lane, and the code of its difference: zigzag of
     // the difference, or the depth of a literal. False if the words ran out.
-    bool read(const std::uint16_t* contexts, std::uint16_t* tokens, std::uint16_t* codes) {
+    HWY_INLINE bool read(const Prediction (&predictions)[part_count], V16 (&tokens)[part_count],
+                         V16 (&codes)[part_count]) {
         const D32 d;
-        M32 has_extra = hn::FirstN(d, 0);
-        for (int lane = 0; lane < lane_count; lane += chunk_lanes) {
-            const V32 state = hn::Load(d, states_ + lane);
-            const V32 slot = hn::And(state, hn::Set(d, probability_sum - 1));
-            const V32 at = hn::Or(hn::ShiftLeft<probability_bits>(load32(contexts + lane)), slot);
-            const V32 entry = hn::GatherIndex(d, slots_, hn::BitCast(S32(), at));
-            const V32 token = hn::And(entry, hn::Set(d, 0xff));
-            const V32 frequency = hn::ShiftRight<20>(entry);
-            const V32 offset = hn::And(hn::ShiftRight<8>(entry), hn::Set(d, 0xfff));
-            hn::Store(hn::Add(hn::Mul(hn::ShiftRight<probability_bits>(state), frequency), offset),
-                      d, states_ + lane);
-            has_extra = hn::Or(has_extra, hn::Or(hn::Gt(token, hn::Set(d, first_long_token - 1)),
-                                                 hn::Eq(token, hn::Set(d, literal_low_token))));
-            store16(token, tokens + lane);
-            store16(hn::And(hn::Sub(token, hn::Set(d, first_token)), hn::Set(d, 0xffff)),
-                    codes + lane);
+        const D16 d16;
+        auto has_extra = hn::FirstN(d16, 0);
+        for (int part = 0; part < part_count; ++part) {
+            V32 wide[wide_parts];
+            widen(hn::ShiftLeft<probability_bits - 6>(predictions[part].context), wide);
+            for (int i = 0; i < wide_parts; ++i) {
+                V32& state = states_[part * wide_parts + i];
+                const V32 slot = hn::And(state, hn::Set(d, probability_sum - 1));
+                const V32 at = hn::Add(hn::ShiftLeft<6>(wide[i]), slot);
+                const V32 entry = gather(slots_, hn::BitCast(S32(), at));
+                const V32 frequency = hn::ShiftRight<20>(entry);
+                const V32 offset = hn::And(hn::ShiftRight<8>(entry), hn::Set(d, 0xfff));
+                state =
+                    hn::Add(hn::Mul(hn::ShiftRight<probability_bits>(state), frequency), offset);
+                wide[i] = entry;
+            }
+            tokens[part] = hn::And(narrow(wide), hn::Set(d16, 0xff));
+            codes[part] = hn::Sub(tokens[part], hn::Set(d16, first_token));
+            has_extra =
+                hn::Or(has_extra, hn::Or(hn::Gt(tokens[part], hn::Set(d16, first_long_token - 1)),
+                                         hn::Eq(tokens[part], hn::Set(d16, literal_low_token))));
         }
         refill();
-        if (HWY_UNLIKELY(!hn::AllFalse(d, has_extra)))
+        if (HWY_UNLIKELY(!hn::AllFalse(d16, has_extra)))
             read_extra(tokens, codes);
         return left_ >= 0;
     }
 
     // True if all that the encoder wrote has been read, and nothing else.
     bool at_end() const {
-        std::uint32_t wrong = 0;
-        for (const std::uint32_t state : states_)
-            wrong |= state ^ least_state;
-        return wrong == 0 && left_ == 0;
+        const D32 d;
+        auto wrong = hn::Zero(d);
+        for (const V32 state : states_)
+            wrong = hn::Or(wrong, hn::Xor(state, hn::Set(d, least_state)));
+        return hn::AllTrue(d, hn::Eq(wrong, hn::Zero(d))) && left_ == 0;
     }
 
 private:
-    void read_extra(const std::uint16_t* tokens, std::uint16_t* codes) {
+    HWY_INLINE void read_extra(const V16 (&tokens)[part_count], V16 (&codes)[part_count]) {
         const D32 d;
         const V32 one = hn::Set(d, 1);
-        for (int lane = 0; lane < lane_count; lane += chunk_lanes) {
-            const V32 state = hn::Load(d, states_ + lane);
-            const V32 token = load32(tokens + lane);
-            const V32 bits = extra_bits_of(token);
-            const V32 extra = hn::And(state, hn::Sub(hn::Shl(one, bits), one));
-            hn::Store(hn::Shr(state, bits), d, states_ + lane);
+        for (int part = 0; part < part_count; ++part) {
+            V32 token[wide_parts], code[wide_parts];
+            widen(tokens[part], token);
+            widen(codes[part], code);
+            for (int i = 0; i < wide_parts; ++i) {
+                V32& state = states_[part * wide_parts + i];
+                const V32 bits = extra_bits_of(token[i]);
+                const V32 extra = hn::And(state, hn::Sub(hn::Shl(one, bits), one));
+                state = hn::Shr(state, bits);
 
-            const V32 lead = hn::Or(hn::Set(d, 2), hn::And(token, one));
-            V32 code = hn::Or(hn::Shl(lead, bits), extra);
-            code = hn::IfThenElse(hn::Eq(token, hn::Set(d, literal_high_token)),
-                                  hn::Or(extra, hn::Set(d, 0x8000)), code);
-            code = hn::IfThenElse(hn::Eq(token, hn::Set(d, literal_low_token)), extra, code);
-            code = hn::IfThenElse(hn::Ne(bits, hn::Zero(d)), code, load32(codes + lane));
-            store16(hn::And(code, hn::Set(d, 0xffff)), codes + lane);
+                const V32 lead = hn::Or(hn::Set(d, 2), hn::And(token[i], one));
+                V32 long_code = hn::Or(hn::Shl(lead, bits), extra);
+                long_code = hn::IfThenElse(hn::Eq(token[i], hn::Set(d, literal_high_token)),
+                                           hn::Or(extra, hn::Set(d, 0x8000)), long_code);
+                long_code = hn::IfThenElse(hn::Eq(token[i], hn::Set(d, literal_low_token)), extra,
+                                           long_code);
+                code[i] = hn::IfThenElse(hn::Ne(bits, hn::Zero(d)), long_code, code[i]);
+            }
+            codes[part] = narrow(code);
         }
         refill();
     }
 
     // Gives every state that became small a word.
-    void refill() {
+    HWY_INLINE void refill() {
         const D32 d;
         M32 small[max_chunks];
         std::size_t counts[max_chunks];
         std::size_t total = 0;
         for (int i = 0; i < max_chunks; ++i) {
-            small[i] = hn::Lt(hn::Load(d, states_ + i * chunk_lanes), hn::Set(d, least_state));
+            small[i] = above(hn::Set(d, least_state), states_[i]);
             counts[i] = hn::CountTrue(d, small[i]);
             total += counts[i];
         }
         left_ -= std::ptrdiff_t(total);
         const std::uint16_t* from = words_ + left_;
         for (int i = 0; i < max_chunks; ++i) {
-            const V32 state = hn::Load(d, states_ + i * chunk_lanes);
-            const V32 filled = hn::Or(hn::ShiftLeft<16>(state), spread_words(from, small[i]));
-            hn::Store(hn::IfThenElse(small[i], filled, state), d, states_ + i * chunk_lanes);
+            const V32 filled = hn::Or(hn::ShiftLeft<16>(states_[i]), spread_words(from, small[i]));
+            states_[i] = hn::IfThenElse(small[i], filled, states_[i]);
             from += counts[i];
         }
     }
@@ -150,7 +197,7 @@ private:
     const std::uint32_t* slots_;
     const std::uint16_t* words_;
     std::ptrdiff_t left_;
-    alignas(64) std::uint32_t states_[lane_count];
+    V32 states_[max_chunks];
 };
 
 // Moves the low halves of the marked states to the words.
@@ -162,14 +209,16 @@ HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     return hn::IfThenElse(mask, hn::ShiftRight<16>(state), state);
 }
 
-// 1 / v, so well that quotients below 2^20 are off by less than 1.
+// A little less than 1 / v: a quotient between 1 and 2^20, made with it and rounded
+// down, is right or one too small. (It is off by at most 2^-21 * (1 + 1/4 + 1/2) of
+// itself, from the factor, the approximation and the four roundings.)
 HWY_INLINE hn::Vec<F32> reciprocal(hn::Vec<F32> v) {
     const F32 d;
 #if HWY_ARCH_X86
     const auto rough = hn::ApproximateReciprocal(v);
-    return hn::Mul(rough, hn::NegMulAdd(rough, v, hn::Set(d, 2.0f)));
+    return hn::Mul(rough, hn::NegMulAdd(rough, v, hn::Set(d, 2.0f - 0x1p-21f)));
 #else
-    return hn::Div(hn::Set(d, 1.0f), v);
+    return hn::Div(hn::Set(d, 1.0f - 0x1p-21f), v);
 #endif
 }
 
@@ -185,44 +234,38 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
     for (int t = layout.steps - 1; t >= 0; --t) {
         const std::uint16_t* tokens = coded.token + std::size_t(t) * lane_count;
         const std::uint16_t* extras = coded.extra + std::size_t(t) * lane_count;
-        M32 has_extra = hn::FirstN(d, 0);
-        for (int lane = 0; lane < lane_count; lane += chunk_lanes) {
-            const V32 token = hn::And(load32(tokens + lane), hn::Set(d, token_count - 1));
-            has_extra = hn::Or(has_extra, hn::Or(hn::Gt(token, hn::Set(d, first_long_token - 1)),
-                                                 hn::Eq(token, hn::Set(d, literal_low_token))));
-        }
-        if (HWY_UNLIKELY(!hn::AllFalse(d, has_extra))) {
+        if (coded.has_extra[t] != 0) {
             for (int i = 0; i < max_chunks; ++i) {
                 const int lane = i * chunk_lanes;
                 const V32 token = hn::And(load32(tokens + lane), hn::Set(d, token_count - 1));
                 const V32 bits = extra_bits_of(token);
-                const V32 bound = hn::Shl(hn::Set(d, 1), hn::Sub(hn::Set(d, 31), bits));
-                const V32 state = emit(states[i], hn::Not(hn::Lt(states[i], bound)), out);
-                states[i] = hn::Or(hn::Shl(state, bits), load32(extras + lane));
+                const V32 one = hn::Set(d, 1);
+                const V32 bound = hn::Sub(hn::Shl(one, hn::Sub(hn::Set(d, 31), bits)), one);
+                const V32 state = emit(states[i], above(states[i], bound), out);
+                const V32 extra = hn::And(load32(extras + lane), hn::Sub(hn::Shl(one, bits), one));
+                states[i] = hn::Or(hn::Shl(state, bits), extra);
             }
         }
         for (int i = 0; i < max_chunks; ++i) {
-            const V32 entry = hn::GatherIndex(d, frequencies.of.data(),
-                                              hn::BitCast(S32(), load32(tokens + i * chunk_lanes)));
+            const V32 entry =
+                gather(frequencies.of.data(), hn::BitCast(S32(), load32(tokens + i * chunk_lanes)));
             const V32 frequency = hn::And(entry, hn::Set(d, 0xffff));
             const V32 start = hn::ShiftRight<16>(entry);
-            const V32 bound = hn::ShiftLeft<20>(frequency);
-            const V32 state = emit(states[i], hn::Not(hn::Lt(states[i], bound)), out);
+            const V32 bound = hn::Sub(hn::ShiftLeft<20>(frequency), hn::Set(d, 1));
+            const V32 state = emit(states[i], above(states[i], bound), out);
 
-            // The quotient in floating point is off by one at most; the
-            // remainder shows it.
-            const auto ratio =
-                hn::Mul(hn::ConvertTo(F32(), hn::BitCast(S32(), state)),
-                        reciprocal(hn::ConvertTo(F32(), hn::BitCast(S32(), frequency))));
-            V32 quotient = hn::BitCast(d, hn::ConvertTo(S32(), ratio));
-            V32 rest = hn::Sub(state, hn::Mul(quotient, frequency));
-            const auto too_much = hn::Gt(rest, hn::Set(d, 0x7fffffff));
-            quotient = hn::Sub(quotient, hn::IfThenElseZero(too_much, hn::Set(d, 1)));
-            rest = hn::Add(rest, hn::IfThenElseZero(too_much, frequency));
-            const auto too_little = hn::Not(hn::Lt(rest, frequency));
-            quotient = hn::Add(quotient, hn::IfThenElseZero(too_little, hn::Set(d, 1)));
-            rest = hn::Sub(rest, hn::IfThenElseZero(too_little, frequency));
-            states[i] = hn::Add(hn::ShiftLeft<probability_bits>(quotient), hn::Add(rest, start));
+            // The quotient is right or one too small, which the remainder shows. In a
+            // number between 2^23 and 2^24 it stands in the lowest bits.
+            const auto sum =
+                hn::MulAdd(hn::ConvertTo(F32(), hn::BitCast(S32(), state)),
+                           reciprocal(hn::ConvertTo(F32(), hn::BitCast(S32(), frequency))),
+                           hn::Set(F32(), 0x1p23f - 0.5f));
+            const V32 quotient = hn::Sub(hn::BitCast(d, sum), hn::Set(d, 0x4b000000));
+            const V32 rest = hn::Sub(state, hn::Mul(quotient, frequency));
+            const V32 next =
+                hn::Add(hn::ShiftLeft<probability_bits>(quotient), hn::Add(rest, start));
+            const V32 one_more = hn::Sub(hn::Set(d, probability_sum), frequency);
+            states[i] = hn::Add(next, hn::IfThenZeroElse(above(frequency, rest), one_more));
         }
     }
     stream.word_count = std::size_t(out - stream.words);

@@ -22,14 +22,13 @@ namespace theatron::codec::strata::HWY_NAMESPACE {
 
 // Everything that walks over the steps: the planes, the traces, and the rows of
 // lane 31 that lane 0 will need.
+template <bool blend>
 class Walk {
 public:
     explicit Walk(const Model& model) : model_(model), delay_(model.layout.delay()) {
-        for (int lane = 0; lane < lane_count; ++lane) {
-            positions.x[lane] = std::uint16_t(-skew * lane);
-            positions.rows[lane] = std::uint16_t(model.layout.size.height - lane);
-        }
-        delayed_.resize(std::size_t(delay_) * (trace_count - first_delayed));
+        while (delayed_steps_ < delay_ + copy_lag)
+            delayed_steps_ *= 2;
+        delayed_.resize(std::size_t(delayed_steps_) * kept_traces);
         const std::size_t margin = std::size_t(plane_margin) * plane_stride;
         const std::size_t end = model.layout.plane_values() - margin;
         std::memset(model.depth, 0, margin * sizeof(*model.depth));
@@ -46,16 +45,18 @@ public:
                   model_.reference_depth,
                   model_.reference_valid,
                   index,
-                  is_inside(index)};
+                  position_,
+                  group_,
+                  is_inside()};
         if (step.reference_depth != nullptr) {
             step.reference_depth += at;
             step.reference_valid += at;
         }
-        depth = model_.depth + at;
-        valid = model_.valid + at;
         const std::ptrdiff_t back = std::ptrdiff_t(delay_) * plane_stride;
         constexpr std::size_t front = plane_origin,
                               behind = plane_stride - plane_origin - lane_count;
+        std::uint16_t* const depth = step.depth;
+        std::uint8_t* const valid = step.valid;
         if (index >= delay_) {
             std::memcpy(depth - front, depth + lane_count - front - back, front * sizeof(*depth));
             std::memcpy(valid - front, valid + lane_count - front - back, front);
@@ -65,9 +66,9 @@ public:
         }
         std::memset(depth + lane_count, 0, behind * sizeof(*depth));
         std::memset(valid + lane_count, 0, behind);
-        const std::uint16_t* above = delayed(index);
-        for (int i = first_delayed; i < trace_count; ++i)
-            traces.at(index, i)[-1] = above[i - first_delayed];
+        const std::uint16_t* above = delayed(index - delay_);
+        for (int i = 0; i < kept_traces; ++i)
+            traces.at(index, i)[-1] = above[i];
         return step;
     }
 
@@ -75,7 +76,10 @@ public:
     // when it has left the processor's store queue.
     void end(int index) {
         copy_lanes(index - copy_lag);
-        advance(positions, model_.layout);
+        if (++position_ == model_.layout.pitch) {
+            position_ = 0;
+            ++group_;
+        }
     }
 
     void finish() {
@@ -84,31 +88,30 @@ public:
     }
 
     Traces traces;
-    Positions positions;
-    std::uint16_t* depth = nullptr;
-    std::uint8_t* valid = nullptr;
 
 private:
     static constexpr int copy_lag = 4;
     static_assert(copy_lag < least_delay);
+    static constexpr int kept_traces = blend ? trace_count : triple0;
 
-    bool is_inside(int index) const {
-        const Layout& layout = model_.layout;
-        const int x = index % layout.pitch - row_front;  // of lane 0
-        return x >= skew * (lane_count - 1) && x < layout.size.width &&
-               (index / layout.pitch + 1) * lane_count <= layout.size.height;
+    bool is_inside() const {
+        const Size size = model_.layout.size;
+        const int x = position_ - row_front;  // of lane 0
+        return x >= skew * (lane_count - 1) && x < size.width &&
+               (group_ + 1) * lane_count <= size.height;
     }
 
+    // Those of steps before the first are 0.
     std::uint16_t* delayed(int index) {
-        return delayed_.data() + std::size_t(index % delay_) * (trace_count - first_delayed);
+        return delayed_.data() + std::size_t(index & (delayed_steps_ - 1)) * kept_traces;
     }
 
     void copy_lanes(int index) {
         if (index < 0)
             return;
         std::uint16_t* to = delayed(index);
-        for (int i = first_delayed; i < trace_count; ++i)
-            to[i - first_delayed] = traces.at(index, i)[lane_count - 1];
+        for (int i = 0; i < kept_traces; ++i)
+            to[i] = traces.at(index, i)[lane_count - 1];
         if (index < delay_)
             return;
         const std::size_t from = std::size_t(index + plane_margin) * plane_stride + plane_origin;
@@ -119,83 +122,121 @@ private:
 
     const Model& model_;
     int delay_;
+    int position_ = 0, group_ = 0;  // of lane 0
+    int delayed_steps_ = 1;
     std::vector<std::uint16_t> delayed_;
 };
 
-// The code of each difference as a token, and its further bits.
-HWY_INLINE void tokens_of(V16 code, V16& token, V16& extra) {
+HWY_INLINE void load_weights(const Weights& from, LinearWeights& weights) {
+    for (int i = 0; i < tap_count; ++i)
+        weights[i] = hn::Set(S16(), from[i]);
+}
+
+// The code of each difference as a token. True if any has further bits; they are
+// then stored.
+HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     const D16 d;
     token = hn::Add(code, hn::Set(d, first_token));
-    extra = hn::Zero(d);
     const auto is_long = hn::Gt(code, hn::Set(d, direct_tokens - 1));
     if (HWY_LIKELY(hn::AllFalse(d, is_long)))
-        return;
-    alignas(64) std::uint16_t codes[hn::MaxLanes(d)], tokens[hn::MaxLanes(d)],
-        extras[hn::MaxLanes(d)];
-    hn::Store(code, d, codes);
+        return false;
     const D32 d32;
     const V32 one = hn::Set(d32, 1);
-    for (std::size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(d32)) {
+    V32 wide[wide_parts], tokens[wide_parts], extras[wide_parts];
+    widen(code, wide);
+    for (int i = 0; i < wide_parts; ++i) {
         // As a floating-point number a code shows its highest bit in the
         // exponent, and the next one in front of the rest of the mantissa.
-        const V32 wide = load32(codes + i);
-        const V32 as_float = hn::BitCast(d32, hn::ConvertTo(F32(), hn::BitCast(S32(), wide)));
+        const V32 as_float = hn::BitCast(d32, hn::ConvertTo(F32(), hn::BitCast(S32(), wide[i])));
         const V32 halves = hn::Sub(hn::ShiftRight<22>(as_float), hn::Set(d32, 2 * 127));
         const V32 bits = hn::Sub(hn::ShiftRight<1>(halves), one);
-        const V32 low = hn::And(wide, hn::Sub(hn::Shl(one, hn::And(bits, hn::Set(d32, 15))), one));
-        store16(hn::And(hn::Add(halves, hn::Set(d32, first_long_token - 9)), hn::Set(d32, 0xffff)),
-                tokens + i);
-        store16(low, extras + i);
+        tokens[i] = hn::Add(halves, hn::Set(d32, first_long_token - 9));
+        extras[i] = hn::And(wide[i], hn::Sub(hn::Shl(one, hn::And(bits, hn::Set(d32, 15))), one));
     }
-    token = hn::IfThenElse(is_long, hn::Load(d, tokens), token);
-    extra = hn::IfThenElseZero(is_long, hn::Load(d, extras));
+    token = hn::IfThenElse(is_long, narrow(tokens), token);
+    hn::StoreU(hn::IfThenElseZero(is_long, narrow(extras)), d, extra);
+    return true;
+}
+
+// Counts the tokens of one step. In several tables, so that equal tokens in a
+// row do not wait for each other.
+HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
+    for (int lane = 0; lane < lane_count; lane += 4) {
+        for (int i = 0; i < 4; ++i)
+            ++counts.of[i][tokens[lane + i]];
+    }
 }
 
 template <bool temporal, bool blend, bool lossy>
 void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
     const D16 d;
-    Walk walk(model);
+    constexpr int count_lag = 2;  // steps until tokens can be read without waiting
+    Walk<blend> walk(model);
+    LinearWeights weights;
+    load_weights(model.weights, weights);
+    Window windows[part_count];
     for (int t = 0; t < model.layout.steps; ++t) {
         const Step step = walk.begin(t);
-        for (int lane = 0; lane < lane_count; lane += int(hn::Lanes(d))) {
+        bool has_extra = false;
+        for (int part = 0; part < part_count; ++part) {
+            const int lane = part * part_lanes;
+            Window& window = windows[part];
+            if (t == 0)
+                window = begin_window<temporal>(step, lane);
             const std::size_t at = std::size_t(t) * lane_count + lane;
-            const Prediction p =
-                predict<temporal, blend>(model, step, walk.traces, walk.positions, lane);
+            const Prediction p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
+            // Where there is no pixel stands 0, as in a hole.
             V16 depth = hn::LoadU(d, pixels + at);
-            const auto is_pixel = hn::MaskFromVec(p.active);
-            const auto is_hole = hn::Eq(depth, hn::Zero(d));
-            const auto is_top = hn::Eq(depth, hn::Set(d, 0xffff));
-            const auto is_measured = hn::AndNot(hn::Or(is_hole, is_top), is_pixel);
+            const V16 one = hn::Set(d, 1);
+            const auto is_measured = hn::Gt(hn::Add(depth, one), one);
 
             V16 difference = hn::IfThenElseZero(is_measured, hn::Sub(depth, p.depth));
-            V16 token, extra;
+            V16 token;
+            // 0 and 65535 as tokens.
+            const V16 hole = hn::And(depth, one);
+            std::uint16_t* const extra = coded.extra + at;
             if constexpr (lossy) {
                 const Quantised q = quantise(model, p.depth, depth, is_measured, model.region + at);
                 difference = q.difference;
                 depth = q.depth;
-                tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
+                hn::StoreU(hn::Zero(d), d, extra);
+                has_extra |=
+                    tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
+                has_extra |= !hn::AllFalse(d, q.is_literal);
                 token = hn::IfThenElse(q.is_literal, q.literal_token, token);
-                extra = hn::IfThenElse(q.is_literal, q.literal, extra);
+                hn::StoreU(hn::IfThenElse(q.is_literal, q.literal, hn::LoadU(d, extra)), d, extra);
                 hn::StoreU(depth, d, pixels + at);
             } else {
-                tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
+                has_extra |=
+                    tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
             }
-            token = hn::IfThenElse(is_hole, hn::Set(d, hole_token), token);
-            token = hn::IfThenElse(is_top, hn::Set(d, top_token), token);
-            token = hn::IfThenElseZero(is_pixel, token);
-            hn::StoreU(hn::Add(hn::ShiftLeft<6>(p.context), token), d, coded.token + at);
-            hn::StoreU(hn::IfThenElseZero(is_measured, extra), d, coded.extra + at);
+            token = hn::IfThenElse(is_measured, token, hole);
 
             const V16 size = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
-            depth = hn::IfThenElse(is_measured, depth,
-                                   hn::IfThenElse(is_pixel, p.depth, p.outside_depth));
-            const V16 valid = hn::IfThenElse(
-                is_pixel, hn::And(as_value(is_measured), hn::Set(d, 1)), p.outside_valid);
-            keep<blend>(p.candidate, depth, size, p.active, valid, walk.depth, walk.valid,
-                        walk.traces, t, lane);
+            depth = hn::IfThenElse(is_measured, depth, p.depth);
+            V16 valid = hn::IfThenElseZero(is_measured, one);
+            V16 is_pixel = hn::Set(d, 0xffff);
+            V16 context = p.context;
+            if (HWY_UNLIKELY(!step.inside)) {
+                const Outside outside =
+                    outside_of(model.layout, step.position, step.group, step.depth, step.valid,
+                               window.left, window.valid[0], lane);
+                is_pixel = outside.is_pixel;
+                const auto mask = hn::MaskFromVec(is_pixel);
+                context = hn::IfThenElse(mask, context, hn::Set(d, idle_context));
+                depth = hn::IfThenElse(mask, depth, outside.depth);
+                valid = hn::IfThenElse(mask, valid, outside.valid);
+            }
+            hn::StoreU(hn::Add(hn::ShiftLeft<6>(context), token), d, coded.token + at);
+            keep<blend>(p.candidate, depth, size, is_pixel, valid, step, walk.traces, window, lane);
         }
+        coded.has_extra[t] = has_extra;
+        if (t >= count_lag)
+            count_step(coded.token + std::size_t(t - count_lag) * lane_count, *coded.counts);
         walk.end(t);
     }
+    for (int t = model.layout.steps - count_lag; t < model.layout.steps; ++t)
+        count_step(coded.token + std::size_t(t) * lane_count, *coded.counts);
     walk.finish();
 }
 
@@ -203,77 +244,71 @@ template <bool temporal, bool blend, bool lossy>
 bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& stream,
                      std::uint16_t* pixels) {
     const D16 d;
-    Walk walk(model);
+    Walk<blend> walk(model);
+    LinearWeights weights;
+    load_weights(model.weights, weights);
+    Window windows[part_count];
     TokenReader reader(slots, stream);
-    alignas(64) std::uint16_t candidates[4][lane_count], predicted[lane_count],
-        contexts[lane_count], flips[lane_count], actives[lane_count], outside_depth[lane_count],
-        outside_valid[lane_count], tokens[lane_count], codes[lane_count];
     for (int t = 0; t < model.layout.steps; ++t) {
         const Step step = walk.begin(t);
-        for (int lane = 0; lane < lane_count; lane += int(hn::Lanes(d))) {
-            const Prediction p =
-                predict<temporal, blend>(model, step, walk.traces, walk.positions, lane);
-            if constexpr (blend) {
-                for (int i = 0; i < 4; ++i)
-                    hn::Store(p.candidate[i], d, candidates[i] + lane);
+        Prediction predictions[part_count];
+        Outside outsides[part_count];
+        V16 tokens[part_count], codes[part_count];
+        for (int part = 0; part < part_count; ++part) {
+            const int lane = part * part_lanes;
+            Window& window = windows[part];
+            if (t == 0)
+                window = begin_window<temporal>(step, lane);
+            Prediction& p = predictions[part];
+            p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
+            if (HWY_UNLIKELY(!step.inside)) {
+                outsides[part] = outside_of(model.layout, step.position, step.group, step.depth,
+                                            step.valid, window.left, window.valid[0], lane);
+                p.context = hn::IfThenElse(hn::MaskFromVec(outsides[part].is_pixel), p.context,
+                                           hn::Set(d, idle_context));
             }
-            hn::Store(p.depth, d, predicted + lane);
-            hn::Store(p.context, d, contexts + lane);
-            hn::Store(p.flip, d, flips + lane);
-            hn::Store(p.active, d, actives + lane);
-            hn::Store(p.outside_depth, d, outside_depth + lane);
-            hn::Store(p.outside_valid, d, outside_valid + lane);
         }
-        if (!reader.read(contexts, tokens, codes))
+        if (!reader.read(predictions, tokens, codes))
             return false;
-        for (int lane = 0; lane < lane_count; lane += int(hn::Lanes(d))) {
-            const V16 prediction = hn::Load(d, predicted + lane);
-            const V16 flip = hn::Load(d, flips + lane);
-            const V16 token = hn::Load(d, tokens + lane);
-            const V16 code = hn::Load(d, codes + lane);
-            const V16 is_active = hn::Load(d, actives + lane);
-            const auto is_pixel = hn::MaskFromVec(is_active);
-            const auto is_hole = hn::Lt(token, hn::Set(d, literal_low_token));
-            const auto is_measured = hn::AndNot(is_hole, is_pixel);
+        for (int part = 0; part < part_count; ++part) {
+            const int lane = part * part_lanes;
+            const std::size_t at = std::size_t(t) * lane_count + lane;
+            const Prediction& p = predictions[part];
+            const V16 token = tokens[part], code = codes[part];
+            // Where there is no pixel, the token is a hole.
+            const auto is_measured = hn::Gt(token, hn::Set(d, literal_low_token - 1));
 
-            V16 difference = hn::Sub(hn::Xor(unzigzag(code), flip), flip);
+            V16 difference = hn::Sub(hn::Xor(unzigzag(code), p.flip), p.flip);
             difference = hn::IfThenElseZero(is_measured, difference);
-            const V16 size = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
+            V16 size = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
             V16 depth;
             if constexpr (lossy) {
-                const V16 width = step_width(model, prediction,
-                                             model.region + std::size_t(t) * lane_count + lane);
-                depth = hn::Add(prediction, hn::Mul(difference, width));
-            } else {
-                depth = hn::Add(prediction, difference);
-            }
-            V16 kept_size = size;
-            if constexpr (lossy) {
-                const auto is_literal = hn::Or(hn::Eq(token, hn::Set(d, literal_low_token)),
-                                               hn::Eq(token, hn::Set(d, literal_high_token)));
+                const V16 width = step_width(model, p.depth, model.region + at);
+                depth = hn::Add(p.depth, hn::Mul(difference, width));
+                const auto is_literal =
+                    hn::And(is_measured, hn::Or(hn::Eq(token, hn::Set(d, literal_low_token)),
+                                                hn::Eq(token, hn::Set(d, literal_high_token))));
                 depth = hn::IfThenElse(is_literal, code, depth);
-                kept_size = hn::IfThenElse(is_literal, hn::Set(d, 255), size);
+                size = hn::IfThenElse(is_literal, hn::Set(d, 255), size);
+            } else {
+                depth = hn::Add(p.depth, difference);
             }
-            // Neither of the two kinds of hole may come out of a difference.
-            const V16 measured_depth = depth;
-            const V16 hole =
-                hn::IfThenElseZero(hn::Eq(token, hn::Set(d, top_token)), hn::Set(d, 0xffff));
-            hn::StoreU(hn::IfThenElse(is_measured, measured_depth, hole), d,
-                       pixels + std::size_t(t) * lane_count + lane);
+            // 0 or 65535 from the token.
+            const V16 hole = hn::Sub(hn::Zero(d), token);
+            hn::StoreU(hn::IfThenElse(is_measured, depth, hole), d, pixels + at);
 
-            depth = hn::IfThenElse(
-                is_measured, measured_depth,
-                hn::IfThenElse(is_pixel, prediction, hn::Load(d, outside_depth + lane)));
-            const V16 valid =
-                hn::IfThenElse(is_pixel, hn::And(as_value(is_measured), hn::Set(d, 1)),
-                               hn::Load(d, outside_valid + lane));
-            V16 candidate[4];
-            if constexpr (blend) {
-                for (int i = 0; i < 4; ++i)
-                    candidate[i] = hn::Load(d, candidates[i] + lane);
+            depth = hn::IfThenElse(is_measured, depth, p.depth);
+            V16 valid = hn::IfThenElseZero(is_measured, hn::Set(d, 1));
+            V16 is_pixel = hn::Set(d, 0xffff);
+            if (HWY_UNLIKELY(!step.inside)) {
+                const Outside& outside = outsides[part];
+                is_pixel = outside.is_pixel;
+                const auto mask = hn::MaskFromVec(is_pixel);
+                depth = hn::IfThenElse(mask, depth, outside.depth);
+                valid = hn::IfThenElse(mask, valid, outside.valid);
             }
-            keep<blend>(candidate, depth, kept_size, is_active, valid, walk.depth, walk.valid,
-                        walk.traces, t, lane);
+            keep<blend>(p.candidate, depth, size, is_pixel, valid, step, walk.traces, windows[part],
+                        lane);
         }
         walk.end(t);
     }

@@ -47,14 +47,22 @@ struct Model {
     const std::uint8_t* region = nullptr;  // by step and lane: 255 where exact; if lossy
 };
 
-// One value per step and lane, without margins.
-struct CodedPixels {
-    std::uint16_t* token = nullptr;  // context * token_count + token
-    std::uint16_t* extra = nullptr;
+// How often each token occurs in each context; the sum of the tables counts.
+struct TokenCounts {
+    std::array<Counts, 4> of;
 };
 
-// The model pass of the encoder over steps [first, last). `pixels` holds the
-// depth by step and lane, and receives what the decoder will have.
+// What the model pass makes of the pixels. One value per step and lane, without
+// margins, but has_extra, which is by step.
+struct CodedPixels {
+    std::uint16_t* token = nullptr;     // context * token_count + token
+    std::uint16_t* extra = nullptr;     // only where a token has further bits
+    std::uint8_t* has_extra = nullptr;  // 1 if any lane's token has further bits
+    TokenCounts* counts = nullptr;      // is added to
+};
+
+// The model pass of the encoder. `pixels` holds the depth by step and lane, and
+// receives what the decoder will have.
 void encode_model(const Model& model, std::uint16_t* pixels, const CodedPixels& coded);
 
 // Where the encoder's words go, and the states that the decoder starts from.
@@ -89,8 +97,7 @@ using Equations = std::array<double, equation_count>;
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations);
 
-// Adds to each number how many of the bounds it reaches. The count is a multiple
-// of 8; `to` may be `from`.
+// Adds to each number how many of the bounds it reaches. `to` may be `from`.
 void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
                  std::size_t bound_count, std::uint16_t* to);
 

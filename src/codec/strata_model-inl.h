@@ -6,6 +6,8 @@
 // the pixels are. docs/formats/strata.md has the same in words.
 
 // No include guard: the namespace differs from one inclusion to the next.
+#include <algorithm>
+
 #include "codec/strata_kernel.h"
 #include "hwy/highway.h"
 
@@ -19,21 +21,12 @@ using D8 = hn::Rebind<std::uint8_t, D16>;
 using V16 = hn::Vec<D16>;
 using VS16 = hn::Vec<S16>;
 
-// What the model remembers of the last eight steps, per lane.
-enum Trace {
-    error0,
-    error1,
-    error2,
-    error3,
-    triple0,
-    triple1,
-    triple2,
-    triple3,
-    activity,
-    activity_above,
-    trace_count
-};
-inline constexpr int first_delayed = triple0;  // those that lane 0 reads from lane 31
+inline constexpr int part_lanes = int(hn::MaxLanes(D16()));
+inline constexpr int part_count = lane_count / part_lanes;
+
+// What the row below needs of a step, three steps later and one lane further.
+// Only the first two where predictors are not chosen by their errors.
+enum Trace { activity_above, valid_above, triple0, triple1, triple2, triple3, trace_count };
 
 struct Traces {
     // Lanes from value trace_origin on, in front of them the lane above lane 0.
@@ -43,31 +36,36 @@ struct Traces {
     std::uint16_t* at(int step, int trace) { return of[step & 7][trace] + trace_origin; }
 };
 
-// Where each lane is in its row.
-struct Positions {
-    alignas(64) std::uint16_t x[lane_count];     // as in the image plus row_front; wraps below 0
-    alignas(64) std::uint16_t rows[lane_count];  // rows left, signed; none at 0 and less
-};
-
-// The step's planes, and what is the same for all steps.
+// The planes at lane 0 of a step, and where that lane is.
 struct Step {
-    const std::uint16_t* depth;  // at lane 0 of this step
-    const std::uint8_t* valid;
+    std::uint16_t* depth;
+    std::uint8_t* valid;
     const std::uint16_t* reference_depth;
     const std::uint8_t* reference_valid;
     int index;
+    int position, group;
     bool inside;  // all lanes are at a pixel
+};
+
+// What some of the lanes carry from one step to the next: pixels at their left,
+// those above that were seen before, and how well the last predictions were. An
+// 8 in a name: eight times the depth.
+struct Window {
+    V16 left, left8, far_left8;
+    V16 upper_left, upper8[3];  // right above, above, upper left
+    V16 before, before_left;    // in the reference
+    V16 before8[2];
+    V16 same_valid;
+    V16 valid[2], activity[2];    // of the last two steps
+    V16 error[4], two_errors[4];  // of the last step, and of the last two together
 };
 
 // What the model says about the pixels of some lanes.
 struct Prediction {
     V16 candidate[4];
-    V16 depth;          // the prediction
-    V16 context;        // idle_context where there is no pixel
-    V16 flip;           // all bits set where differences have the opposite sign
-    V16 active;         // all bits set where there is a pixel
-    V16 outside_depth;  // what stands outside the image
-    V16 outside_valid;
+    V16 depth;    // the prediction
+    V16 context;  // as if there were a pixel
+    V16 flip;     // all bits set where differences have the opposite sign
 };
 
 HWY_INLINE V16 load(const std::uint16_t* plane, int steps_ago, int lane) {
@@ -90,37 +88,40 @@ HWY_INLINE V16 as_value(hn::Mask<D16> m) {
     return hn::VecFromMask(D16(), m);
 }
 
+using LinearWeights = VS16[tap_count];
+
+// `at` is the pixel that the taps are taken relative to.
 template <bool temporal>
-HWY_INLINE V16 linear_prediction(const Step& s, int lane, V16 mean, V16 left, V16 upper_left,
-                                 V16 upper_right, const Weights& weights) {
-    const auto term = [&](V16 pixel, int tap) HWY_ATTR {
-        const VS16 difference = hn::BitCast(S16(), hn::ShiftLeft<3>(hn::Sub(pixel, mean)));
-        return hn::MulFixedPoint15(difference, hn::Set(S16(), weights[tap]));
+HWY_INLINE V16 linear_prediction(const Step& s, int lane, const Window& w, V16 at, V16 next8,
+                                 V16 before_right8, const LinearWeights& weights) {
+    const V16 at8 = hn::ShiftLeft<3>(at);
+    const auto term = [&](V16 pixel8, int tap) HWY_ATTR {
+        return hn::MulFixedPoint15(hn::BitCast(S16(), hn::Sub(pixel8, at8)), weights[tap]);
     };
+    const auto load8 = [&](const std::uint16_t* plane, int steps_ago, int lane_at)
+                           HWY_ATTR { return hn::ShiftLeft<3>(load(plane, steps_ago, lane_at)); };
     VS16 sum = hn::Set(S16(), 4);
-    VS16 far = hn::Add(term(load(s.depth, 2, lane - 1), 5), term(load(s.depth, 8, lane - 2), 4));
-    far = hn::Add(far, hn::Add(term(upper_left, 1), term(upper_right, 2)));
+    VS16 far = hn::Add(term(next8, 5), term(load8(s.depth, 8, lane - 2), 4));
+    far = hn::Add(far, hn::Add(term(w.upper8[2], 1), term(w.upper8[0], 2)));
     if constexpr (temporal) {
         const std::uint16_t* r = s.reference_depth;
-        sum = hn::Add(sum, hn::Add(term(load(r, 0, lane), 6), term(load(r, 1, lane), 7)));
-        sum = hn::Add(sum, hn::Add(term(load(r, 4, lane - 1), 8), term(load(r, -1, lane), 9)));
-        sum = hn::Add(sum, term(load(r, -4, lane + 1), 10));
+        sum = hn::Add(sum, hn::Add(term(w.before8[0], 6), term(w.before8[1], 7)));
+        sum = hn::Add(sum, hn::Add(term(load8(r, 4, lane - 1), 8), term(before_right8, 9)));
+        sum = hn::Add(sum, term(load8(r, -4, lane + 1), 10));
     }
-    sum = hn::Add(sum, hn::Add(far, term(load(s.depth, 2, lane), 3)));
-    sum = hn::Add(sum, term(left, 0));
-    return hn::Add(mean, hn::BitCast(D16(), hn::ShiftRight<3>(sum)));
+    sum = hn::Add(sum, hn::Add(far, term(w.far_left8, 3)));
+    sum = hn::Add(sum, term(w.left8, 0));
+    return hn::Add(at, hn::BitCast(D16(), hn::ShiftRight<3>(sum)));
 }
 
 // The candidate with the least error nearby, or the mean of the best two.
-HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, Traces& traces, int lane) {
+HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w, Traces& traces,
+                      int lane) {
     const D16 d;
     V16 error[4];
-    for (int i = 0; i < 4; ++i) {
-        const V16 above = hn::LoadU(d, traces.at(s.index - 3, triple0 + i) + lane - 1);
-        const V16 left = hn::Add(hn::LoadU(d, traces.at(s.index - 1, error0 + i) + lane),
-                                 hn::LoadU(d, traces.at(s.index - 2, error0 + i) + lane));
-        error[i] = hn::Add(above, left);
-    }
+    for (int i = 0; i < 4; ++i)
+        error[i] =
+            hn::Add(w.two_errors[i], hn::LoadU(d, traces.at(s.index - 3, triple0 + i) + lane - 1));
     const auto second_of_01 = hn::Lt(error[1], error[0]);
     const auto second_of_23 = hn::Lt(error[3], error[2]);
     const V16 best_01 = hn::Min(error[0], error[1]), worse_01 = hn::Max(error[0], error[1]);
@@ -145,132 +146,208 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, Traces& traces, 
     return hn::IfThenElse(close, hn::AverageRound(pick, next), pick);
 }
 
-template <bool temporal, bool blend>
-HWY_INLINE Prediction predict(const Model& model, const Step& s, Traces& traces,
-                              const Positions& positions, int lane) {
+// How many activity_bounds an activity reaches, times 3.
+constexpr std::uint8_t activity_part(unsigned activity) {
+    unsigned part = 0;
+    for (const std::uint16_t bound : activity_bounds)
+        part += activity >= bound ? 3 : 0;
+    return std::uint8_t(part);
+}
+
+// The same as a sum of entries for min(activity, 15) and min(activity / 8, 15),
+// and the last bound; and what to add by the distance of the linear predictor.
+struct ContextTables {
+    alignas(16) std::uint8_t low[16] = {}, high[16] = {}, side[16] = {};
+    constexpr ContextTables() {
+        for (unsigned i = 0; i < 16; ++i) {
+            low[i] = activity_part(i);
+            high[i] =
+                i < 2 ? std::uint8_t(0) : std::uint8_t(activity_part(8 * i) - activity_part(15));
+            side[i] = i >= 4 ? 2 : i >= 1 ? 1 : 0;
+        }
+    }
+};
+inline constexpr ContextTables context_tables;
+static_assert(activity_bounds[5] % 8 == 0 && activity_bounds[6] % 8 == 0 &&
+              activity_bounds[7] % 8 == 0 && activity_bounds[8] >= 128);
+
+// The context of a pixel whose neighbours were all measured.
+HWY_INLINE V16 level_of(V16 activity, V16 how_far) {
     const D16 d;
-    const V16 one = hn::Set(d, 1);
+#if HWY_TARGET == HWY_SCALAR
+    const unsigned far = hn::GetLane(how_far);
+    return hn::Set(d, std::uint16_t(activity_part(hn::GetLane(activity)) +
+                                    context_tables.side[std::min(far, 15u)]));
+#else
+    const hn::Repartition<std::uint8_t, D16> d8;
+    const V16 most = hn::Set(d, 15);
+    const auto look_up = [&](const std::uint8_t* table, V16 index) HWY_ATTR {
+        const auto bytes = hn::BitCast(d8, hn::Min(index, most));
+        return hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, table), bytes));
+    };
+    const V16 side = look_up(context_tables.side, how_far);
+    const V16 part = hn::Add(look_up(context_tables.low, activity),
+                             look_up(context_tables.high, hn::ShiftRight<3>(activity)));
+    const auto is_last = hn::Gt(activity, hn::Set(d, activity_bounds[8] - 1));
+    return hn::Add(hn::Add(part, side), hn::IfThenElseZero(is_last, hn::Set(d, 3)));
+#endif
+}
+
+template <bool temporal>
+HWY_INLINE Window begin_window(const Step& s, int lane) {
+    const V16 zero = hn::Zero(D16());
+    Window w;
+    w.left = w.left8 = w.far_left8 = w.upper_left = zero;
+    w.before = w.before_left = w.before8[0] = w.before8[1] = w.same_valid = zero;
+    for (V16& pixel : w.upper8)
+        pixel = zero;
+    for (int i = 0; i < 2; ++i)
+        w.valid[i] = w.activity[i] = zero;
+    for (int i = 0; i < 4; ++i)
+        w.error[i] = w.two_errors[i] = zero;
+    if constexpr (temporal) {
+        w.before = load(s.reference_depth, 0, lane);
+        w.before8[0] = hn::ShiftLeft<3>(w.before);
+    }
+    return w;
+}
+
+template <bool temporal, bool blend>
+HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Traces& traces,
+                              Window& w, int lane) {
+    const D16 d;
     Prediction p;
 
-    const V16 left = load(s.depth, 1, lane), above = load(s.depth, 4, lane - 1);
-    const V16 upper_left = load(s.depth, 5, lane - 1), upper_right = load(s.depth, 3, lane - 1);
-    const V16 low = hn::Min(left, above), high = hn::Max(left, above);
-    const V16 gradient = hn::Add(left, hn::Sub(above, upper_left));
+    const V16 above = load(s.depth, 4, lane - 1);
+    const V16 next8 = hn::ShiftLeft<3>(load(s.depth, 2, lane - 1));
+    const V16 low = hn::Min(w.left, above), high = hn::Max(w.left, above);
+    const V16 gradient = hn::Add(w.left, hn::Sub(above, w.upper_left));
     const V16 median = hn::Max(low, hn::Min(high, gradient));
-    const V16 mean = hn::AverageRound(left, above);
-    const V16 linear =
-        linear_prediction<temporal>(s, lane, mean, left, upper_left, upper_right, model.weights);
+    V16 before_right{}, before_right8{};
+    if constexpr (temporal) {
+        before_right = load(s.reference_depth, -1, lane);
+        before_right8 = hn::ShiftLeft<3>(before_right);
+    }
+    const V16 linear = linear_prediction<temporal>(s, lane, w, hn::AverageRound(w.left, above),
+                                                   next8, before_right8, weights);
     p.depth = median;
     if constexpr (blend) {
         p.candidate[0] = median;
         if constexpr (temporal) {
-            const V16 before = load(s.reference_depth, 0, lane);
-            const V16 change = hn::Add(hn::Sub(left, load(s.reference_depth, 1, lane)),
+            const V16 change = hn::Add(hn::Sub(w.left, w.before_left),
                                        hn::Sub(above, load(s.reference_depth, 4, lane - 1)));
-            p.candidate[1] = before;
-            p.candidate[2] = hn::Add(before, half_of_signed(change));
+            p.candidate[1] = w.before;
+            p.candidate[2] = hn::Add(w.before, half_of_signed(change));
         } else {
-            p.candidate[1] = left;
+            p.candidate[1] = w.left;
             p.candidate[2] = above;
         }
         p.candidate[3] = linear;
-        p.depth = choose(p.candidate, s, traces, lane);
+        p.depth = choose(p.candidate, s, w, traces, lane);
     }
 
     // How far and to which side the linear predictor is.
     const V16 aside = hn::Sub(linear, p.depth);
     p.flip = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), aside)));
     const V16 how_far = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), aside)));
-    const V16 side = hn::Add(hn::Min(how_far, one), hn::Min(hn::ShiftRight<2>(how_far), one));
+    const V16 activity = hn::Add(hn::Add(w.activity[0], w.activity[0]),
+                                 hn::LoadU(d, traces.at(s.index - 3, activity_above) + lane - 1));
+    const V16 level = level_of(activity, how_far);
 
-    const V16 last = hn::LoadU(d, traces.at(s.index - 1, activity) + lane);
-    const V16 active = hn::Add(hn::Add(last, last),
-                               hn::LoadU(d, traces.at(s.index - 3, activity_above) + lane - 1));
-    V16 context = hn::Min(active, hn::Set(d, activity_bounds[2]));
-    for (int i = 3; i < 9; ++i)
-        context = hn::Sub(context, as_value(hn::Gt(active, hn::Set(d, activity_bounds[i] - 1))));
-    context = hn::Add(hn::Add(context, hn::Add(context, context)), side);
-
-    const V16 valid_left = load(s.valid, 1, lane), valid_above = load(s.valid, 4, lane - 1);
-    const V16 valid_upper_left = load(s.valid, 5, lane - 1);
-    const V16 valid_upper_right = load(s.valid, 3, lane - 1);
-    const V16 direct = hn::Add(valid_left, valid_above);
-    const V16 around =
-        hn::Add(hn::Add(direct, direct), hn::Add(valid_upper_left, valid_upper_right));
-    V16 before = hn::Set(d, 3);
+    const V16 around = hn::Add(hn::Add(w.valid[0], w.valid[0]),
+                               hn::LoadU(d, traces.at(s.index - 3, valid_above) + lane - 1));
+    V16 before_valid = hn::Set(d, 3);
     if constexpr (temporal) {
-        const V16 same = load(s.reference_valid, 0, lane);
-        before = hn::Add(hn::Add(same, same), hn::And(load(s.reference_valid, -1, lane),
-                                                      load(s.reference_valid, -4, lane + 1)));
+        const V16 right = load(s.reference_valid, -1, lane);
+        before_valid = hn::Add(hn::Add(w.same_valid, w.same_valid),
+                               hn::And(right, load(s.reference_valid, -4, lane + 1)));
+        w.same_valid = right;
     }
-    const V16 neighbourhood = hn::Add(hn::ShiftLeft<2>(around), before);
-    context = hn::IfThenElse(hn::Eq(neighbourhood, hn::Set(d, 27)), context,
-                             hn::Add(neighbourhood, hn::Set(d, mixed_contexts)));
+    const V16 neighbourhood = hn::Add(hn::ShiftLeft<2>(around), before_valid);
+    p.context = hn::IfThenElse(hn::Eq(neighbourhood, hn::Set(d, 27)), level,
+                               hn::Add(neighbourhood, hn::Set(d, mixed_contexts)));
 
-    p.context = context;
-    p.active = hn::Set(d, 0xffff);
-    p.outside_depth = above;
-    p.outside_valid = valid_above;
-    if (HWY_UNLIKELY(!s.inside)) {
-        const V16 x = hn::Load(d, positions.x + lane);
-        const V16 rows = hn::Load(d, positions.rows + lane);
-        const auto in_rows = hn::RebindMask(d, hn::Gt(hn::BitCast(S16(), rows), hn::Zero(S16())));
-        const auto in_columns = hn::Lt(hn::Sub(x, hn::Set(d, row_front)),
-                                       hn::Set(d, std::uint16_t(model.layout.size.width)));
-        const auto is_pixel = hn::And(in_rows, in_columns);
-        p.active = as_value(is_pixel);
-        p.context = hn::IfThenElse(is_pixel, context, hn::Set(d, idle_context));
-
-        // Left of the image stands what is above right, right of it the last pixel,
-        // below it the row above.
-        const auto before_row = hn::Lt(x, hn::Set(d, row_front));
-        p.outside_depth =
-            hn::IfThenElse(in_rows, hn::IfThenElse(before_row, upper_right, left), above);
-        p.outside_valid = hn::IfThenElse(
-            in_rows, hn::IfThenElse(before_row, valid_upper_right, valid_left), valid_above);
+    w.upper_left = above;
+    w.upper8[2] = w.upper8[1];
+    w.upper8[1] = w.upper8[0];
+    w.upper8[0] = next8;
+    if constexpr (temporal) {
+        w.before_left = w.before;
+        w.before = before_right;
+        w.before8[1] = w.before8[0];
+        w.before8[0] = before_right8;
     }
     return p;
 }
 
-// Keeps what later steps need. `depth` is final also for holes and outside.
+// What stands at the positions of some lanes, of which some are not pixels.
+struct Outside {
+    V16 is_pixel;  // all bits set where there is one
+    V16 depth, valid;
+};
+
+// Left of the image stands what is above right, right of it the last pixel,
+// below it the row above. `w` as before predict.
+// (Without the whole Step, which would then have to be in memory.)
+HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
+                                const std::uint16_t* depth, const std::uint8_t* valid, V16 left,
+                                V16 valid_left, int lane) {
+    const D16 d;
+    const V16 lanes = hn::Iota(d, std::uint16_t(lane));
+    V16 x = hn::Sub(hn::Set(d, std::uint16_t(position)), hn::ShiftLeft<2>(lanes));
+    // Lanes that have not yet ended their row of the group before.
+    const V16 is_behind = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), x)));
+    V16 rows = hn::Sub(hn::Set(d, std::uint16_t(layout.size.height - lane_count * group)), lanes);
+    if (group > 0) {
+        x = hn::Add(x, hn::And(is_behind, hn::Set(d, std::uint16_t(layout.pitch))));
+        rows = hn::Add(rows, hn::And(is_behind, hn::Set(d, lane_count)));
+    }
+    const auto in_rows = hn::RebindMask(d, hn::Gt(hn::BitCast(S16(), rows), hn::Zero(S16())));
+    const auto in_columns =
+        hn::Lt(hn::Sub(x, hn::Set(d, row_front)), hn::Set(d, std::uint16_t(layout.size.width)));
+    const auto before_row = hn::Lt(x, hn::Set(d, row_front));
+    const auto choose = [&](V16 at_left, auto plane) HWY_ATTR {
+        const V16 in_row = hn::IfThenElse(before_row, load(plane, 3, lane - 1), at_left);
+        return hn::IfThenElse(in_rows, in_row, load(plane, 4, lane - 1));
+    };
+    Outside outside;
+    outside.is_pixel = as_value(hn::And(in_rows, in_columns));
+    outside.depth = choose(left, depth);
+    outside.valid = choose(valid_left, valid);
+    return outside;
+}
+
+// Keeps what later steps need. `depth` is final also for holes and outside;
+// `is_pixel` has all bits set where there is a pixel.
 template <bool blend>
-HWY_INLINE void keep(const V16 (&candidate)[4], V16 depth, V16 residual, V16 is_active, V16 valid,
-                     std::uint16_t* depth_out, std::uint8_t* valid_out, Traces& traces, int index,
-                     int lane) {
+HWY_INLINE void keep(const V16 (&candidate)[4], V16 depth, V16 residual, V16 is_pixel, V16 valid,
+                     const Step& s, Traces& traces, Window& w, int lane) {
     const D16 d;
     const V16 most = hn::Set(d, 255);
-    hn::StoreU(depth, d, depth_out + lane);
-    hn::StoreU(hn::DemoteTo(D8(), hn::BitCast(S16(), valid)), D8(), valid_out + lane);
+    hn::StoreU(depth, d, s.depth + lane);
+    hn::StoreU(hn::DemoteTo(D8(), hn::BitCast(S16(), valid)), D8(), s.valid + lane);
     if constexpr (blend) {
         for (int i = 0; i < 4; ++i) {
-            const V16 error = hn::And(hn::Min(distance(depth, candidate[i]), most), is_active);
-            const V16 triple =
-                hn::Add(error, hn::Add(hn::LoadU(d, traces.at(index - 1, error0 + i) + lane),
-                                       hn::LoadU(d, traces.at(index - 2, error0 + i) + lane)));
-            hn::StoreU(error, d, traces.at(index, error0 + i) + lane);
-            hn::StoreU(triple, d, traces.at(index, triple0 + i) + lane);
+            const V16 error = hn::And(hn::Min(distance(depth, candidate[i]), most), is_pixel);
+            hn::StoreU(hn::Add(error, w.two_errors[i]), d, traces.at(s.index, triple0 + i) + lane);
+            w.two_errors[i] = hn::Add(error, w.error[i]);
+            w.error[i] = error;
         }
     }
     const V16 size = hn::Min(residual, most);
-    const V16 before = hn::LoadU(d, traces.at(index - 1, activity) + lane);
-    const V16 above = hn::Add(hn::Add(size, hn::Add(before, before)),
-                              hn::LoadU(d, traces.at(index - 2, activity) + lane));
-    hn::StoreU(size, d, traces.at(index, activity) + lane);
-    hn::StoreU(above, d, traces.at(index, activity_above) + lane);
-}
-
-// Moves all lanes on by one position.
-HWY_INLINE void advance(Positions& positions, const Layout& layout) {
-    const D16 d;
-    const V16 last = hn::Set(d, std::uint16_t(layout.pitch - 1));
-    for (std::size_t lane = 0; lane < lane_count; lane += hn::Lanes(d)) {
-        const V16 x = hn::Load(d, positions.x + lane);
-        const V16 rows = hn::Load(d, positions.rows + lane);
-        const auto wraps = hn::Eq(x, last);
-        hn::Store(hn::IfThenZeroElse(wraps, hn::Add(x, hn::Set(d, 1))), d, positions.x + lane);
-        hn::Store(hn::Sub(rows, hn::IfThenElseZero(wraps, hn::Set(d, lane_count))), d,
-                  positions.rows + lane);
-    }
+    const V16 two = hn::Add(w.activity[0], w.activity[0]);
+    hn::StoreU(hn::Add(hn::Add(size, w.activity[1]), two), d,
+               traces.at(s.index, activity_above) + lane);
+    w.activity[1] = w.activity[0];
+    w.activity[0] = size;
+    const V16 two_valid = hn::Add(w.valid[0], w.valid[0]);
+    hn::StoreU(hn::Add(hn::Add(valid, w.valid[1]), two_valid), d,
+               traces.at(s.index, valid_above) + lane);
+    w.valid[1] = w.valid[0];
+    w.valid[0] = valid;
+    w.far_left8 = w.left8;
+    w.left8 = hn::ShiftLeft<3>(depth);
+    w.left = depth;
 }
 
 }  // namespace theatron::codec::strata::HWY_NAMESPACE

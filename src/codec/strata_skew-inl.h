@@ -127,7 +127,7 @@ void sample_equations(const Model& model, const std::uint16_t* pixels, int limit
                       Equations& equations) {
     // Lanes whose neighbours above are lanes of the same group.
     constexpr int first = 8, sampled = 16;
-    constexpr int stride = 11;
+    constexpr int stride = 17;
     const hn::CappedTag<float, sampled> d;
     const hn::Rebind<std::int32_t, decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
@@ -201,7 +201,7 @@ void sample_equations(const Model& model, const std::uint16_t* pixels, int limit
 
 void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
                  std::size_t bound_count, std::uint16_t* to) {
-    const hn::CappedTag<std::uint16_t, 8> d8;
+    const hn::CappedTag<std::uint16_t, 1> d1;
     const hn::ScalableTag<std::uint16_t> d;
     const auto shift = [&](auto tag, std::size_t at) HWY_ATTR {
         const auto rank = hn::LoadU(tag, from + at);
@@ -215,8 +215,8 @@ void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16
     std::size_t at = 0;
     for (; at + hn::Lanes(d) <= count; at += hn::Lanes(d))
         shift(d, at);
-    for (; at < count; at += hn::Lanes(d8))
-        shift(d8, at);
+    for (; at < count; ++at)
+        shift(d1, at);
 }
 
 }  // namespace theatron::codec::strata::HWY_NAMESPACE

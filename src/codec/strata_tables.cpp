@@ -163,22 +163,33 @@ void make_frequencies(const Levels& levels, Frequencies& frequencies) {
     frequencies.of[std::size_t(idle_context) * token_count] = probability_sum;
 }
 
-void make_slots(const Frequencies& frequencies, SlotTable& slots) {
-    for (unsigned c = 0; c < context_count; ++c) {
-        const std::uint32_t* of = frequencies.of.data() + std::size_t(c) * token_count;
-        std::uint32_t* slot = slots.data() + std::size_t(c) * probability_sum;
-        std::uint32_t* const end = slot + probability_sum;
-        for (unsigned t = 0; t < used_tokens; ++t) {
-            const std::uint32_t frequency = of[t] & 0xffff;
-            const std::uint32_t same = t | frequency << 20;
-            for (std::uint32_t i = 0; i < frequency; ++i)
-                slot[i] = same | i << 8;
-            slot += frequency;
-        }
-        // A context without a table leaves the coder as it is, as holes.
-        for (std::uint32_t i = 0; slot != end; ++i)
-            *slot++ = hole_token | i << 8 | probability_sum << 20;
+const SlotTable& Slots::of(const Levels& levels) {
+    constexpr std::uint32_t sum = probability_sum;
+    if (!made_) {
+        // An idle lane's coder stays as it is, at a hole.
+        std::uint32_t* slot = table_.data() + std::size_t(idle_context) * sum;
+        for (std::uint32_t i = 0; i < sum; ++i)
+            slot[i] = hole_token | i << 8 | sum << 20;
     }
+    for (unsigned c = 0; c < coded_contexts; ++c) {
+        if (made_ && levels_[c] == levels[c])
+            continue;
+        std::uint32_t of[used_tokens] = {};
+        spread(levels[c], of);
+        std::uint32_t* slot = table_.data() + std::size_t(c) * sum;
+        std::uint32_t* const end = slot + sum;
+        for (unsigned t = 0; t < used_tokens; ++t) {
+            for (std::uint32_t i = 0; i < of[t]; ++i)
+                slot[i] = t | i << 8 | of[t] << 20;
+            slot += of[t];
+        }
+        // Likewise a context without a table.
+        for (std::uint32_t i = 0; slot != end; ++i)
+            *slot++ = hole_token | i << 8 | sum << 20;
+    }
+    levels_ = levels;
+    made_ = true;
+    return table_;
 }
 
 }  // namespace theatron::codec::strata

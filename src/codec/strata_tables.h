@@ -30,6 +30,17 @@ struct Frequencies {
 // For each slot of each context: token | (slot - start) << 8 | frequency << 20.
 using SlotTable = std::array<std::uint32_t, std::size_t(context_count) * probability_sum>;
 
+// A slot table that is kept from frame to frame: most contexts keep their levels.
+class Slots {
+public:
+    const SlotTable& of(const Levels& levels);
+
+private:
+    bool made_ = false;
+    Levels levels_;
+    SlotTable table_;
+};
+
 // What intra frames start from.
 const Levels& standard_levels();
 
@@ -42,6 +53,5 @@ void put_levels(const Levels& levels, const Levels& before, SideWriter& side);
 bool get_levels(const Levels& before, Levels& levels, SideReader& side);
 
 void make_frequencies(const Levels& levels, Frequencies& frequencies);
-void make_slots(const Frequencies& frequencies, SlotTable& slots);
 
 }  // namespace theatron::codec::strata

@@ -32,6 +32,20 @@ Values listed(const std::vector<std::uint8_t>& present) {
 
 constexpr std::uint16_t no_rank = 0x7fff;
 
+// Several at a time, as a loop costs as much as what is in it. `to` may be `from`.
+void look_up(const std::vector<std::uint16_t>& table, const std::uint16_t* from, int count,
+             std::uint16_t* to) {
+    constexpr int several = 8;
+    const std::uint16_t* of = table.data();
+    int i = 0;
+    for (; i + several <= count; i += several) {
+        for (int k = 0; k < several; ++k)
+            to[i + k] = of[from[i + k]];
+    }
+    for (; i < count; ++i)
+        to[i] = of[from[i]];
+}
+
 // Each depth's rank, no_rank where it has none.
 void make_ranks(const Values& values, std::vector<std::uint16_t>& ranks) {
     ranks.assign(all_depths, no_rank);
@@ -69,30 +83,6 @@ Values find_values(DepthView depth, Tolerance tolerance) {
     return values;
 }
 
-bool add_values(DepthView depth, Values& values) {
-    std::vector<std::uint8_t> known(all_depths);
-    for (const std::uint16_t v : values)
-        known[v] = 1;
-    known[0] = known[all_depths - 1] = 1;
-    bool complete = true;
-    for (int y = 0; y < depth.size.height; ++y) {
-        const std::uint16_t* row = depth.row(y);
-        std::uint8_t all = 1;
-        for (int x = 0; x < depth.size.width; ++x)
-            all &= known[row[x]];
-        if (all != 0)
-            continue;
-        complete = false;
-        for (int x = 0; x < depth.size.width; ++x)
-            known[row[x]] = 1;
-    }
-    if (complete)
-        return true;
-    known[0] = known[all_depths - 1] = 0;
-    values = listed(known);
-    return values.size() <= max_values;
-}
-
 void put_values(const Values& before, const Values& values, SideWriter& side) {
     NumberModel counts, gaps;
     Values added;
@@ -125,24 +115,51 @@ bool get_values(const Values& before, Values& values, SideReader& side) {
     return values.size() == before.size() + count;
 }
 
-bool RankTables::to_ranks(DepthView depth, const Values& values, MutableDepthView ranks) {
-    if (forward_values_ != values || forward_.empty()) {
-        forward_values_ = values;
-        make_ranks(values, forward_);
-    }
-    const std::uint16_t* table = forward_.data();
-    int unknown = 0;
+void RankTables::use(const Values& values) {
+    if (forward_values_ == values && !forward_.empty())
+        return;
+    forward_values_ = values;
+    make_ranks(values, forward_);
+}
+
+bool RankTables::to_ranks(DepthView depth, Values& values, MutableDepthView ranks) {
+    use(values);
+    // Rows with ranks that are not numbers of a value: none, or that of 65535.
+    rows_again_.clear();
     for (int y = 0; y < depth.size.height; ++y) {
-        const std::uint16_t* from = depth.row(y);
-        std::uint16_t* to = ranks.row(y);
-        for (int x = 0; x < depth.size.width; ++x)
-            to[x] = table[from[x]];
-        std::int16_t row_unknown = 0;
-        for (int x = 0; x < depth.size.width; ++x)
-            row_unknown = std::int16_t(row_unknown | -(to[x] == no_rank));
-        unknown |= row_unknown;
+        look_up(forward_, depth.row(y), depth.size.width, ranks.row(y));
+        const std::uint16_t* row = ranks.row(y);
+        if (*std::max_element(row, row + depth.size.width) >= no_rank)
+            rows_again_.push_back(y);
     }
-    return unknown == 0;
+    Values added;
+    for (const int y : rows_again_) {
+        for (int x = 0; x < depth.size.width; ++x) {
+            std::uint16_t& rank = forward_[depth.row(y)[x]];
+            if (rank == no_rank) {
+                rank = 0;  // once
+                added.push_back(depth.row(y)[x]);
+            }
+        }
+    }
+    if (added.empty())
+        return true;
+    forward_.clear();
+    if (values.size() + added.size() > max_values)
+        return false;
+
+    // The others move on.
+    const Values before = values;
+    const auto middle = values.insert(values.end(), added.begin(), added.end());
+    std::sort(middle, values.end());
+    std::inplace_merge(values.begin(), middle, values.end());
+    use(values);
+    RankShift shift(before, values);
+    for (int y = 0; y < depth.size.height; ++y)
+        shift.apply(ranks.row(y), std::size_t(depth.size.width), ranks.row(y));
+    for (const int y : rows_again_)
+        look_up(forward_, depth.row(y), depth.size.width, ranks.row(y));
+    return true;
 }
 
 void RankTables::from_ranks(const Values& values, MutableDepthView depth) {
@@ -152,38 +169,37 @@ void RankTables::from_ranks(const Values& values, MutableDepthView depth) {
         std::copy(values.begin(), values.end(), backward_.begin() + first_rank);
         backward_[all_depths - 1] = 65535;
     }
-    const std::uint16_t* table = backward_.data();
-    for (int y = 0; y < depth.size.height; ++y) {
-        std::uint16_t* row = depth.row(y);
-        for (int x = 0; x < depth.size.width; ++x)
-            row[x] = table[row[x]];
-    }
+    for (int y = 0; y < depth.size.height; ++y)
+        look_up(backward_, depth.row(y), depth.size.width, depth.row(y));
 }
 
-void move_ranks(const Values& before, const Values& values, const std::uint16_t* from,
-                std::size_t count, std::uint16_t* to) {
+RankShift::RankShift(const Values& before, const Values& values) {
     // Each new value moves all ranks from its place on by one.
-    std::vector<std::uint16_t> bounds;
     std::size_t known = 0;
     for (const std::uint16_t v : values) {
         if (known < before.size() && before[known] == v)
             ++known;
         else
-            bounds.push_back(std::uint16_t(first_rank + known));
+            bounds_.push_back(std::uint16_t(first_rank + known));
     }
     constexpr std::size_t few = 24;
-    if (bounds.size() <= few) {
-        shift_ranks(from, count, bounds.data(), bounds.size(), to);
+    if (bounds_.size() <= few)
+        return;
+    table_.resize(all_depths);
+    for (std::size_t rank = 0, reached = 0; rank < all_depths; ++rank) {
+        while (reached < bounds_.size() && bounds_[reached] <= rank)
+            ++reached;
+        table_[rank] = std::uint16_t(rank + reached);
+    }
+}
+
+void RankShift::apply(const std::uint16_t* from, std::size_t count, std::uint16_t* to) const {
+    if (table_.empty()) {
+        shift_ranks(from, count, bounds_.data(), bounds_.size(), to);
         return;
     }
-    std::vector<std::uint16_t> table(all_depths);
-    for (std::size_t rank = 0, reached = 0; rank < all_depths; ++rank) {
-        while (reached < bounds.size() && bounds[reached] <= rank)
-            ++reached;
-        table[rank] = std::uint16_t(rank + reached);
-    }
     for (std::size_t i = 0; i < count; ++i)
-        to[i] = table[from[i]];
+        to[i] = table_[from[i]];
 }
 
 }  // namespace theatron::codec::strata

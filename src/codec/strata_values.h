@@ -25,30 +25,38 @@ using Values = std::vector<std::uint16_t>;  // ascending, neither 0 nor 65535
 // of the tolerance; else none.
 Values find_values(DepthView depth, Tolerance tolerance);
 
-// Adds those that the image has and `values` has not. False if there are too
-// many; `values` is then unspecified.
-bool add_values(DepthView depth, Values& values);
-
 // Writes and reads the values that `values` has in addition to `before`.
 void put_values(const Values& before, const Values& values, SideWriter& side);
 bool get_values(const Values& before, Values& values, SideReader& side);
 
+// Turns ranks in `before` into ranks in `values`, which has all of `before`.
+class RankShift {
+public:
+    RankShift(const Values& before, const Values& values);
+    // `to` may be `from`.
+    void apply(const std::uint16_t* from, std::size_t count, std::uint16_t* to) const;
+
+private:
+    std::vector<std::uint16_t> bounds_;
+    std::vector<std::uint16_t> table_;  // of all ranks, if there are many bounds
+};
+
 // To ranks and back, with tables that are kept while the values stay the same.
 class RankTables {
 public:
-    // 0 and 65535 stay what they are. False if the image has other values than
-    // those given; `ranks` is then unspecified.
-    bool to_ranks(DepthView depth, const Values& values, MutableDepthView ranks);
+    // Adds the values that the image has and `values` has not. 0 and 65535 stay
+    // what they are. False if there are too many values; `values` and `ranks` are
+    // then unspecified.
+    bool to_ranks(DepthView depth, Values& values, MutableDepthView ranks);
     // Ranks without a value become 0.
     void from_ranks(const Values& values, MutableDepthView depth);
 
 private:
+    void use(const Values& values);
+
     Values forward_values_, backward_values_;
+    std::vector<int> rows_again_;
     std::vector<std::uint16_t> forward_, backward_;
 };
-
-// Ranks in `before` as ranks in `values`, which has all of `before`.
-void move_ranks(const Values& before, const Values& values, const std::uint16_t* from,
-                std::size_t count, std::uint16_t* to);
 
 }  // namespace theatron::codec::strata
