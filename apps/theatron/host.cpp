@@ -97,6 +97,7 @@ struct Host::Impl {
     net::Link link;
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
+    send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::thread thread;
     // Which cameras have a region of interest; server's thread.
@@ -120,7 +121,8 @@ struct Host::Impl {
     void open(const HostOptions& options, const capture::Progress& progress);
     wire::Camera describe(CameraId id, const capture::CameraInfo& info) const;
     net::Server::Handler handler();
-    void start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras);
+    void start_lanes(const std::vector<std::string>& specifications,
+                     std::vector<std::unique_ptr<capture::Camera>> cameras);
 
     // All below on the server's thread.
     void carry_out();
@@ -159,7 +161,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         link.host = everywhere ? outside_address() : options.listen.address;
 
     // The lanes never change once the server's thread runs.
-    start_lanes(std::move(cameras));
+    start_lanes(options.cameras, std::move(cameras));
     thread = std::thread([this] { server->run(); });
 }
 
@@ -208,7 +210,12 @@ net::Server::Handler Host::Impl::handler() {
     return h;
 }
 
-void Host::Impl::start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras) {
+void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
+                             std::vector<std::unique_ptr<capture::Camera>> cameras) {
+    double fps = 1;
+    for (const auto& camera : cameras)
+        fps = std::max(fps, camera->info().frames_per_second);
+    const auto moments = std::make_shared<send::SharedMoments>(fps);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         send::CameraLane::Events events;
         events.media = [this](send::EncodedMedia media) {
@@ -216,15 +223,27 @@ void Host::Impl::start_lanes(std::vector<std::unique_ptr<capture::Camera>> camer
         };
         events.state = [this](wire::CameraState state) {
             server->post([this, state = std::move(state)] {
-                if (state.condition == wire::CameraCondition::failed)
+                using Condition = wire::CameraCondition;
+                if (state.condition == Condition::failed)
                     log::error("host", "camera failed",
                                {{"camera", int(state.camera)}, {"problem", state.problem}});
+                else if (state.condition == Condition::stale)
+                    log::warning("host", "camera is stale",
+                                 {{"camera", int(state.camera)}, {"problem", state.problem}});
+                else if (state.condition == Condition::live)
+                    log::info("host", "camera is live", {{"camera", int(state.camera)}});
                 session->on_camera(state);
                 carry_out();
             });
         };
-        lanes.push_back(std::make_unique<send::CameraLane>(CameraId(i), std::move(cameras[i]),
-                                                           std::move(events)));
+        send::CameraLane::Options lane;
+        lane.open_again = [specification = specifications[i]] {
+            return capture::open_camera(specification);
+        };
+        lane.moments = moments;
+        lane.one_per_moment = true;
+        lanes.push_back(std::make_unique<send::CameraLane>(
+            CameraId(i), std::move(cameras[i]), std::move(events), workers, std::move(lane)));
     }
 }
 
