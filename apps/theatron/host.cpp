@@ -11,13 +11,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "codec_steps.h"
+#include "host_http.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "session/host_session.h"
@@ -35,8 +35,8 @@ std::filesystem::path default_state_folder() {
 }
 
 // The token outlives the host, so that participants find back after a restart.
-std::string load_or_make_token(const std::filesystem::path& folder) {
-    const auto path = folder / "join.token";
+std::string load_or_make_token(const std::filesystem::path& folder, const char* name) {
+    const auto path = folder / name;
     std::string token;
     std::ifstream(path) >> token;
     if (!token.empty())
@@ -105,8 +105,11 @@ struct Host::Impl {
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
-    nlohmann::json participant_figures = nlohmann::json::array();
+    std::vector<HostFigures::Participant> participant_figures;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
+    std::string name;
+    std::vector<std::string> http_tokens;
+    const TimePoint begun = steady_now();
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
@@ -130,6 +133,9 @@ struct Host::Impl {
     void distribute(const send::EncodedMedia& media);
     void measure_links();
     void note_participants();
+
+    // From any thread.
+    HostFigures figures() const;
 };
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
@@ -143,8 +149,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     const auto state = options.state.empty() ? default_state_folder() : options.state;
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
-    config.token = options.token.empty() ? load_or_make_token(state) : options.token;
-    config.name = options.name;
+    config.token = options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
+    // Monitoring systems need not be able to join.
+    http_tokens = {config.token, load_or_make_token(state, "metrics.token")};
+    config.name = name = options.name;
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.equal_secrets = net::equal_secrets;
@@ -206,6 +214,9 @@ net::Server::Handler Host::Impl::handler() {
         session->on_tick(steady_now());
         carry_out();
         note_participants();
+    };
+    h.http = [this](const net::HttpRequest& request) {
+        return answer_http(request, http_tokens, [this] { return figures(); });
     };
     return h;
 }
@@ -317,16 +328,29 @@ void Host::Impl::measure_links() {
 }
 
 void Host::Impl::note_participants() {
-    nlohmann::json list = nlohmann::json::array();
+    std::vector<HostFigures::Participant> list;
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
-            list.push_back({{"id", int(id)},
-                            {"name", participant.name},
-                            {"sent", participant.delivery.step().what}});
+            list.push_back(
+                {id, participant.name, participant.delivery.step().what, participant.report});
     participants = list.size();
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
     dropped_slow_figures = dropped_slow;
+}
+
+HostFigures Host::Impl::figures() const {
+    const std::lock_guard lock(figures_mutex);
+    HostFigures figures;
+    figures.name = name;
+    figures.seconds = to_seconds(steady_now() - begun);
+    for (const auto& lane : lanes) {
+        const auto dropped = dropped_slow_figures.find(lane->id());
+        figures.cameras.push_back(
+            {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
+    }
+    figures.participants = participant_figures;
+    return figures;
 }
 
 Host::Host(const HostOptions& options, const capture::Progress& progress)
@@ -376,24 +400,8 @@ void Host::set_region(std::size_t camera, codec::strata::Region region) {
     });
 }
 
-nlohmann::json Host::figures() const {
-    const std::lock_guard lock(impl_->figures_mutex);
-    nlohmann::json cameras = nlohmann::json::array();
-    for (const auto& lane : impl_->lanes) {
-        const send::LaneFigures f = lane->figures();
-        nlohmann::json stages = nlohmann::json::array();
-        for (const auto& stage : f.stages)
-            stages.push_back(
-                {{"name", stage.name}, {"p50_ms", stage.p50_ms}, {"p99_ms", stage.p99_ms}});
-        cameras.push_back({{"name", f.name},
-                           {"fps", f.frames_per_second},
-                           {"frames", f.frames},
-                           {"dropped_newest", f.dropped_newest},
-                           {"dropped_slow_receiver", impl_->dropped_slow_figures[lane->id()]},
-                           {"bytes", f.bytes},
-                           {"stages", stages}});
-    }
-    return {{"cameras", cameras}, {"participants", impl_->participant_figures}};
+HostFigures Host::figures() const {
+    return impl_->figures();
 }
 
 std::string Host::status_line() const {

@@ -9,9 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "codec/strata_region.h"
+#include "host_figures.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
 
@@ -43,7 +42,7 @@ public:
     void set_region(std::size_t camera, codec::strata::Region region);
 
     // What went on so far: cameras with stages, participants, drops.
-    nlohmann::json figures() const;
+    HostFigures figures() const;
     // One line of the same for people.
     std::string status_line() const;
     std::size_t participants() const { return participants_; }

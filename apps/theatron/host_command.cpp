@@ -112,7 +112,7 @@ void run(Flags& flags) {
         std::cout << "\n";
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);
-        out << host.figures().dump(2) << "\n";
+        out << to_json(host.figures()).dump(2) << "\n";
         if (!out.flush())
             throw Error("Cannot write the summary to " + flags.summary + ".");
     }

@@ -7,20 +7,6 @@
 namespace theatron::app {
 namespace {
 
-const char* text_of(wire::CameraCondition condition) {
-    switch (condition) {
-        case wire::CameraCondition::live:
-            return "live";
-        case wire::CameraCondition::stale:
-            return "stale";
-        case wire::CameraCondition::ended:
-            return "ended";
-        case wire::CameraCondition::failed:
-            return "failed";
-    }
-    return "unknown";
-}
-
 const char* text_of(receive::Exactness exact) {
     switch (exact) {
         case receive::Exactness::nowhere:
@@ -76,6 +62,20 @@ nlohmann::json age(const receive::StreamFigures& f) {
 }
 
 }  // namespace
+
+const char* text_of(wire::CameraCondition condition) {
+    switch (condition) {
+        case wire::CameraCondition::live:
+            return "live";
+        case wire::CameraCondition::stale:
+            return "stale";
+        case wire::CameraCondition::ended:
+            return "ended";
+        case wire::CameraCondition::failed:
+            return "failed";
+    }
+    return "unknown";
+}
 
 nlohmann::json participant_figures(const Participant& participant) {
     const auto status = participant.status();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/steady_clock.h"
 
 namespace theatron::capture {
 namespace {
@@ -57,8 +58,9 @@ public:
         if (fault && fault->kind == FaultKind::hang)
             sleep_(fault->end - now);
         // A camera that is opened after a jump has its clock right.
-        if (const Fault near = plan_.nearest(now);
-            near.kind == FaultKind::time_jump && near.begin > opened_ && near.begin <= now)
+        if (const Fault near = plan_.nearest(now); near.kind == FaultKind::time_jump &&
+                                                   near.begin > std::max(opened_, plan_.from) &&
+                                                   near.begin <= now)
             jumped_ = near.jump;
         if (fault && fault->kind == FaultKind::repeat && last_) {
             sleep_(std::min(timeout, seconds_to_duration(1 / info_.frames_per_second)));
@@ -118,7 +120,7 @@ Fault FaultPlan::nearest(TimePoint now) const {
 
 std::optional<Fault> FaultPlan::at(TimePoint now) const {
     const Fault fault = nearest(now);
-    if (now < fault.begin || now >= fault.end)
+    if (now < fault.begin || now >= fault.end || fault.begin < from)
         return std::nullopt;
     return fault;
 }
@@ -138,7 +140,9 @@ std::optional<FaultPlan> take_fault_options(Options& options) {
     const double every = options.take_number("faults_every", 10, 1, 3600);
     if (seed == none)
         return std::nullopt;
-    return FaultPlan{std::uint32_t(seed), seconds_to_duration(every)};
+    // A host insists on all its cameras when it starts.
+    static const TimePoint program_began = steady_now();
+    return FaultPlan{std::uint32_t(seed), seconds_to_duration(every), program_began + 2s};
 }
 
 }  // namespace theatron::capture

@@ -31,6 +31,7 @@ struct Fault {
 struct FaultPlan {
     std::uint32_t seed = 1;
     Duration every = 10s;
+    TimePoint from{};  // nothing fails before
 
     // The fault of the stretch of time that `now` lies in, whether it is on or not.
     Fault nearest(TimePoint now) const;

@@ -92,7 +92,7 @@ struct Patient {
     int faults_seen = 0, faults_missed = 0;
     TimePoint judged;  // begin of the last fault that was judged
 
-    Patient(std::uint32_t seed, double f) : plan{seed, 10s}, fps(f) {
+    Patient(std::uint32_t seed, double f) : plan{seed, 10s, {}}, fps(f) {
         const auto open = [this, seed] {
             return make_faulty_camera(std::make_unique<Sensor>(time, fps, seed), plan,
                                       time.clock().now, time.clock().sleep);
