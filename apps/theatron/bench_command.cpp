@@ -202,6 +202,7 @@ void add_pipeline(CLI::App& bench) {
         ->capture_default_str();
     command->add_option("--color-codec", flags->bench.color_codec, "Of all viewers")
         ->capture_default_str();
+    command->add_option("--filter", flags->bench.filter, "Of all cameras")->capture_default_str();
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {

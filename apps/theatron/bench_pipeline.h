@@ -15,6 +15,7 @@ struct PipelineBench {
     double warmup_seconds = 2;
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
+    std::string filter = "default";
 };
 
 // Runs one host and `viewers` participants as processes of their own. Returns

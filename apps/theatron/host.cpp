@@ -17,6 +17,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "codec_steps.h"
+#include "filter_choice.h"
 #include "host_http.h"
 #include "net/certificate.h"
 #include "net/server.h"
@@ -73,6 +74,9 @@ std::string outside_address() {
     return found;
 }
 
+// Of cameras that are given none.
+constexpr const char* usual_filter = "default";
+
 // Cameras whose place in the room nobody knows stand side by side, so far apart
 // that none stands in another's picture.
 constexpr double unregistered_distance_m = 12;
@@ -99,6 +103,7 @@ struct Host::Impl {
     std::unique_ptr<net::Server> server;
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
+    std::vector<FilterSource> filters;  // by camera; used by who owns the host
     std::thread thread;
     // Which cameras have a region of interest; server's thread.
     std::set<std::size_t> with_region;
@@ -146,6 +151,14 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     for (const std::string& specification : options.cameras)
         cameras.push_back(capture::open_camera(specification, progress));
 
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera->info().name);
+    filters = filter_sources(options.filters, names, usual_filter);
+    std::vector<LoadedFilter> loaded;
+    for (FilterSource& source : filters)
+        loaded.push_back(source.load());
+
     const auto state = options.state.empty() ? default_state_folder() : options.state;
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
@@ -170,6 +183,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
 
     // The lanes never change once the server's thread runs.
     start_lanes(options.cameras, std::move(cameras));
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
     thread = std::thread([this] { server->run(); });
 }
 
@@ -398,6 +413,22 @@ void Host::set_region(std::size_t camera, codec::strata::Region region) {
         impl->session->on_region(!impl->with_region.empty());
         impl->carry_out();
     });
+}
+
+void Host::follow_filter_files() {
+    for (std::size_t i = 0; i < impl_->filters.size(); ++i) {
+        try {
+            const auto changed = impl_->filters[i].changed();
+            if (!changed)
+                continue;
+            impl_->lanes[i]->set_filter(changed->settings, changed->background);
+            log::info("host", "filter changed",
+                      {{"camera", int(i)}, {"filter", changed->settings.spelling()}});
+        } catch (const Error& e) {
+            log::warning("host", "filter stays as it was",
+                         {{"camera", int(i)}, {"problem", e.what()}});
+        }
+    }
 }
 
 HostFigures Host::figures() const {

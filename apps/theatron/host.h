@@ -18,6 +18,7 @@ namespace theatron::app {
 
 struct HostOptions {
     std::vector<std::string> cameras;  // specifications
+    std::vector<std::string> filters;  // filter_choice.h
     net::Endpoint listen;
     std::string name = "operating room";
     std::string link_host;        // what the link says; empty: found out
@@ -40,6 +41,9 @@ public:
     // links carry, from the next frame on; empty: all of it. From any thread. Throws
     // Error with one sentence if it has too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
+
+    // Takes over filter files that were changed. Log lines tell.
+    void follow_filter_files();
 
     // What went on so far: cameras with stages, participants, drops.
     HostFigures figures() const;

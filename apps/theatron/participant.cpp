@@ -210,16 +210,22 @@ void Participant::on_camera_states() {
         const std::lock_guard lock(shared_->mutex);
         for (Camera& camera : shared_->cameras) {
             const auto found = session_.camera_states().find(camera.description.id);
-            if (found == session_.camera_states().end() ||
-                found->second.condition == camera.state.condition)
+            if (found == session_.camera_states().end())
                 continue;
+            const wire::CameraCondition before = camera.state.condition;
             camera.state = found->second;
+            if (camera.state.condition == before)
+                continue;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
             if (camera.state.condition == Condition::ended)
                 news.push_back(name + " has ended; its last picture stays.");
             else if (camera.state.condition == Condition::failed)
                 news.push_back(name + " has failed: " + camera.state.problem);
+            else if (camera.state.condition == Condition::stale)
+                news.push_back(name + " stands still. " + camera.state.problem);
+            else
+                news.push_back(name + " is live again.");
         }
     }
     for (const std::string& text : news)

@@ -88,6 +88,7 @@ nlohmann::json participant_figures(const Participant& participant) {
         cameras.push_back({{"name", camera.description.name},
                            {"state", text_of(camera.state.condition)},
                            {"problem", camera.state.problem},
+                           {"filter", camera.state.filter},
                            {"fps", depth.frames_per_second},
                            {"frames", depth.frames},
                            {"mbit_per_s", camera_mbit},

@@ -101,7 +101,10 @@ void CameraLane::look() {
         const std::lock_guard lock(status_mutex_);
         status_ = status;
     }
-    if (status.condition != told_.condition || status.problem != told_.problem) {
+    const std::string filter = meter_.filter();
+    if (status.condition != told_.condition || status.problem != told_.problem ||
+        filter != told_.filter) {
+        told_.filter = filter;
         told_.condition = status.condition;
         told_.problem = status.problem;
         events_.state(told_);

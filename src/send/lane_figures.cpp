@@ -75,6 +75,11 @@ void LaneMeter::on_filter(const std::string& spelling) {
     counts_.filter = spelling;
 }
 
+std::string LaneMeter::filter() const {
+    const std::lock_guard lock(mutex_);
+    return counts_.filter;
+}
+
 LaneFigures LaneMeter::figures(TimePoint now) const {
     const std::lock_guard lock(mutex_);
     LaneFigures f = counts_;

@@ -64,6 +64,7 @@ public:
     void on_stage(Stage stage, Duration took);
     void on_bytes(bool depth, std::size_t bytes);
     void on_filter(const std::string& spelling);
+    std::string filter() const;
 
     // Fills in all but name and camera.
     LaneFigures figures(TimePoint now) const;
