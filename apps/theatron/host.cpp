@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "base/thread_name.h"
 #include "codec_steps.h"
 #include "filter_choice.h"
 #include "host_http.h"
@@ -185,7 +186,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     start_lanes(options.cameras, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
-    thread = std::thread([this] { server->run(); });
+    thread = std::thread([this] {
+        name_this_thread("net");
+        server->run();
+    });
 }
 
 wire::Camera Host::Impl::describe(CameraId id, const capture::CameraInfo& info) const {

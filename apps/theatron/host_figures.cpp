@@ -35,7 +35,11 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
     nlohmann::json stages = nlohmann::json::array();
     for (const auto& stage : f.stages)
         stages.push_back(
-            {{"name", stage.name}, {"p50_ms", stage.p50_ms}, {"p99_ms", stage.p99_ms}});
+            {{"name", stage.name},
+             {"p50_ms", stage.p50_ms},
+             {"p99_ms", stage.p99_ms},
+             {"mean_ms", 1000 * stage.seconds.sum() /
+                             double(std::max<std::uint64_t>(stage.seconds.count(), 1))}});
     nlohmann::json dropped;
     for (const auto& [reason, count] : drops(camera))
         dropped[reason] = count;

@@ -23,7 +23,7 @@ struct HostFigures {
     struct Participant {
         ParticipantId id{};
         std::string name;
-        std::string sent;  // how much of what it asked for
+        std::string sent;                         // how much of what it asked for
         std::vector<wire::StreamReport> streams;  // its newest report
     };
     std::vector<Participant> participants;

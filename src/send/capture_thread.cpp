@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "base/thread_name.h"
 
 namespace theatron::send {
 namespace {
@@ -40,6 +41,7 @@ CaptureThread::~CaptureThread() {
 void CaptureThread::start(capture::WatchedCamera::Turn turn) {
     Runner runner;
     runner.thread = std::thread([shared = shared_, turn, done = runner.done] {
+        name_this_thread("capture");
         run(*shared, turn);
         *done = true;
     });

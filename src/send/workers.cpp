@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/thread_name.h"
+
 namespace theatron::send {
 namespace {
 
@@ -39,6 +41,7 @@ void Workers::forget(Ticket ticket) {
 }
 
 void Workers::look_around() {
+    name_this_thread("look");
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         for (const auto& [ticket, look] : looks_)
