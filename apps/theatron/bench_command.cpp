@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bench_color.h"
 #include "bench_depth.h"
+#include "bench_filter.h"
 #include "bench_pipeline.h"
 #include "bench_plot.h"
 #include "bench_render.h"
@@ -201,6 +202,7 @@ void add_pipeline(CLI::App& bench) {
         ->capture_default_str();
     command->add_option("--color-codec", flags->bench.color_codec, "Of all viewers")
         ->capture_default_str();
+    command->add_option("--filter", flags->bench.filter, "Of all cameras")->capture_default_str();
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
@@ -219,6 +221,15 @@ void add_pipeline(CLI::App& bench) {
             std::printf("  age when decoded: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n",
                         r["age_ms"]["p50"].get<double>(), r["age_ms"]["p99"].get<double>(),
                         r["age_ms"]["max"].get<double>());
+            std::printf("  memory: host %.0f MB (%+.1f in the run), viewer %.0f MB (%+.1f)\n",
+                        r["host_memory_mb"].get<double>(), r["memory_growth_mb"].get<double>(),
+                        r["viewer_memory_mb"].get<double>(),
+                        r["viewer_memory_growth_mb"].get<double>());
+            std::printf(
+                "  this machine could carry %.1f cameras; %s would be full first, the host's "
+                "costliest stage is %s; zstd1 of a frame %.2f ms\n",
+                r["cameras_possible"].get<double>(), r["ends_first"].get<std::string>().c_str(),
+                r["costliest_stage"].get<std::string>().c_str(), r["yardstick_ms"].get<double>());
             for (const auto& stage : r["stages"])
                 std::printf("  %-14s p50 %6.2f ms  p99 %6.2f ms\n",
                             stage["name"].get<std::string>().c_str(), stage["p50_ms"].get<double>(),
@@ -264,6 +275,7 @@ void add_bench_command(CLI::App& app) {
     bench->require_subcommand(1);
     add_depth(*bench);
     add_color(*bench);
+    add_filter_bench(*bench);
     add_pipeline(*bench);
     add_render(*bench);
 }

@@ -6,11 +6,18 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
 
 #include "base/error.h"
+#include "base/statistics.h"
+#include "base/steady_clock.h"
+#include "bench_coder.h"
 #include "child_process.h"
+#include "process_usage.h"
 
 namespace theatron::app {
 namespace {
@@ -42,14 +49,95 @@ nlohmann::json slowest_stages(const nlohmann::json& host) {
     return stages;
 }
 
+// The stage of the host that takes most of a frame's time.
+std::string costliest_stage(const nlohmann::json& host) {
+    std::map<std::string, double> total;
+    for (const auto& camera : host["cameras"])
+        for (const auto& stage : camera["stages"])
+            if (const std::string name = stage["name"];
+                name != "lane" && name != "capture" && name != "queue")
+                total[name] += stage["mean_ms"].get<double>();
+    const auto most =
+        std::max_element(total.begin(), total.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == total.end() ? "" : most->first;
+}
+
+// zstd level 1 over the depth of one generated frame: tells how fast this machine is
+// just now.
+double yardstick_ms() {
+    constexpr Size size{640, 576};
+    DepthImage depth(size);
+    std::mt19937 rng(1);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            depth.view().row(y)[x] = std::uint16_t(1500 + x / 3 + 2 * y + int(rng() % 5));
+    for (const auto& coder : depth_yardsticks()) {
+        if (coder->name() != "zstd1_raw")
+            continue;
+        std::vector<double> times;
+        Bytes out;
+        for (int i = 0; i < 25; ++i) {
+            const TimePoint begin = steady_now();
+            (void)coder->encode(depth, out);
+            times.push_back(to_ms(steady_now() - begin));
+        }
+        return median(times);
+    }
+    return 0;
+}
+
+// Host and viewers at one moment.
+struct Look {
+    TimePoint time = steady_now();
+    ProcessUsage host;
+    std::vector<ProcessUsage> viewers;
+
+    Look(const ChildProcess& host_process, const std::vector<std::unique_ptr<ChildProcess>>& others)
+        : host(usage_of(host_process.pid())) {
+        for (const auto& viewer : others)
+            viewers.push_back(usage_of(viewer->pid()));
+    }
+};
+
+// How many cameras there could be if all went on as between the two looks, by what
+// would be full first: all cores, or a thread that works alone.
+nlohmann::json capacity(const Look& before, const Look& after, double cameras) {
+    const double seconds = to_seconds(after.time - before.time);
+    double cores = after.host.cpu_seconds - before.host.cpu_seconds;
+    std::vector<std::pair<std::string, double>> used;
+    used.emplace_back("the host's network thread",
+                      busiest(before.host, after.host, "net", seconds));
+    for (std::size_t i = 0; i < after.viewers.size(); ++i) {
+        cores += after.viewers[i].cpu_seconds - before.viewers[i].cpu_seconds;
+        for (const char* name : {"net", "decode"})
+            used.emplace_back(std::string("a viewer's ") + name + " thread",
+                              busiest(before.viewers[i], after.viewers[i], name, seconds));
+    }
+    cores /= seconds;
+    const double here = std::max(1u, std::thread::hardware_concurrency());
+    used.insert(used.begin(), {"all cores", cores / here});
+    const auto fullest = std::max_element(
+        used.begin(), used.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    nlohmann::json shares;
+    for (const auto& [name, share] : used)
+        shares[name] = share;
+    return {{"cores", cores},
+            {"cores_here", here},
+            {"shares", shares},
+            {"ends_first", fullest->first},
+            {"cameras_possible", fullest->second > 0 ? cameras / fullest->second : 0}};
+}
+
 }  // namespace
 
 nlohmann::json bench_pipeline(const PipelineBench& bench) {
+    const double yardstick = yardstick_ms();
     const TemporaryFolder folder;
     const std::string summary_file = (folder.path / "host.json").string();
-    std::vector<std::string> arguments = {"host",      "--listen",  "127.0.0.1:0",
-                                          "--json",    "--state",   folder.path.string(),
-                                          "--summary", summary_file};
+    std::vector<std::string> arguments = {
+        "host",      "--listen",   "127.0.0.1:0", "--json",    "--state", folder.path.string(),
+        "--summary", summary_file, "--filter",    bench.filter};
     for (const std::string& camera : bench.cameras) {
         arguments.push_back("--camera");
         arguments.push_back(camera);
@@ -67,7 +155,16 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             "--warmup", std::to_string(bench.warmup_seconds), "--seconds",
             std::to_string(bench.seconds)}));
 
-    double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, cpu_seconds = 0, memory = 0;
+    // While the viewers measure, a little inside on both sides.
+    const auto sleep_for = [](double s) {
+        std::this_thread::sleep_for(seconds_to_duration(std::max(0.1, s)));
+    };
+    sleep_for(bench.warmup_seconds + 0.5);
+    const Look before(host, viewers);
+    sleep_for(bench.seconds - 0.7);
+    const Look after(host, viewers);
+
+    double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, memory = 0;
     std::uint64_t dropped = 0;
     for (const auto& viewer : viewers) {
         const auto figures = nlohmann::json::parse(viewer->read_line(), nullptr, false);
@@ -81,12 +178,10 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
         p99 = std::max(p99, figures["age_ms"]["p99"].get<double>());
         max = std::max(max, figures["age_ms"]["max"].get<double>());
         dropped += figures["dropped"].get<std::uint64_t>();
-        cpu_seconds += end.cpu_seconds;
         memory = std::max(memory, end.peak_memory_mb);
     }
     host.interrupt();
     const ChildProcess::End host_end = host.wait();
-    cpu_seconds += host_end.cpu_seconds;
     const auto report = nlohmann::json::parse(std::ifstream(summary_file), nullptr, false);
     if (!report.is_object())
         throw Error("The host left no report.");
@@ -94,6 +189,11 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
         dropped += camera["dropped_newest"].get<std::uint64_t>();
 
     const double cameras = double(bench.cameras.size());
+    const nlohmann::json load = capacity(before, after, cameras);
+    double viewer_growth = 0;
+    for (std::size_t i = 0; i < viewers.size(); ++i)
+        viewer_growth =
+            std::max(viewer_growth, after.viewers[i].memory_mb - before.viewers[i].memory_mb);
     return {{"cameras", bench.cameras.size()},
             {"viewers", bench.viewers},
             {"seconds", bench.seconds},
@@ -103,7 +203,16 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             {"fps_min", fps_min},
             {"frames_dropped", dropped},
             {"mbit_per_camera", mbit / cameras / bench.viewers},
-            {"cpu_cores", cpu_seconds / (bench.seconds + bench.warmup_seconds)},
+            {"cpu_cores", load["cores"]},
+            {"cpu_cores_here", load["cores_here"]},
+            {"cpu_shares", load["shares"]},
+            {"cameras_possible", load["cameras_possible"]},
+            {"ends_first", load["ends_first"]},
+            {"costliest_stage", costliest_stage(report)},
+            {"memory_growth_mb", after.host.memory_mb - before.host.memory_mb},
+            {"viewer_memory_growth_mb", viewer_growth},
+            {"filter", bench.filter},
+            {"yardstick_ms", yardstick},
             {"host_memory_mb", host_end.peak_memory_mb},
             {"viewer_memory_mb", memory},
             {"age_ms", {{"p50", p50}, {"p99", p99}, {"max", max}}}};

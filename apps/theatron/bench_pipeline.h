@@ -15,9 +15,12 @@ struct PipelineBench {
     double warmup_seconds = 2;
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
+    std::string filter = "default";
 };
 
 // Runs one host and `viewers` participants as processes of their own. Returns
+// A camera takes part of a core and a viewer's threads; `cameras_possible` says how many
+// would fill the first of them.
 // {cameras,viewers,seconds,stages:[{name,p50_ms,p99_ms}],fps_min,frames_dropped,
 // mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}}; age is from captured to decoded,
 // the worst of all streams and viewers; frames_dropped counts those that the host's

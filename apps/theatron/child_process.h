@@ -19,6 +19,7 @@ public:
     // The next line of its output; empty at the end.
     std::string read_line();
 
+    int pid() const { return pid_; }
     void interrupt();
 
     struct End {

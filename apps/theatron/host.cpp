@@ -11,13 +11,15 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "base/thread_name.h"
 #include "codec_steps.h"
+#include "filter_choice.h"
+#include "host_http.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "session/host_session.h"
@@ -35,8 +37,8 @@ std::filesystem::path default_state_folder() {
 }
 
 // The token outlives the host, so that participants find back after a restart.
-std::string load_or_make_token(const std::filesystem::path& folder) {
-    const auto path = folder / "join.token";
+std::string load_or_make_token(const std::filesystem::path& folder, const char* name) {
+    const auto path = folder / name;
     std::string token;
     std::ifstream(path) >> token;
     if (!token.empty())
@@ -73,6 +75,9 @@ std::string outside_address() {
     return found;
 }
 
+// Of cameras that are given none.
+constexpr const char* usual_filter = "default";
+
 // Cameras whose place in the room nobody knows stand side by side, so far apart
 // that none stands in another's picture.
 constexpr double unregistered_distance_m = 12;
@@ -97,15 +102,20 @@ struct Host::Impl {
     net::Link link;
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
+    send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
+    std::vector<FilterSource> filters;  // by camera; used by who owns the host
     std::thread thread;
     // Which cameras have a region of interest; server's thread.
     std::set<std::size_t> with_region;
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
-    nlohmann::json participant_figures = nlohmann::json::array();
+    std::vector<HostFigures::Participant> participant_figures;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
+    std::string name;
+    std::vector<std::string> http_tokens;
+    const TimePoint begun = steady_now();
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
@@ -120,7 +130,8 @@ struct Host::Impl {
     void open(const HostOptions& options, const capture::Progress& progress);
     wire::Camera describe(CameraId id, const capture::CameraInfo& info) const;
     net::Server::Handler handler();
-    void start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras);
+    void start_lanes(const std::vector<std::string>& specifications,
+                     std::vector<std::unique_ptr<capture::Camera>> cameras);
 
     // All below on the server's thread.
     void carry_out();
@@ -128,6 +139,9 @@ struct Host::Impl {
     void distribute(const send::EncodedMedia& media);
     void measure_links();
     void note_participants();
+
+    // From any thread.
+    HostFigures figures() const;
 };
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
@@ -138,11 +152,21 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     for (const std::string& specification : options.cameras)
         cameras.push_back(capture::open_camera(specification, progress));
 
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera->info().name);
+    filters = filter_sources(options.filters, names, usual_filter);
+    std::vector<LoadedFilter> loaded;
+    for (FilterSource& source : filters)
+        loaded.push_back(source.load());
+
     const auto state = options.state.empty() ? default_state_folder() : options.state;
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
-    config.token = options.token.empty() ? load_or_make_token(state) : options.token;
-    config.name = options.name;
+    config.token = options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
+    // Monitoring systems need not be able to join.
+    http_tokens = {config.token, load_or_make_token(state, "metrics.token")};
+    config.name = name = options.name;
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.equal_secrets = net::equal_secrets;
@@ -159,8 +183,13 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         link.host = everywhere ? outside_address() : options.listen.address;
 
     // The lanes never change once the server's thread runs.
-    start_lanes(std::move(cameras));
-    thread = std::thread([this] { server->run(); });
+    start_lanes(options.cameras, std::move(cameras));
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
+    thread = std::thread([this] {
+        name_this_thread("net");
+        server->run();
+    });
 }
 
 wire::Camera Host::Impl::describe(CameraId id, const capture::CameraInfo& info) const {
@@ -205,10 +234,18 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
         note_participants();
     };
+    h.http = [this](const net::HttpRequest& request) {
+        return answer_http(request, http_tokens, [this] { return figures(); });
+    };
     return h;
 }
 
-void Host::Impl::start_lanes(std::vector<std::unique_ptr<capture::Camera>> cameras) {
+void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
+                             std::vector<std::unique_ptr<capture::Camera>> cameras) {
+    double fps = 1;
+    for (const auto& camera : cameras)
+        fps = std::max(fps, camera->info().frames_per_second);
+    const auto moments = std::make_shared<send::SharedMoments>(fps);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         send::CameraLane::Events events;
         events.media = [this](send::EncodedMedia media) {
@@ -216,15 +253,27 @@ void Host::Impl::start_lanes(std::vector<std::unique_ptr<capture::Camera>> camer
         };
         events.state = [this](wire::CameraState state) {
             server->post([this, state = std::move(state)] {
-                if (state.condition == wire::CameraCondition::failed)
+                using Condition = wire::CameraCondition;
+                if (state.condition == Condition::failed)
                     log::error("host", "camera failed",
                                {{"camera", int(state.camera)}, {"problem", state.problem}});
+                else if (state.condition == Condition::stale)
+                    log::warning("host", "camera is stale",
+                                 {{"camera", int(state.camera)}, {"problem", state.problem}});
+                else if (state.condition == Condition::live)
+                    log::info("host", "camera is live", {{"camera", int(state.camera)}});
                 session->on_camera(state);
                 carry_out();
             });
         };
-        lanes.push_back(std::make_unique<send::CameraLane>(CameraId(i), std::move(cameras[i]),
-                                                           std::move(events)));
+        send::CameraLane::Options lane;
+        lane.open_again = [specification = specifications[i]] {
+            return capture::open_camera(specification);
+        };
+        lane.moments = moments;
+        lane.one_per_moment = true;
+        lanes.push_back(std::make_unique<send::CameraLane>(
+            CameraId(i), std::move(cameras[i]), std::move(events), workers, std::move(lane)));
     }
 }
 
@@ -298,16 +347,29 @@ void Host::Impl::measure_links() {
 }
 
 void Host::Impl::note_participants() {
-    nlohmann::json list = nlohmann::json::array();
+    std::vector<HostFigures::Participant> list;
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
-            list.push_back({{"id", int(id)},
-                            {"name", participant.name},
-                            {"sent", participant.delivery.step().what}});
+            list.push_back(
+                {id, participant.name, participant.delivery.step().what, participant.report});
     participants = list.size();
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
     dropped_slow_figures = dropped_slow;
+}
+
+HostFigures Host::Impl::figures() const {
+    const std::lock_guard lock(figures_mutex);
+    HostFigures figures;
+    figures.name = name;
+    figures.seconds = to_seconds(steady_now() - begun);
+    for (const auto& lane : lanes) {
+        const auto dropped = dropped_slow_figures.find(lane->id());
+        figures.cameras.push_back(
+            {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
+    }
+    figures.participants = participant_figures;
+    return figures;
 }
 
 Host::Host(const HostOptions& options, const capture::Progress& progress)
@@ -357,24 +419,24 @@ void Host::set_region(std::size_t camera, codec::strata::Region region) {
     });
 }
 
-nlohmann::json Host::figures() const {
-    const std::lock_guard lock(impl_->figures_mutex);
-    nlohmann::json cameras = nlohmann::json::array();
-    for (const auto& lane : impl_->lanes) {
-        const send::LaneFigures f = lane->figures();
-        nlohmann::json stages = nlohmann::json::array();
-        for (const auto& stage : f.stages)
-            stages.push_back(
-                {{"name", stage.name}, {"p50_ms", stage.p50_ms}, {"p99_ms", stage.p99_ms}});
-        cameras.push_back({{"name", f.name},
-                           {"fps", f.frames_per_second},
-                           {"frames", f.frames},
-                           {"dropped_newest", f.dropped_newest},
-                           {"dropped_slow_receiver", impl_->dropped_slow_figures[lane->id()]},
-                           {"bytes", f.bytes},
-                           {"stages", stages}});
+void Host::follow_filter_files() {
+    for (std::size_t i = 0; i < impl_->filters.size(); ++i) {
+        try {
+            const auto changed = impl_->filters[i].changed();
+            if (!changed)
+                continue;
+            impl_->lanes[i]->set_filter(changed->settings, changed->background);
+            log::info("host", "filter changed",
+                      {{"camera", int(i)}, {"filter", changed->settings.spelling()}});
+        } catch (const Error& e) {
+            log::warning("host", "filter stays as it was",
+                         {{"camera", int(i)}, {"problem", e.what()}});
+        }
     }
-    return {{"cameras", cameras}, {"participants", impl_->participant_figures}};
+}
+
+HostFigures Host::figures() const {
+    return impl_->figures();
 }
 
 std::string Host::status_line() const {

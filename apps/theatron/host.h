@@ -9,9 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "codec/strata_region.h"
+#include "host_figures.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
 
@@ -19,6 +18,7 @@ namespace theatron::app {
 
 struct HostOptions {
     std::vector<std::string> cameras;  // specifications
+    std::vector<std::string> filters;  // filter_choice.h
     net::Endpoint listen;
     std::string name = "operating room";
     std::string link_host;        // what the link says; empty: found out
@@ -42,8 +42,11 @@ public:
     // Error with one sentence if it has too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
 
+    // Takes over filter files that were changed. Log lines tell.
+    void follow_filter_files();
+
     // What went on so far: cameras with stages, participants, drops.
-    nlohmann::json figures() const;
+    HostFigures figures() const;
     // One line of the same for people.
     std::string status_line() const;
     std::size_t participants() const { return participants_; }

@@ -98,11 +98,15 @@ void run(Flags& flags) {
     InputLines input;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
-    TimePoint next_line = begin;
+    TimePoint next_line = begin, next_look = begin;
     while (!stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         obey(host, input);
+        if (steady_now() >= next_look) {
+            host.follow_filter_files();
+            next_look = steady_now() + 500ms;
+        }
         if (live_line && steady_now() >= next_line) {
             std::cout << "\r\033[K" << host.status_line() << std::flush;
             next_line = steady_now() + 500ms;
@@ -112,7 +116,7 @@ void run(Flags& flags) {
         std::cout << "\n";
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);
-        out << host.figures().dump(2) << "\n";
+        out << to_json(host.figures()).dump(2) << "\n";
         if (!out.flush())
             throw Error("Cannot write the summary to " + flags.summary + ".");
     }
@@ -142,6 +146,12 @@ void add_host_command(CLI::App& app) {
                      "when a slow link makes the rest coarser; a polygon is CAMERA=X:Y:X:Y:X:Y. "
                      "CAMERA is a number from 0 or a name. Repeat for more parts. Without a region "
                      "the whole image stays exact")
+        ->allow_extra_args(false);
+    command
+        ->add_option(
+            "--filter", flags->options.filters,
+            "Filters of depth: off, paper, default, a line of filters or a JSON file, which "
+            "may change meanwhile; CAMERA=... for one camera, by number from 0 or name")
         ->allow_extra_args(false);
     command->add_option("--listen", flags->listen, "ADDRESS:PORT; port 0 lets the system choose")
         ->capture_default_str();

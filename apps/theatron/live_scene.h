@@ -16,6 +16,10 @@ public:
     // is new.
     std::vector<CameraId> take(Participant& participant);
 
+    // Lets cameras that stand still fade, and others come back. True while it changes
+    // what is seen.
+    bool fade(const Participant& participant, TimePoint now);
+
     bool has_picture() const { return !newest_.empty(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The last frame of each camera that sent one.
@@ -25,6 +29,8 @@ public:
 private:
     render::CloudScene clouds_;
     std::uint64_t generation_ = 0;
+    std::map<CameraId, double> presence_;
+    TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, receive::CameraFramePtr> newest_;
 };

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "base/thread_name.h"
 #include "net/clock_sync.h"
 
 namespace theatron::app {
@@ -41,15 +42,8 @@ Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
                 options_.delivery}),
-      receiver_({[this](receive::CameraFramePtr frame) {
-                     {
-                         const std::lock_guard lock(shared_->mutex);
-                         shared_->newest[frame->camera] = std::move(frame);
-                     }
-                     announce();
-                 },
-                 [this](StreamId stream, SettingId setting) { request_key(stream, setting); }}),
-      shared_(std::make_unique<Shared>()) {
+      shared_(std::make_unique<Shared>()),
+      decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
     thread_ = std::thread([this] { run(); });
 }
@@ -65,7 +59,27 @@ Participant::~Participant() {
     thread_.join();
 }
 
+// From the decoding threads.
+receive::Receiver::Events Participant::decoded_events() {
+    receive::Receiver::Events events;
+    events.frame = [this](receive::CameraFramePtr frame) {
+        {
+            const std::lock_guard lock(shared_->mutex);
+            shared_->newest[frame->camera] = std::move(frame);
+        }
+        announce();
+    };
+    events.needs_key = [this](StreamId stream, SettingId setting) {
+        const std::lock_guard lock(shared_->mutex);
+        if (shared_->client)
+            shared_->client->post([this, stream, setting] { request_key(stream, setting); });
+    };
+    events.now = [this] { return now(); };
+    return events;
+}
+
 void Participant::run() {
+    name_this_thread("net");
     Duration wait = first_wait;
     bool was_joined = false;
     while (true) {
@@ -127,7 +141,7 @@ net::Client::Handler Participant::handler() {
 
 void Participant::on_media(ByteView message) {
     if (!options_.media) {
-        (void)receiver_.on_media(message, now());
+        decoders_->on_media(message);
         return;
     }
     if (const auto header = wire::parse_media_header(message))
@@ -142,7 +156,7 @@ void Participant::on_control(ByteView message) {
     using Change = session::ViewerSession::Change;
     switch (session_.on_control(message)) {
         case Change::welcomed: {
-            receiver_.set_cameras(session_.cameras());
+            decoders_->set_cameras(session_.cameras());
             std::vector<Camera> cameras;
             for (const wire::Camera& camera : session_.cameras()) {
                 const auto calibration = decode_calibration(camera.calibration);
@@ -177,7 +191,7 @@ void Participant::on_control(ByteView message) {
                 shared_->settings = session_.settings();
             }
             try {
-                receiver_.set_settings(session_.settings());
+                decoders_->set_settings(session_.settings());
             } catch (const Error& e) {
                 remark(e.what());
             }
@@ -210,16 +224,22 @@ void Participant::on_camera_states() {
         const std::lock_guard lock(shared_->mutex);
         for (Camera& camera : shared_->cameras) {
             const auto found = session_.camera_states().find(camera.description.id);
-            if (found == session_.camera_states().end() ||
-                found->second.condition == camera.state.condition)
+            if (found == session_.camera_states().end())
                 continue;
+            const wire::CameraCondition before = camera.state.condition;
             camera.state = found->second;
+            if (camera.state.condition == before)
+                continue;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
             if (camera.state.condition == Condition::ended)
                 news.push_back(name + " has ended; its last picture stays.");
             else if (camera.state.condition == Condition::failed)
                 news.push_back(name + " has failed: " + camera.state.problem);
+            else if (camera.state.condition == Condition::stale)
+                news.push_back(name + " stands still. " + camera.state.problem);
+            else
+                news.push_back(name + " is live again.");
         }
     }
     for (const std::string& text : news)
@@ -239,15 +259,18 @@ void Participant::on_tick() {
 
     std::string depth_wish, color_wish;
     std::optional<wire::ChooseDelivery> delivery_wish;
+    bool reset_wanted;
     {
         const std::lock_guard lock(shared_->mutex);
-        if (std::exchange(shared_->reset_wanted, false)) {
-            receiver_.reset_figures();
-            next_report_ = local;
-        }
+        reset_wanted = std::exchange(shared_->reset_wanted, false);
         depth_wish = std::exchange(shared_->depth_wish, "");
         color_wish = std::exchange(shared_->color_wish, "");
         delivery_wish = std::exchange(shared_->delivery_wish, std::nullopt);
+    }
+    // Not under the lock that decoding threads take.
+    if (reset_wanted) {
+        decoders_->reset_figures();
+        next_report_ = local;
     }
     if (!depth_wish.empty() || !color_wish.empty())
         client.send_control(session_.choose(depth_wish, color_wish));
@@ -258,7 +281,7 @@ void Participant::on_tick() {
     if (local < next_report_)
         return;
     next_report_ = local + 100ms;
-    const auto figures = receiver_.figures(now());
+    const auto figures = decoders_->figures();
     wire::Report report;
     for (const auto& f : figures)
         report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,

@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "decoders.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
-#include "receive/receiver.h"
 #include "session/viewer_session.h"
 
 namespace theatron::app {
@@ -90,6 +90,7 @@ public:
 private:
     void run();
     net::Client::Handler handler();
+    receive::Receiver::Events decoded_events();
     void on_control(ByteView message);
     void on_media(ByteView message);
     void on_camera_states();
@@ -101,12 +102,12 @@ private:
 
     // The participant's thread only, unless under mutex_.
     session::ViewerSession session_;
-    receive::Receiver receiver_;
     TimePoint next_ping_, next_report_;
     int pings_ = 0;
 
     struct Shared;
     std::unique_ptr<Shared> shared_;
+    std::unique_ptr<Decoders> decoders_;  // its threads use what is shared
     std::thread thread_;
 };
 

@@ -7,20 +7,6 @@
 namespace theatron::app {
 namespace {
 
-const char* text_of(wire::CameraCondition condition) {
-    switch (condition) {
-        case wire::CameraCondition::live:
-            return "live";
-        case wire::CameraCondition::stale:
-            return "stale";
-        case wire::CameraCondition::ended:
-            return "ended";
-        case wire::CameraCondition::failed:
-            return "failed";
-    }
-    return "unknown";
-}
-
 const char* text_of(receive::Exactness exact) {
     switch (exact) {
         case receive::Exactness::nowhere:
@@ -77,6 +63,20 @@ nlohmann::json age(const receive::StreamFigures& f) {
 
 }  // namespace
 
+const char* text_of(wire::CameraCondition condition) {
+    switch (condition) {
+        case wire::CameraCondition::live:
+            return "live";
+        case wire::CameraCondition::stale:
+            return "stale";
+        case wire::CameraCondition::ended:
+            return "ended";
+        case wire::CameraCondition::failed:
+            return "failed";
+    }
+    return "unknown";
+}
+
 nlohmann::json participant_figures(const Participant& participant) {
     const auto status = participant.status();
     nlohmann::json cameras = nlohmann::json::array();
@@ -88,6 +88,7 @@ nlohmann::json participant_figures(const Participant& participant) {
         cameras.push_back({{"name", camera.description.name},
                            {"state", text_of(camera.state.condition)},
                            {"problem", camera.state.problem},
+                           {"filter", camera.state.filter},
                            {"fps", depth.frames_per_second},
                            {"frames", depth.frames},
                            {"mbit_per_s", camera_mbit},

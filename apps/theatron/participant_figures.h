@@ -9,6 +9,9 @@
 
 namespace theatron::app {
 
+// "live", "stale", "ended" or "failed".
+const char* text_of(wire::CameraCondition condition);
+
 // {"host","cameras":[{"name","state","fps","mbit_per_s","age_ms":{…},"dropped","depth_codec",
 // "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"dropped","codec",
 // "level","levels","sent","level_reason",…}

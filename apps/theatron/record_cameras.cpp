@@ -48,14 +48,21 @@ public:
         }
         recorder_ = std::make_unique<record::Recorder>(file, descriptions);
         opened_ = steady_now();
+        double fps = 1;
+        for (const auto& camera : cameras)
+            fps = std::max(fps, camera->info().frames_per_second);
+        const auto moments = std::make_shared<send::SharedMoments>(fps);
         for (auto& camera : cameras) {
             send::CameraLane::Events events;
             events.media = [this](send::EncodedMedia media) {
                 recorder_->add(media.header, std::move(media.message));
             };
             events.state = [this](wire::CameraState state) { on_state(std::move(state)); };
+            send::CameraLane::Options options;
+            options.waiting_frames = waiting_frames;
+            options.moments = moments;
             lanes_.push_back(std::make_unique<send::CameraLane>(
-                CameraId(lanes_.size()), std::move(camera), std::move(events), waiting_frames));
+                CameraId(lanes_.size()), std::move(camera), events, workers_, std::move(options)));
         }
     }
 
@@ -101,10 +108,13 @@ public:
 
 private:
     void on_state(wire::CameraState state) {
+        using Condition = wire::CameraCondition;
+        if (state.condition == Condition::live || state.condition == Condition::stale)
+            return;
         const std::lock_guard lock(mutex_);
         ++over_;
         over_since_ = steady_now();
-        if (state.condition == wire::CameraCondition::failed)
+        if (state.condition == Condition::failed)
             problem_ = state.problem;
     }
 
@@ -119,6 +129,7 @@ private:
     TimePoint over_since_;
     std::string problem_;
 
+    send::Workers workers_;
     // Last: their threads use all of the above.
     std::vector<std::unique_ptr<send::CameraLane>> lanes_;
 };

@@ -96,8 +96,8 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
             facts.push_back({"Sent", status.delivery.what, true});
         facts.push_back({"Depth", common(cameras, "depth_codec")});
         facts.push_back({"Colour", common(cameras, "color_codec")});
-        // The stream names no filter, so it is what the camera gave.
-        facts.push_back({"Filter", "unfiltered"});
+        const std::string filter = common(cameras, "filter");
+        facts.push_back({"Filter", filter == "none" ? "unfiltered" : filter});
     } else if (screen.has_picture) {
         facts.push_back(age);
     }

@@ -57,7 +57,7 @@ void WindowViewer::run() {
     TimePoint next_picture{};
     while (!stop_requested()) {
         const TimePoint before = steady_now();
-        window_.wait((before < next_picture ? next_picture : next_texts_) - before);
+        window_.wait((before < next_picture || fading_ ? next_picture : next_texts_) - before);
 
         const xr::WindowInput input = window_.poll();
         const TimePoint now = steady_now();
@@ -76,6 +76,8 @@ void WindowViewer::run() {
             updated_.insert(camera);
             scene_changed_ = true;
         }
+        fading_ = scene_.fade(participant_, now);
+        scene_changed_ = scene_changed_ || fading_;
         find_view();
         if (now >= next_texts_)
             update_texts(now);

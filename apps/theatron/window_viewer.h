@@ -63,6 +63,7 @@ private:
     Pose home_pose_;      // of that camera when the view started from it
     bool moved_ = false;  // away from the camera's own view
     bool flying_ = false;
+    bool fading_ = false;  // a camera that stands still, or comes back
     TimePoint steered_at_, first_picture_at_;
 
     // What is drawn.

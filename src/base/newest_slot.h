@@ -45,6 +45,11 @@ public:
         return oldest;
     }
 
+    bool waiting() const {
+        const std::lock_guard lock(mutex_);
+        return !values_.empty();
+    }
+
     // Makes a waiting take() return at once, empty-handed if nothing is there.
     void wake() {
         {

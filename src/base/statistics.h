@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <iterator>
 #include <vector>
 
 #include "base/time.h"
@@ -51,6 +53,35 @@ private:
     std::size_t capacity_;
     std::size_t next_ = 0;
     std::vector<double> values_;
+};
+
+// Counts durations by size, for monitoring: upper bounds in seconds as Prometheus has them.
+class Histogram {
+public:
+    static constexpr double bounds[] = {0.0005, 0.001, 0.002, 0.004, 0.008, 0.016,
+                                        0.033,  0.066, 0.125, 0.25,  0.5,   1};
+    static constexpr std::size_t bound_count = sizeof(bounds) / sizeof(bounds[0]);
+
+    void add(double seconds) {
+        ++counts_[std::size_t(std::lower_bound(std::begin(bounds), std::end(bounds), seconds) -
+                              std::begin(bounds))];
+        ++count_;
+        sum_ += seconds;
+    }
+    std::uint64_t count() const { return count_; }
+    double sum() const { return sum_; }
+    // How many were at most bounds[i].
+    std::uint64_t at_most(std::size_t i) const {
+        std::uint64_t total = 0;
+        for (std::size_t b = 0; b <= i; ++b)
+            total += counts_[b];
+        return total;
+    }
+
+private:
+    std::uint64_t counts_[bound_count + 1] = {};
+    std::uint64_t count_ = 0;
+    double sum_ = 0;
 };
 
 // How much came in the last second.

@@ -7,11 +7,13 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "capture/cropped_camera.h"
+#include "capture/faulty_camera.h"
 #include "capture/folder_camera.h"
 #include "capture/k4a_camera.h"
 #include "capture/mkv_camera.h"
 #include "capture/recording_camera.h"
 #include "capture/synthetic_camera.h"
+#include "capture/watched_camera.h"
 
 namespace theatron::capture {
 namespace {
@@ -35,8 +37,15 @@ constexpr Kind kinds[] = {
 std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress& progress) {
     try {
         const CropOptions crop = take_crop_options(options);
+        const std::optional<FaultPlan> faults = take_fault_options(options);
         std::unique_ptr<Camera> camera = kind.open(options, progress);
-        return crop.any() ? make_cropped_camera(std::move(camera), crop) : std::move(camera);
+        if (crop.any())
+            camera = make_cropped_camera(std::move(camera), crop);
+        if (faults) {
+            const WatchedCamera::Clock clock = WatchedCamera::steady_clock();
+            camera = make_faulty_camera(std::move(camera), *faults, clock.now, clock.sleep);
+        }
+        return camera;
     } catch (const std::filesystem::filesystem_error& problem) {
         throw Error("Cannot read '" + problem.path1().string() + "': " + problem.code().message() +
                     ".");
@@ -63,6 +72,7 @@ std::vector<std::string> camera_kinds() {
     for (const Kind& kind : kinds)
         lines.push_back(kind.help);
     lines.push_back(crop_help);
+    lines.push_back(faults_help);
     return lines;
 }
 

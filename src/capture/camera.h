@@ -22,6 +22,9 @@ struct CameraInfo {
     std::string name;  // short, for people: "table-person_640x360"
     Calibration calibration;
     double frames_per_second = 30;
+    // A device: noise makes every picture differ, and what failed may come back. A
+    // recording is neither.
+    bool live = false;
 };
 
 // What next() answers.

@@ -36,6 +36,7 @@ public:
             "k4a-" + (device_.serial().empty() ? std::to_string(settings.index) : device_.serial());
         info_.calibration = device_.calibration(settings);
         info_.frames_per_second = settings.frames_per_second;
+        info_.live = true;
         device_.start(settings);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/playback.h"
 
+#include <atomic>
 #include <thread>
 
 #include "base/error.h"
@@ -45,8 +46,11 @@ private:
         const auto upcoming = playback_.upcoming(steady_now());
         if (!upcoming)
             return false;
-        auto frame = pool_.take();
-        playback_.read(*frame);
+        auto frame = playback_.share();
+        if (!frame) {
+            frame = pool_.take();
+            playback_.read(*frame);
+        }
         frame->number = upcoming->number;
         frame->times = {.captured = upcoming->due};
         waiting_ = std::move(frame);
@@ -109,6 +113,12 @@ void Playback::read(Frame& out) {
     ++number_;
 }
 
+std::shared_ptr<Frame> Playback::share() {
+    auto frame = recording_.share();
+    number_ += frame ? 1 : 0;
+    return frame;
+}
+
 bool Playback::rewind() {
     if (!loop_)
         return false;
@@ -122,8 +132,8 @@ MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
     // An expectation may come from a damaged file.
     frames_.reserve(std::min<std::size_t>(expected_frames, 1 << 14));
     while (const std::optional<Duration> offset = source.offset()) {
-        Kept kept{*offset, {}};
-        source.read(kept.frame);
+        Kept kept{*offset, std::make_shared<Frame>()};
+        source.read(*kept.frame);
         frames_.push_back(std::move(kept));
         if (progress && expected_frames > 0)
             progress("reading frames",
@@ -138,10 +148,20 @@ std::optional<Duration> MemoryRecording::offset() {
 }
 
 void MemoryRecording::read(Frame& out) {
-    const Frame& kept = frames_[next_++].frame;
+    const Frame& kept = *frames_[next_++].frame;
     // Assigning keeps the memory that `out` already has.
     out.depth = kept.depth;
     out.color = kept.color;
+}
+
+std::shared_ptr<Frame> MemoryRecording::share() {
+    const std::shared_ptr<Frame>& frame = frames_[next_].frame;
+    if (frame.use_count() > 1)
+        return nullptr;
+    // Whoever had it before has read it to the end.
+    std::atomic_thread_fence(std::memory_order_acquire);
+    ++next_;
+    return frame;
 }
 
 std::unique_ptr<Camera> make_recorded_camera(CameraInfo info, std::unique_ptr<Recording> recording,

@@ -25,6 +25,9 @@ public:
     virtual void skip() = 0;
     // Reads the upcoming frame's images into `out`, whose old content is stale.
     virtual void read(Frame& out) = 0;
+    // The same without a copy, where the recording holds the frame and nobody else uses
+    // it: its times may be set. Null: read() it.
+    virtual std::shared_ptr<Frame> share() { return nullptr; }
     virtual void rewind() = 0;
     // How long a round takes when it loops, so that cameras of one recording stay in step. Nothing:
     // until one period after the last frame.
@@ -56,6 +59,8 @@ public:
 
     // Reads the upcoming frame's images. Only after upcoming() named one.
     void read(Frame& out);
+    // The upcoming frame without a copy, or null (Recording::share).
+    std::shared_ptr<Frame> share();
 
 private:
     bool rewind();
@@ -81,13 +86,14 @@ public:
     std::optional<Duration> offset() override;
     void skip() override { ++next_; }
     void read(Frame& out) override;
+    std::shared_ptr<Frame> share() override;
     void rewind() override { next_ = 0; }
     std::optional<Duration> round() const override { return round_; }
 
 private:
     struct Kept {
         Duration offset;
-        Frame frame;
+        std::shared_ptr<Frame> frame;
     };
     std::vector<Kept> frames_;
     std::size_t next_ = 0;

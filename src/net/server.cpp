@@ -21,8 +21,7 @@ using asio::ip::tcp;
 // More connections than this at once are not accepted; a room holds fewer people.
 constexpr std::size_t max_connections = 128;
 
-constexpr std::string_view plain_answer =
-    "This is a Theatron host. Join it with: theatron join LINK\n";
+constexpr const char* plain_answer = "This is a Theatron host. Join it with: theatron join LINK\n";
 
 }  // namespace
 
@@ -89,10 +88,19 @@ struct Server::Impl::Handshake : std::enable_shared_from_this<Handshake> {
 
     // A browser, or a curious colleague with curl.
     void answer() {
-        response.result(http::status::ok);
-        response.set(http::field::content_type, "text/plain; charset=utf-8");
+        const auto& request = parser.get();
+        std::optional<HttpAnswer> own;
+        if (server.handler.http)
+            own = server.handler.http(
+                {std::string(request.target()), std::string(request[http::field::authorization])});
+        const HttpAnswer answer = own ? std::move(*own) : HttpAnswer{.body = plain_answer};
+        response.result(unsigned(answer.status));
+        response.set(http::field::content_type, answer.type);
+        response.set(http::field::cache_control, "no-store");
+        if (answer.status == 401)
+            response.set(http::field::www_authenticate, "Bearer");
         response.keep_alive(false);
-        response.body() = plain_answer;
+        response.body() = answer.body;
         response.prepare_payload();
         http::async_write(stream, response,
                           [self = shared_from_this()](beast::error_code, std::size_t) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "net/certificate.h"
@@ -16,6 +17,17 @@ namespace theatron::net {
 // One accepted connection, numbered from 1.
 enum class PeerId : std::uint32_t {};
 
+// What a browser or a monitoring system asks without a WebSocket.
+struct HttpRequest {
+    std::string target;         // path and query
+    std::string authorization;  // that header
+};
+struct HttpAnswer {
+    int status = 200;
+    std::string type = "text/plain; charset=utf-8";
+    std::string body;
+};
+
 class Server {
 public:
     // All called on the thread that runs the server.
@@ -26,6 +38,8 @@ public:
         std::function<void(PeerId, const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
         std::function<void()> tick;      // ten times a second
+        // May be empty, and may answer nothing: then the host says what it is.
+        std::function<std::optional<HttpAnswer>(const HttpRequest&)> http;
     };
 
     // Begins to listen. Throws Error if the address or port cannot be had.

@@ -122,6 +122,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     if (const Status s = stream.depth->decode(link, payload, frame->depth.view()); s != Status::ok)
         return s;
 
+    const TimePoint decoded = events_.now ? events_.now() : now;
     if (header.key)
         stream.asked_for_key = false;
     frame->camera = stream.camera;
@@ -134,10 +135,10 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     frame->times.encoded = header.encoded;
     frame->times.sent = header.sent;
     frame->times.received = now;
-    frame->times.decoded = now;
+    frame->times.decoded = decoded;
     ++stream.frames;
-    stream.frame_rate.add(now);
-    stream.age_ms = to_ms(now - header.captured);
+    stream.frame_rate.add(decoded);
+    stream.age_ms = to_ms(decoded - header.captured);
     stream.ages.add(stream.age_ms);
 
     stream.newest_captured = header.captured;
@@ -179,10 +180,11 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
     if (header.key)
         stream.asked_for_key = false;
     while (auto decoded = stream.color->poll()) {
+        const TimePoint done = events_.now ? events_.now() : now;
         ++stream.frames;
         stream.newest_captured = header.captured;
-        stream.frame_rate.add(now);
-        stream.age_ms = to_ms(now - header.captured);
+        stream.frame_rate.add(done);
+        stream.age_ms = to_ms(done - header.captured);
         stream.ages.add(stream.age_ms);
 
         CameraState& camera = cameras_[stream.camera];
@@ -214,16 +216,30 @@ std::vector<StreamFigures> Receiver::figures(TimePoint now) {
     std::vector<StreamFigures> result;
     for (auto& [id, s] : streams_) {
         const double age_now = s.frames > 0 ? to_ms(now - s.newest_captured) : 0;
+        sort_ages(s);
         result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
                           s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
-                          s.ages.percentile(0.5), s.ages.percentile(0.99), s.ages.max()});
+                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms});
     }
     return result;
 }
 
+void Receiver::sort_ages(Stream& stream) {
+    constexpr std::uint64_t many = 15;
+    const bool few_known = stream.frames < 4 * many;
+    if (stream.frames == stream.sorted_at ||
+        (!few_known && stream.frames - stream.sorted_at < many))
+        return;
+    stream.sorted_at = stream.frames;
+    stream.age_p50_ms = stream.ages.percentile(0.5);
+    stream.age_p99_ms = stream.ages.percentile(0.99);
+    stream.age_max_ms = stream.ages.max();
+}
+
 void Receiver::reset_figures() {
     for (auto& [id, s] : streams_) {
-        s.frames = s.bytes = s.dropped = 0;
+        s.frames = s.bytes = s.dropped = s.sorted_at = 0;
+        s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
         s.ages.clear();
         s.counting = false;
     }

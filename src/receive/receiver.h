@@ -64,6 +64,8 @@ public:
     struct Events {
         std::function<void(CameraFramePtr)> frame;
         std::function<void(StreamId, SettingId)> needs_key;
+        // Session time after decoding. Empty: decoding takes no time.
+        std::function<TimePoint()> now = {};
     };
 
     explicit Receiver(Events events) : events_(std::move(events)) {}
@@ -102,6 +104,9 @@ private:
         std::uint64_t frames = 0, bytes = 0, dropped = 0;
         RateWindow frame_rate, bit_rate;
         SampleWindow ages{4000};
+        // Sorting them takes long, so that is done once for many frames.
+        double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;
+        std::uint64_t sorted_at = 0;
         double age_ms = 0;
         TimePoint newest_captured;
         Exactness exact = Exactness::nowhere;
@@ -124,6 +129,7 @@ private:
     static Exactness exactness(const Stream& stream, ByteView payload);
     void ask_for_key(StreamId id, Stream& stream, TimePoint now);
     void hand_on(CameraState& camera);
+    static void sort_ages(Stream& stream);
 
     Events events_;
     std::map<StreamId, Stream> streams_;

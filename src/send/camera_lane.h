@@ -1,118 +1,139 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera's way through the host: capture, then encode once per setting.
+// One camera's way through the host: capture, filter, then encode once per setting.
 //
-// Two threads: one waits for the camera, one encodes. Between them the newest
-// frame wins, so slow encoding never makes frames older. Lanes know nothing of
-// each other: nobody waits for a neighbour.
+// A thread waits for the camera and does nothing else. The work on a frame runs on
+// threads that all lanes share, one frame of a lane at a time, depth and colour
+// side by side. Between the two the newest frame wins, so slow work never makes
+// frames older. Lanes know nothing of each other: nobody waits for a neighbour.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "base/ids.h"
 #include "base/newest_slot.h"
-#include "base/pool.h"
-#include "base/statistics.h"
 #include "capture/camera.h"
 #include "codec/strata_region.h"
+#include "filter/chain.h"
+#include "send/capture_thread.h"
+#include "send/lane_encoders.h"
+#include "send/lane_figures.h"
+#include "send/shared_moments.h"
+#include "send/workers.h"
 #include "wire/control.h"
-#include "wire/media_header.h"
 
 namespace theatron::send {
-
-// One encoded image, ready for any number of receivers.
-struct EncodedMedia {
-    wire::MediaHeader header;
-    std::shared_ptr<const Bytes> message;  // header and payload
-};
-
-// A setting to encode, in its one spelling.
-struct LaneSetting {
-    SettingId id{};
-    std::string codec;
-};
-
-// What a stage took per frame, and what was lost, since the lane began.
-struct LaneFigures {
-    std::string name;
-    double frames_per_second = 0;
-    std::uint64_t frames = 0;          // taken from the camera
-    std::uint64_t dropped_newest = 0;  // replaced by a newer one before they were encoded
-    std::uint64_t bytes = 0;           // encoded, all settings together
-    struct Stage {
-        std::string name;
-        double p50_ms = 0, p99_ms = 0;
-    };
-    std::vector<Stage> stages;  // "capture", "depth_encode", "color_encode", "queue"
-};
 
 class CameraLane {
 public:
     struct Events {
-        // From the encoding thread.
+        // From a working thread; depth and colour may come from two at once.
         std::function<void(EncodedMedia)> media;
-        // From the capturing thread.
+        // Whenever the camera's condition has changed. From the workers' looking thread.
         std::function<void(wire::CameraState)> state;
     };
 
-    // Takes over `camera` and starts at once. `waiting_frames`: how many may wait
-    // for the encoder; one for the least age, more for the fewest drops.
+    struct Options {
+        // How many may wait for the work; one for the least age, more for the fewest drops.
+        std::size_t waiting_frames = 1;
+        // Opens a live camera again when it has failed. Empty: nothing does.
+        capture::WatchedCamera::Open open_again;
+        // Common to cameras whose frames belong together. Null: the lane's own.
+        std::shared_ptr<SharedMoments> moments;
+        // Frames that are the second of their moment are passed over.
+        bool one_per_moment = false;
+    };
+
+    // Takes over `camera` and starts at once. `workers` outlives the lane.
     CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events,
-               std::size_t waiting_frames = 1);
+               Workers& workers, Options options);
     ~CameraLane();
 
     CameraId id() const { return id_; }
     const capture::CameraInfo& info() const { return info_; }
 
-    // From any thread. With no settings nothing is encoded. Each new setting
-    // begins with a key frame.
+    // All below from any thread.
+
+    // With no settings nothing is filtered or encoded. Each new setting begins with
+    // a key frame.
     void set_settings(std::vector<LaneSetting> depth, std::vector<LaneSetting> color);
 
-    // From any thread. The part of the depth image, in its pixels, that stays exact
-    // from the next frame on where a codec's error is bounded; empty: all of it.
-    // It must be strata::is_valid.
+    // From the next frame on. `background` may be empty.
+    void set_filter(filter::ChainSettings settings,
+                    std::shared_ptr<const filter::Background> background);
+
+    // The part of the depth image, in its pixels, that stays exact from the next frame on
+    // where a codec's error is bounded; empty: all of it. It must be strata::is_valid.
     void set_region(codec::strata::Region region);
 
-    // From any thread. The next frame, or if none comes soon the last one again,
-    // becomes a key frame.
+    // The next frame, or if none comes soon the last one again, becomes a key frame.
     void request_key(StreamId stream, SettingId setting);
 
     LaneFigures figures() const;
 
 private:
-    struct Encoders;
+    struct Captured {
+        FramePtr frame;
+        TimePoint moment;
+    };
+    struct Orders {
+        std::vector<LaneSetting> depth_settings, color_settings;
+        codec::strata::Region region;
+        bool settings_changed = false;  // or the region
+        filter::ChainSettings filter;
+        std::shared_ptr<const filter::Background> background;
+        bool filter_changed = false;
+        WantedKeys keys;
+    };
 
-    void capture();
-    void encode();
-    void encode_frame(const Frame& frame, Encoders& encoders);
-    void update_encoders(Encoders& encoders);
+    void on_frame(FramePtr frame);
+    void look();
+    void begin_work();
+    void work();
+    void take_orders();
+    void filter_frame();
+    void encode_frame(TimePoint begin);
 
     const CameraId id_;
-    const std::unique_ptr<capture::Camera> camera_;
-    const capture::CameraInfo info_;
     const Events events_;
+    Workers& workers_;
+    const Options options_;
+    const capture::CameraInfo info_;
+    LaneMeter meter_;
 
-    NewestSlot<FramePtr> newest_;
-    std::atomic<bool> stopping_{false};
-    Pool<Bytes> messages_;
+    NewestSlot<Captured> newest_;
+    std::mutex mutex_;  // guards all up to `busy_`
+    std::condition_variable idle_;
+    Orders orders_;
+    TimePoint frame_came_;
+    bool wanted_ = false;  // there is something to do although no frame has come
+    bool stopping_ = false;
+    bool busy_ = false;  // work() is running or will
 
-    mutable std::mutex mutex_;  // guards all below
-    std::vector<LaneSetting> depth_settings_, color_settings_;
-    codec::strata::Region region_;
-    bool settings_changed_ = false;  // or the region
-    std::set<std::pair<StreamId, SettingId>> keys_wanted_;
-    std::uint64_t frames_ = 0, dropped_newest_ = 0, bytes_ = 0;
-    mutable RateWindow rate_;
-    std::map<std::string, SampleWindow> stages_;
+    // Only in work(), which runs once at a time.
+    LaneEncoders encoders_;
+    WantedKeys keys_;
+    std::optional<Captured> last_;
+    FrameNumber next_number_ = 0;
+    std::unique_ptr<filter::Chain> chain_;
+    filter::ChainSettings filter_;
+    std::shared_ptr<const filter::Background> background_;
+    DepthImage filtered_;  // of last_, if there is a chain
+    TimePoint filtered_at_, filtered_captured_;
 
-    std::thread capturing_, encoding_;
+    // Only in look().
+    wire::CameraState told_;
+    mutable std::mutex status_mutex_;
+    capture::WatchedCamera::Status status_;
+
+    std::unique_ptr<CaptureThread> capture_;
+    Workers::Ticket ticket_ = 0;
 };
 
 }  // namespace theatron::send

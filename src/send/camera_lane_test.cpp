@@ -78,7 +78,7 @@ protected:
             changed.notify_all();
         };
         lane = std::make_unique<CameraLane>(CameraId{3}, std::make_unique<ManualCamera>(script),
-                                            events);
+                                            events, workers, CameraLane::Options{});
     }
     // True once there are `count` messages; generous, so that slow machines pass.
     bool wait_for(std::size_t count) {
@@ -92,6 +92,7 @@ protected:
     std::condition_variable changed;
     std::vector<EncodedMedia> published;
     std::vector<wire::CameraState> states;
+    Workers workers;
     std::unique_ptr<CameraLane> lane;  // last: its threads use what is above
 };
 

@@ -69,7 +69,7 @@ Body pack(Builder& b, const Settings& m) {
 
 Body pack(Builder& b, const CameraState& m) {
     return fbs::CreateCameraState(b, std::uint16_t(m.camera), std::uint8_t(m.condition),
-                                  b.CreateString(m.problem))
+                                  b.CreateString(m.problem), b.CreateString(m.filter))
         .Union();
 }
 
@@ -163,7 +163,7 @@ Settings unpack(const fbs::Settings& m) {
 }
 
 CameraState unpack(const fbs::CameraState& m) {
-    return {CameraId(m.camera()), CameraCondition(m.state()), text(m.problem())};
+    return {CameraId(m.camera()), CameraCondition(m.state()), text(m.problem()), text(m.filter())};
 }
 
 Pong unpack(const fbs::Pong& m) {

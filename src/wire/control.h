@@ -117,6 +117,7 @@ struct CameraState {
     CameraId camera{};
     CameraCondition condition{};
     std::string problem;
+    std::string filter;  // the filters that run on its depth (docs/filters.md); empty: none
 };
 
 struct Pong {

@@ -198,7 +198,8 @@ TEST(Control, EveryMessageRoundTrips) {
     ASSERT_EQ(settings.settings.size(), 1u);
     EXPECT_EQ(settings.settings[0].codec, "rvl");
     EXPECT_EQ(settings.note, "busy");
-    EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, "gone"}).problem,
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, {}, "", "kalman"}).filter, "kalman");
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, "gone", ""}).problem,
               "gone");
     EXPECT_EQ(round_trip(Pong{from_us(1), from_us(2), from_us(3)}).sent, from_us(3));
 }
@@ -208,7 +209,8 @@ TEST(Control, RefusesDamage) {
     for (std::size_t n = 0; n < whole.size() / 2; ++n)
         EXPECT_FALSE(decode_control(ByteView(whole).first(n)));
     EXPECT_FALSE(decode_control(numbered(100)));
-    EXPECT_FALSE(decode_control(encode_control(CameraState{CameraId{1}, CameraCondition(9), ""})));
+    EXPECT_FALSE(
+        decode_control(encode_control(CameraState{CameraId{1}, CameraCondition(9), "", ""})));
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// receive::Receiver on several threads: each decodes some of the cameras, so that
+// many cameras use all cores of a viewer.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "receive/receiver.h"
+
+namespace theatron::app {
+
+class Decoders {
+public:
+    // The events come from the decoding threads; `now` must be given.
+    explicit Decoders(const receive::Receiver::Events& events);
+    ~Decoders();
+
+    // As in Receiver, from one thread. Both wait until what came before is decoded.
+    void set_cameras(const std::vector<wire::Camera>& cameras);
+    void set_settings(const std::vector<wire::StreamSetting>& settings);
+
+    // Takes a copy. Waits while too much is undecoded, so that the sender notices.
+    void on_media(ByteView message);
+
+    // From any thread.
+    std::vector<receive::StreamFigures> figures();
+    void reset_figures();
+
+private:
+    // Some frames' worth; more would only make them older.
+    static constexpr std::size_t most_waiting = 32;
+
+    struct Worker {
+        explicit Worker(const receive::Receiver::Events& events) : receiver(events) {}
+
+        std::mutex receiver_mutex;
+        receive::Receiver receiver;
+
+        std::mutex mutex;  // guards all below
+        std::condition_variable changed;
+        std::deque<Bytes> waiting;
+        std::vector<Bytes> spare;  // memory of messages that were decoded
+        bool busy = false;
+        bool stopping = false;
+        std::thread thread;
+    };
+    void run(Worker& worker);
+    static void drain(Worker& worker);
+    Worker& worker_of(StreamId stream) {
+        return *workers_[std::size_t(camera_of(stream)) % workers_.size()];
+    }
+
+    std::function<TimePoint()> now_;
+    std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+}  // namespace theatron::app

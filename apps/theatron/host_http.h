@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a host tells over HTTP to those who show a token: /status and /metrics.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host_figures.h"
+#include "net/server.h"
+
+namespace theatron::app {
+
+// Answers other targets with nothing. `tokens`: any of these will do, in the header
+// "Authorization: Bearer TOKEN" or in the query as token=TOKEN.
+std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
+                                           const std::vector<std::string>& tokens,
+                                           const std::function<HostFigures()>& figures);
+
+}  // namespace theatron::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any camera with the faults that cameras have, for tests: it falls silent, loses
+// frames, repeats itself, jumps in time, is unplugged, or its driver hangs.
+//
+// Which fault happens when depends on nothing but the seed and the time, so that
+// a camera that is opened again meets the fault that is still there.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "base/options.h"
+#include "capture/camera.h"
+
+namespace theatron::capture {
+
+inline constexpr const char* faults_help =
+    "any kind    faults=SEED: for tests, the camera fails now and then in every way that cameras "
+    "do; faults_every=10 (seconds)";
+
+enum class FaultKind : std::uint8_t { silence, lost_frames, repeat, time_jump, unplugged, hang };
+inline constexpr int fault_kinds = 6;
+
+struct Fault {
+    FaultKind kind{};
+    TimePoint begin, end;
+    Duration jump{};  // of a time_jump
+};
+
+// One fault in each `every`, lasting from a few frames to three seconds.
+struct FaultPlan {
+    std::uint32_t seed = 1;
+    Duration every = 10s;
+    TimePoint from{};  // nothing fails before
+
+    // The fault of the stretch of time that `now` lies in, whether it is on or not.
+    Fault nearest(TimePoint now) const;
+    // The one that is on at `now`.
+    std::optional<Fault> at(TimePoint now) const;
+};
+
+// `clock` and `sleep` as in WatchedCamera::Clock. Throws Error while unplugged.
+std::unique_ptr<Camera> make_faulty_camera(std::unique_ptr<Camera> camera, const FaultPlan& plan,
+                                           std::function<TimePoint()> now,
+                                           std::function<void(Duration)> sleep);
+
+// Nothing without faults=.
+std::optional<FaultPlan> take_fault_options(Options& options);
+
+}  // namespace theatron::capture

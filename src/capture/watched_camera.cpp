@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/watched_camera.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+
+namespace theatron::capture {
+namespace {
+
+using wire::CameraCondition;
+
+// While a camera is closed, this often it is looked whether to open it.
+constexpr Duration closed_pause = 20ms;
+
+CameraCare::Options care_options(const CameraInfo& info) {
+    return {seconds_to_duration(1 / info.frames_per_second), info.live};
+}
+
+std::string sentence(Trouble trouble, const std::string& problem) {
+    switch (trouble) {
+        case Trouble::none:
+            return {};
+        case Trouble::silent:
+            return "It sends no pictures.";
+        case Trouble::repeating:
+            return "It sends the same picture again and again.";
+        case Trouble::time_jump:
+            return "The times of its pictures cannot be.";
+        case Trouble::gone:
+            break;
+    }
+    return problem.empty() ? "It does not answer." : problem;
+}
+
+}  // namespace
+
+PictureMark mark_of(DepthView depth) {
+    // Enough pixels that a sensor's noise cannot leave all of them as they were.
+    constexpr int rows_apart = 13, columns_apart = 11;
+    std::uint64_t hash = 0xcbf29ce484222325, any = 0;
+    for (int y = 0; y < depth.size.height; y += rows_apart) {
+        const std::uint16_t* row = depth.row(y);
+        for (int x = 0; x < depth.size.width; x += columns_apart) {
+            any |= row[x];
+            hash = (hash ^ row[x]) * 0x100000001b3;
+        }
+    }
+    return {any == 0 ? 0 : hash | 1};
+}
+
+WatchedCamera::Clock WatchedCamera::steady_clock() {
+    return {steady_now, [](Duration d) { std::this_thread::sleep_for(d); }};
+}
+
+WatchedCamera::WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock)
+    : info_(camera->info()),
+      open_again_(std::move(open_again)),
+      clock_(std::move(clock)),
+      camera_(std::move(camera)),
+      care_(care_options(info_), clock_.now()) {}
+
+WatchedCamera::Turn WatchedCamera::turn() const {
+    const std::lock_guard lock(mutex_);
+    return Turn(turn_);
+}
+
+WatchedCamera::Step WatchedCamera::step(Turn turn, Duration timeout) {
+    std::shared_ptr<Camera> camera;
+    bool open_now = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (over_ || unsigned(turn) != turn_)
+            return {nullptr, true};
+        const TimePoint now = clock_.now();
+        care_.on_time(now);
+        open_now = open_again_ && care_.wants_reopen(now);
+        if (open_now || camera_)
+            entered_driver_ = now;
+        opening_ = open_now;
+        camera = open_now ? std::exchange(camera_, nullptr) : camera_;
+    }
+    if (open_now) {
+        // Two handles of one device are refused, so the old one goes first.
+        camera.reset();
+        return reopen(turn);
+    }
+    if (!camera) {
+        clock_.sleep(std::min(timeout, closed_pause));
+        return {};
+    }
+    return take(turn, *camera, timeout);
+}
+
+WatchedCamera::Step WatchedCamera::reopen(Turn turn) {
+    std::shared_ptr<Camera> camera;
+    std::string problem;
+    try {
+        camera = open_again_();
+        const Calibration& found = camera->info().calibration;
+        if (found.depth.size != info_.calibration.depth.size ||
+            found.color.size != info_.calibration.color.size)
+            throw Error("What was found in its place is another camera.");
+    } catch (const std::exception& e) {
+        problem = e.what();
+        camera.reset();
+    }
+    const std::lock_guard lock(mutex_);
+    if (unsigned(turn) != turn_)
+        return {nullptr, true};
+    entered_driver_ = {};
+    const TimePoint now = clock_.now();
+    if (camera)
+        care_.on_opened(now);
+    else
+        care_.on_open_failed(problem, now);
+    camera_ = std::move(camera);
+    return {};
+}
+
+WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration timeout) {
+    const Capture got = camera.next(timeout);
+    const PictureMark mark = got.kind == Capture::Kind::frame && info_.live
+                                 ? mark_of(got.frame->depth.view())
+                                 : PictureMark{};
+
+    std::shared_ptr<Camera> closing;  // outside the lock
+    const std::lock_guard lock(mutex_);
+    if (unsigned(turn) != turn_)
+        return {nullptr, true};
+    entered_driver_ = {};
+    switch (got.kind) {
+        case Capture::Kind::frame: {
+            const FrameTimes& times = got.frame->times;
+            if (care_.on_frame(times.captured, times.delivered, mark))
+                return {got.frame, false};
+            return {};
+        }
+        case Capture::Kind::nothing:
+            care_.on_time(clock_.now());
+            return {};
+        case Capture::Kind::end:
+            return end(CameraCondition::ended, got.problem);
+        case Capture::Kind::failed:
+            if (!info_.live || !open_again_)
+                return end(CameraCondition::failed, got.problem);
+            care_.on_gone(got.problem, clock_.now());
+            closing = std::move(camera_);
+            return {};
+    }
+    return {};
+}
+
+WatchedCamera::Step WatchedCamera::end(CameraCondition how, std::string problem) {
+    over_ = true;
+    how_over_ = how;
+    problem_ = std::move(problem);
+    return {nullptr, true};
+}
+
+WatchedCamera::Turn WatchedCamera::abandon() {
+    const std::lock_guard lock(mutex_);
+    camera_.reset();  // the thread in there holds it as long as it is needed
+    entered_driver_ = {};
+    care_.on_gone("Its driver does not come back.", clock_.now());
+    return Turn(++turn_);
+}
+
+WatchedCamera::Status WatchedCamera::status() const {
+    const std::lock_guard lock(mutex_);
+    const TimePoint now = clock_.now();
+    Status status;
+    if (over_) {
+        status.condition = how_over_;
+        status.problem = problem_;
+    } else {
+        care_.on_time(now);
+        status.condition = care_.stale() ? CameraCondition::stale : CameraCondition::live;
+        status.trouble = care_.trouble();
+        status.problem = sentence(status.trouble, care_.problem());
+    }
+    status.figures = care_.figures();
+    status.without_picture = now - care_.last_good();
+    status.hangs = entered_driver_ != TimePoint{} &&
+                   now - entered_driver_ > (opening_ ? longest_opening : longest_call);
+    return status;
+}
+
+}  // namespace theatron::capture

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/https_get.h"
+
+#include <openssl/ssl.h>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/http.hpp>
+
+#include "base/error.h"
+#include "net/certificate.h"
+#include "net/connection.h"
+
+namespace theatron::net {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+
+constexpr std::size_t max_answer = std::size_t(16) << 20;
+
+// One request from beginning to end.
+struct Exchange {
+    const Link& link;
+    Duration timeout;
+    asio::io_context io{1};
+    asio::ssl::context tls{asio::ssl::context::tls_client};
+    tcp::resolver resolver{io};
+    TlsStream stream{io, tls};
+    http::request<http::empty_body> request;
+    http::response_parser<http::string_body> answer;
+    beast::flat_buffer buffer;
+    std::string problem = "no answer came in time";
+
+    Exchange(const Link& l, const std::string& target, Duration t) : link(l), timeout(t) {
+        SSL_CTX_set_min_proto_version(tls.native_handle(), TLS1_3_VERSION);
+        // The pinned fingerprint is checked by hand after the handshake.
+        tls.set_verify_mode(asio::ssl::verify_none);
+        request.method(http::verb::get);
+        request.target(target);
+        request.version(11);
+        request.set(http::field::host, link.host);
+        request.set(http::field::authorization, "Bearer " + link.token);
+        request.set(http::field::connection, "close");
+        answer.body_limit(max_answer);
+    }
+
+    // Goes on with `next`, or ends with what is wrong.
+    template <class Next>
+    auto then(Next next) {
+        return [this, next](beast::error_code error, auto&&...) {
+            if (error)
+                problem = error.message();
+            else
+                next();
+        };
+    }
+
+    void run() {
+        resolver.async_resolve(link.host, std::to_string(link.port),
+                               [this](beast::error_code error, tcp::resolver::results_type found) {
+                                   if (error) {
+                                       problem = error.message();
+                                       return;
+                                   }
+                                   beast::get_lowest_layer(stream).expires_after(timeout);
+                                   beast::get_lowest_layer(stream).async_connect(
+                                       found, then([this] { handshake(); }));
+                               });
+        io.run_for(timeout + 1s);
+    }
+    void handshake() {
+        stream.async_handshake(asio::ssl::stream_base::client, then([this] {
+                                   if (shows_the_right_certificate())
+                                       ask();
+                                   else
+                                       problem = "it shows another certificate than the link names";
+                               }));
+    }
+    bool shows_the_right_certificate() {
+        X509* certificate = SSL_get1_peer_certificate(stream.native_handle());
+        if (!certificate)
+            return false;
+        const std::string shown = certificate_fingerprint(certificate);
+        X509_free(certificate);
+        return equal_secrets(shown, link.fingerprint);
+    }
+    void ask() {
+        http::async_write(stream, request, then([this] {
+                              http::async_read(stream, buffer, answer,
+                                               then([this] { problem.clear(); }));
+                          }));
+    }
+};
+
+}  // namespace
+
+HttpsAnswer https_get(const Link& link, const std::string& target, Duration timeout) {
+    Exchange exchange(link, target, timeout);
+    exchange.run();
+    if (!exchange.problem.empty())
+        throw Error("The host at " + link.host + ":" + std::to_string(link.port) +
+                    " does not answer: " + exchange.problem + ".");
+    return {int(exchange.answer.get().result_int()), exchange.answer.get().body()};
+}
+
+}  // namespace theatron::net

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thread that waits for one camera. If it does not come back out of the
+// camera's driver, another takes its place.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "capture/watched_camera.h"
+
+namespace theatron::send {
+
+class CaptureThread {
+public:
+    // `sink` is called from the thread, and not any more once the destructor has returned.
+    CaptureThread(std::unique_ptr<capture::Camera> camera, capture::WatchedCamera::Open open_again,
+                  std::function<void(FramePtr)> sink);
+    ~CaptureThread();
+
+    const capture::CameraInfo& info() const { return shared_->camera.info(); }
+
+    // How the camera is, now. To be asked every 20 ms, from one thread: it is also
+    // when a driver that hangs is left to itself.
+    capture::WatchedCamera::Status look();
+
+private:
+    // Outlives the lane if a driver never comes back.
+    struct Shared {
+        capture::WatchedCamera camera;
+        std::mutex mutex;  // held while the sink works
+        std::function<void(FramePtr)> sink;
+    };
+    struct Runner {
+        std::thread thread;
+        std::shared_ptr<std::atomic<bool>> done = std::make_shared<std::atomic<bool>>(false);
+    };
+    // More threads than these are not left behind in one camera's driver.
+    static constexpr std::size_t most_left_behind = 3;
+
+    void start(capture::WatchedCamera::Turn turn);
+    static void run(Shared& shared, capture::WatchedCamera::Turn turn);
+
+    std::shared_ptr<Shared> shared_;
+    std::vector<Runner> runners_;  // the last one is at work
+};
+
+}  // namespace theatron::send

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The threads that do the work of all cameras: as many as there are cores,
+// however many cameras there are, and one that looks after time.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include "base/time.h"
+
+namespace theatron::send {
+
+class Workers {
+public:
+    // 0: one thread per core.
+    explicit Workers(int threads = 0);
+    ~Workers();  // what was begun is finished by its owner before
+
+    int threads() const { return threads_; }
+
+    // Does `work` soon, first come first served. It must not wait for other work.
+    template <class Work>
+    void enqueue(Work work) {
+        arena_.enqueue(std::move(work));
+    }
+
+    // From within work: does both, on two threads if one is idle. Nothing else is
+    // begun meanwhile, so that what is nearly done is done first.
+    template <class A, class B>
+    static void both(const A& a, const B& b) {
+        tbb::this_task_arena::isolate([&] { tbb::parallel_invoke(a, b); });
+    }
+
+    // Calls `look` every 20 ms, on a thread of its own, until forget() has returned.
+    static constexpr Duration look_every = 20ms;
+    using Ticket = std::uint64_t;
+    Ticket look_after(std::function<void()> look);
+    void forget(Ticket ticket);
+
+private:
+    void look_around();
+
+    const int threads_;
+    // The library counts the calling thread, which does no work here.
+    tbb::global_control limit_;
+    tbb::task_arena arena_;
+
+    std::mutex mutex_;  // guards all below; held while somebody looks
+    std::condition_variable changed_;
+    std::map<Ticket, std::function<void()>> looks_;
+    Ticket next_ticket_ = 1;
+    bool stopping_ = false;
+    std::thread looking_;
+};
+
+}  // namespace theatron::send

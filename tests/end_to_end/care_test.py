@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Status and metrics of a running host, and cameras that fail."""
+import json
+import pathlib
+import re
+import shutil
+import ssl
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+from theatron_process import Process, host, make_recording, run
+
+
+def get(greeting, path, token=None, query=""):
+    """Status code, type and text of what the host answers, without looking at its certificate."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    request = urllib.request.Request(f"https://127.0.0.1:{greeting['port']}{path}{query}")
+    if token:
+        request.add_header("Authorization", "Bearer " + token)
+    try:
+        with urllib.request.urlopen(request, context=context, timeout=10) as answer:
+            return answer.status, answer.headers["Content-Type"], answer.read().decode()
+    except urllib.error.HTTPError as refused:
+        return refused.code, refused.headers["Content-Type"], refused.read().decode()
+
+
+def metrics(greeting, token):
+    """{name: {labels: value}} of a page that must be well formed."""
+    status, kind, text = get(greeting, "/metrics", token)
+    assert status == 200 and kind.startswith("text/plain; version=0.0.4"), (status, kind)
+    values, described = {}, set()
+    for line in text.splitlines():
+        if line.startswith("#"):
+            described.add(line.split()[2])
+            continue
+        match = re.fullmatch(r'(theatron_[a-z_]+)\{(.*)\} ([-+.e0-9]+)', line)
+        assert match, line
+        name = match[1]
+        assert name in described or re.sub("_(bucket|sum|count)$", "", name) in described, line
+        values.setdefault(name, {})[match[2]] = float(match[3])
+    return values
+
+
+class Care(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_care_"))
+        cls.recording = make_recording(cls.folder / "box", width=64, height=48)
+        cls.camera = f"folder:{cls.recording},loop=1,preload=1"
+        cls.state = cls.folder / "state"
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def token(self, greeting):
+        return re.search("join=([^&]*)", greeting["link"])[1]
+
+    def test_status_and_metrics_are_for_those_who_show_a_token(self):
+        with host(self.state, self.camera) as h:
+            greeting, token = h.greeting, self.token(h.greeting)
+            for path in ("/status", "/metrics"):
+                self.assertEqual(get(greeting, path)[0], 401)
+                self.assertEqual(get(greeting, path, "wrong")[0], 401)
+                self.assertEqual(get(greeting, path, query="?token=wrong")[0], 401)
+                self.assertNotIn("box", get(greeting, path, "wrong")[2])
+                self.assertEqual(get(greeting, path, token)[0], 200)
+                self.assertEqual(get(greeting, path, query="?token=" + token)[0], 200)
+            # The token for monitoring opens the figures, but not the session.
+            other = (self.state / "metrics.token").read_text().strip()
+            self.assertEqual(get(greeting, "/metrics", other)[0], 200)
+            code, _, errors = run("join", greeting["link"].replace(token, other), "--no-window", "--seconds", "1")
+            self.assertNotEqual(code, 0)
+            self.assertIn("token is wrong", errors)
+            self.assertIn("Theatron host", get(greeting, "/")[2])
+
+    def test_metrics_tell_what_every_camera_does(self):
+        with host(self.state, self.camera, self.camera) as h, \
+                Process("join", h.greeting["link"], "--every", "0.2") as viewer:
+            viewer.wait_for(lambda f: f["fps"] > 20, 20)
+            time.sleep(1)
+            first = metrics(h.greeting, self.token(h.greeting))
+            time.sleep(1)
+            second = metrics(h.greeting, self.token(h.greeting))
+            for i in (0, 1):
+                camera = f'camera="{i}",name="box"'
+                self.assertGreater(second["theatron_frames_per_second"][camera], 20)
+                self.assertLess(second["theatron_age_seconds"][camera], 0.5)
+                self.assertLess(abs(second["theatron_sync_offset_seconds"][camera]), 0.02)
+                self.assertEqual(second["theatron_camera_stale"][camera], 0)
+                self.assertEqual(second["theatron_reopens_total"][camera], 0)
+                for kind in ("depth", "color"):
+                    bits = f'{camera},kind="{kind}"'
+                    self.assertGreater(second["theatron_bits_total"][bits], first["theatron_bits_total"][bits])
+                for stage in ("capture", "queue", "depth_encode", "color_encode", "lane"):
+                    labels = f'{camera},stage="{stage}"'
+                    count = second["theatron_stage_seconds_count"][labels]
+                    self.assertGreater(count, 10)
+                    self.assertEqual(second["theatron_stage_seconds_bucket"][labels + ',le="+Inf"'], count)
+                    self.assertGreaterEqual(second["theatron_stage_seconds_sum"][labels], 0)
+                for reason in ("newer", "moment", "repeated", "time_jump", "slow_receiver"):
+                    self.assertIn(f'{camera},reason="{reason}"', second["theatron_frames_dropped_total"])
+            self.assertEqual(second["theatron_participants"][""], 1)
+
+    def test_status_shows_the_same_to_people_and_scripts(self):
+        with host(self.state, self.camera) as h:
+            time.sleep(1.2)
+            code, out, errors = run("status", h.greeting["link"], "--json")
+            self.assertEqual(code, 0, errors)
+            camera = json.loads(out)["cameras"][0]
+            self.assertEqual(camera["state"], "live")
+            self.assertGreater(camera["fps"], 20)
+            code, out, _ = run("status", h.greeting["link"])
+            self.assertEqual(code, 0)
+            self.assertRegex(out, r"box +live +[23]\d\.")
+            for link, expected in ((h.greeting["link"].replace("join=", "join=x"), "token"),
+                                   (h.greeting["link"].replace("cert=", "cert=0")[:-1], "certificate")):
+                code, _, errors = run("status", link)
+                self.assertEqual(code, 1)
+                self.assertIn(expected, errors)
+        code, _, errors = run("status", h.greeting["link"])
+        self.assertEqual(code, 1)
+        self.assertIn("does not answer", errors)
+
+    def test_a_camera_that_fails_is_shown_as_stale_and_comes_back(self):
+        faulty = self.camera + ",faults=1,faults_every=3"
+        with host(self.state, faulty, self.camera) as h, \
+                Process("join", h.greeting["link"], "--every", "0.05") as viewer:
+            def state(wanted):
+                return viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["state"] == wanted, 20)
+            for _ in range(2):
+                self.assertNotEqual(state("stale")["cameras"][0]["problem"], "")
+                state("live")
+            figures = metrics(h.greeting, self.token(h.greeting))
+            troubles = figures["theatron_camera_troubles_total"]
+            self.assertGreaterEqual(sum(v for k, v in troubles.items() if 'camera="0"' in k), 2)
+            self.assertEqual(sum(v for k, v in troubles.items() if 'camera="1"' in k), 0)
+            # The other camera went on all the while.
+            latest = viewer.newest_json()
+            self.assertEqual(latest["cameras"][1]["state"], "live")
+            self.assertGreater(latest["cameras"][1]["fps"], 25)
+
+
+if __name__ == "__main__":
+    unittest.main()
