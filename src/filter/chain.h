@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The filters of one camera, one after the other.
+//
+// A chain keeps what its filters remember of earlier frames. It allocates when
+// it is made and never again, has no threads and reads no clock. To change the
+// settings of a running camera make a new chain and drop the old one: it is
+// settled again after a few frames.
+#pragma once
+
+#include <memory>
+
+#include "base/time.h"
+#include "filter/background.h"
+#include "filter/chain_settings.h"
+#include "filter/noise_model.h"
+#include "image/view.h"
+
+namespace theatron::filter {
+
+// What a chain must know of its camera.
+struct ChainCamera {
+    Size size;
+    double depth_unit_mm = 1;
+    // The recorded empty scene, for the step `background`; read while the chain is
+    // made. Without one of the camera's size that step does nothing.
+    const Background* background = nullptr;
+    NoiseModel noise;
+};
+
+class Chain {
+public:
+    Chain(const ChainSettings& settings, const ChainCamera& camera);
+    ~Chain();
+    Chain(Chain&&) noexcept;
+    Chain& operator=(Chain&&) noexcept;
+
+    Size size() const;
+    bool off() const;  // apply() copies
+
+    // Filters one frame. Both views have the chain's size and do not overlap.
+    // `since_last_frame` is the time since the frame of the call before, by the
+    // frames' capture times: after a pause the past counts less, after a second
+    // or a step back in time nothing. It does not matter for the first frame.
+    void apply(DepthView in, MutableDepthView out, Duration since_last_frame);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace theatron::filter
