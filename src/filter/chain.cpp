@@ -3,31 +3,183 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "filter/flying_pixels.h"
+#include "filter/holes.h"
+#include "filter/kalman.h"
+#include "filter/limits.h"
+#include "filter/speckles.h"
 
 namespace theatron::filter {
+namespace {
 
-struct Chain::State {
-    ChainSettings settings;
-    Size size;
+// The gains of the Kalman filter are those of 30 frames a second.
+constexpr Duration nominal_period = std::chrono::microseconds(33'333);
+constexpr Duration longest_memory = std::chrono::seconds(1);
+
+std::uint16_t to_u16(double value) {
+    return std::uint16_t(std::clamp(std::lround(value), 0l, 65535l));
+}
+
+KalmanRule kalman_rule(const KalmanParams& params, const ChainCamera& camera) {
+    const double steps = (1 << estimate_bits) / camera.depth_unit_mm;  // of a millimetre
+    const double metres = camera.depth_unit_mm / 1000;                 // of a depth unit
+    KalmanRule rule;
+    rule.noise_constant = to_u16(camera.noise.constant_mm * steps);
+    rule.noise_squared =
+        to_u16(camera.noise.squared_mm * steps * metres * metres * 65536.0 * 65536.0);
+    rule.reset_sigmas = params.reset_sigmas;
+    rule.trend = to_u16(params.trend_sigmas_100 * 40.96);
+    rule.least_gain = std::clamp(params.gain_1000 * 256 / 1000, 1, 255);
+    rule.most_hold = params.hold_frames;
+    return rule;
+}
+
+// One filter with all that it remembers and needs while it runs.
+struct FlyingPixels {
+    FlyingPixelRule rule;
+};
+struct Speckles {
+    SpeckleRule rule;
+    SpeckleScratch scratch;
+};
+struct Holes {
+    HoleRule rule;
+    HoleScratch scratch;
+};
+struct Kalman {
+    KalmanRule rule;
+    KalmanState state;
+};
+using Stage = std::variant<Limits, FlyingPixels, Speckles, Holes, Kalman>;
+
+class StageMaker {
+public:
+    explicit StageMaker(const ChainCamera& camera) : camera_(camera) {}
+
+    std::vector<Stage> make(const ChainSettings& settings) {
+        for (const Step& step : settings.steps)
+            std::visit([this](const auto& params) { add(params); }, step);
+        return std::move(stages_);
+    }
+
+private:
+    void add(const RangeParams& p) { limits().keep_range(units(p.min_mm), units(p.max_mm)); }
+    void add(const BackgroundParams& p) {
+        if (camera_.background != nullptr)
+            limits().remove_background(*camera_.background, p.margin_mm, p.margin_sigmas,
+                                       camera_.noise, camera_.depth_unit_mm);
+    }
+    void add(const FlyingPixelParams& p) {
+        stages_.push_back(FlyingPixels{{tolerance(p), p.min_support}});
+    }
+    void add(const SpeckleParams& p) {
+        stages_.push_back(Speckles{{p.max_pixels, tolerance(p)}, SpeckleScratch(camera_.size)});
+    }
+    void add(const HoleParams& p) {
+        stages_.push_back(Holes{{p.iterations, p.max_size, p.min_neighbours, tolerance(p)},
+                                HoleScratch(camera_.size)});
+    }
+    void add(const KalmanParams& p) {
+        stages_.push_back(Kalman{kalman_rule(p, camera_), KalmanState(camera_.size)});
+    }
+
+    // Neighbouring steps that only compare share one comparison.
+    Limits& limits() {
+        if (stages_.empty() || !std::holds_alternative<Limits>(stages_.back()))
+            stages_.push_back(Limits(camera_.size));
+        return std::get<Limits>(stages_.back());
+    }
+    int units(int mm) const { return to_u16(mm / camera_.depth_unit_mm); }
+    template <class Params>
+    Tolerance tolerance(const Params& p) const {
+        return {to_u16(p.step_mm / camera_.depth_unit_mm), to_u16(p.slope_1000 * 65.536)};
+    }
+
+    const ChainCamera& camera_;
+    std::vector<Stage> stages_;
+};
+
+}  // namespace
+
+class Chain::State {
+public:
+    State(const ChainSettings& settings, const ChainCamera& camera)
+        : stages(StageMaker(camera).make(settings)), current(camera.size), next(camera.size) {}
+
+    std::vector<Stage> stages;
+    DepthPlane current, next;
+    bool first = true;
+
+    void apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
+        const bool forgets =
+            first || since_last_frame < Duration(0) || since_last_frame > longest_memory;
+        const auto missed =
+            forgets ? 0 : (since_last_frame + nominal_period / 2) / nominal_period - 1;
+        first = false;
+
+        // The first stage reads the frame, a Kalman filter at the end writes it.
+        std::size_t begin = 0;
+        if (!stages.empty() && std::holds_alternative<Limits>(stages.front()))
+            apply_limits(in, std::get<Limits>(stages[begin++]), current);
+        else
+            copy(in, current.view());
+        const bool ends_with_kalman =
+            !stages.empty() && std::holds_alternative<Kalman>(stages.back());
+        for (std::size_t i = begin; i < stages.size(); ++i) {
+            const bool last = i + 1 == stages.size();
+            std::visit([&](auto& stage) { run(stage, last, out, forgets, int(missed)); },
+                       stages[i]);
+        }
+        if (!ends_with_kalman)
+            copy(current.view(), out);
+    }
+
+private:
+    static void copy(DepthView in, MutableDepthView out) {
+        for (int y = 0; y < in.size.height; ++y)
+            std::copy_n(in.row(y), in.size.width, out.row(y));
+    }
+
+    void run(Limits& limits, bool, MutableDepthView, bool, int) {
+        apply_limits(current.view(), limits, current);
+    }
+    void run(FlyingPixels& stage, bool, MutableDepthView, bool, int) {
+        remove_flying_pixels(current, stage.rule, next);
+        std::swap(current, next);
+    }
+    void run(Speckles& stage, bool, MutableDepthView, bool, int) {
+        remove_speckles(current, stage.rule, stage.scratch);
+    }
+    void run(Holes& stage, bool, MutableDepthView, bool, int) {
+        fill_holes(current, stage.rule, stage.scratch);
+    }
+    void run(Kalman& stage, bool last, MutableDepthView out, bool forgets, int missed) {
+        if (forgets)
+            stage.state.clear();
+        const int boost = std::clamp(missed, 0, 255) * stage.rule.least_gain;
+        apply_kalman(current, stage.rule, boost, stage.state, last ? out : current.view());
+    }
 };
 
 Chain::Chain(const ChainSettings& settings, const ChainCamera& camera)
-    : state_(std::make_unique<State>(State{settings, camera.size})) {}
+    : state_(std::make_unique<State>(settings, camera)) {}
 Chain::~Chain() = default;
 Chain::Chain(Chain&&) noexcept = default;
 Chain& Chain::operator=(Chain&&) noexcept = default;
 
 Size Chain::size() const {
-    return state_->size;
+    return state_->current.size();
 }
 bool Chain::off() const {
-    return state_->settings.off();
+    return state_->stages.empty();
 }
 
-void Chain::apply(DepthView in, MutableDepthView out, Duration) {
-    assert(in.size == state_->size && out.size == state_->size);
-    for (int y = 0; y < in.size.height; ++y)
-        std::copy_n(in.row(y), in.size.width, out.row(y));
+void Chain::apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
+    assert(in.size == size() && out.size == size());
+    state_->apply(in, out, since_last_frame);
 }
 
 }  // namespace theatron::filter

@@ -44,7 +44,7 @@ public:
     void apply(DepthView in, MutableDepthView out, Duration since_last_frame);
 
 private:
-    struct State;
+    class State;
     std::unique_ptr<State> state_;
 };
 

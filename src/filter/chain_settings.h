@@ -44,12 +44,12 @@ struct SpeckleParams {
     bool operator==(const SpeckleParams&) const = default;
 };
 
-// Fills holes of at most so many pixels from their rim inwards, a ring of pixels
-// an iteration, with the median of the measured neighbours. Where these are
-// further apart than the step there is an edge, and the hole stays.
+// Fills holes, at most so many pixels wide, from their rim inwards, a ring of
+// pixels an iteration, with the median of the measured neighbours. Where these
+// are further apart than the step there is an edge, and the hole stays.
 struct HoleParams {
     int iterations = 4;
-    int max_pixels = 64;
+    int max_size = 8;
     int min_neighbours = 3;
     int step_mm = 12;
     int slope_1000 = 15;
@@ -61,7 +61,7 @@ struct KalmanParams {
     int gain_1000 = 80;         // of a pixel that has long been still
     int reset_sigmas = 5;       // a change beyond this is motion, at once
     int trend_sigmas_100 = 50;  // a lasting change beyond this is slow motion
-    int hold_frames = 1;        // so long a still pixel may be missing
+    int hold_frames = 8;        // so long a still pixel that comes and goes may be missing
     bool operator==(const KalmanParams&) const = default;
 };
 

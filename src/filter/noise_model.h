@@ -8,7 +8,7 @@ namespace theatron::filter {
 // The usual values are those of an Azure Kinect on surfaces of middling
 // reflectivity (docs/filters.md).
 struct NoiseModel {
-    double constant_mm = 0.8;
+    double constant_mm = 0.5;
     double squared_mm = 0.25;
 
     bool operator==(const NoiseModel&) const = default;

@@ -35,7 +35,7 @@ struct Tolerance {
 };
 
 THEATRON_HD inline int tolerance_at(Tolerance t, int depth) {
-    const int sum = t.constant + ((depth * t.slope) >> 16);
+    const int sum = t.constant + int((std::uint32_t(depth) * t.slope) >> 16);
     return sum < 0xffff ? sum : 0xffff;
 }
 

@@ -61,7 +61,7 @@ struct StepFields<HoleParams> {
     static constexpr const char* name = "holes";
     static constexpr Field<HoleParams> fields[] = {
         {"iterations", &HoleParams::iterations, 1, 64},
-        {"max_pixels", &HoleParams::max_pixels, 1, 100000},
+        {"max_size", &HoleParams::max_size, 1, 31},
         {"min_neighbours", &HoleParams::min_neighbours, 1, 8},
         {"step_mm", &HoleParams::step_mm, 0, 1000},
         {"slope_1000", &HoleParams::slope_1000, 0, 999},
@@ -75,7 +75,7 @@ struct StepFields<KalmanParams> {
         {"gain_1000", &KalmanParams::gain_1000, 20, 1000},
         {"reset_sigmas", &KalmanParams::reset_sigmas, 1, 20},
         {"trend_sigmas_100", &KalmanParams::trend_sigmas_100, 0, 1000},
-        {"hold_frames", &KalmanParams::hold_frames, 0, 10},
+        {"hold_frames", &KalmanParams::hold_frames, 0, 15},
     };
 };
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filter/chain.h"
+
+#include <gtest/gtest.h>
+
+#include "filter/test_depth.h"
+
+namespace theatron::filter {
+namespace {
+
+constexpr Duration frame_time = std::chrono::microseconds(33'333);
+
+Chain make_chain(const char* text, Size size, const Background* background = nullptr) {
+    const ParsedChain parsed = parse_chain(text);
+    EXPECT_EQ(parsed.problem, "");
+    return Chain(parsed.settings, {.size = size, .background = background});
+}
+
+DepthImage applied(Chain& chain, const DepthImage& image, Duration since = frame_time) {
+    DepthImage out(image.size);
+    chain.apply(image.view(), out.view(), since);
+    return out;
+}
+
+DepthImage wall(Size size, int depth) {
+    DepthImage image(size);
+    std::fill(image.pixels.begin(), image.pixels.end(), std::uint16_t(depth));
+    return image;
+}
+
+TEST(Chain, OffCopies) {
+    Chain chain = make_chain("off", {33, 5});
+    EXPECT_TRUE(chain.off());
+    const DepthImage image = extremes({33, 5}, 1);
+    EXPECT_EQ(applied(chain, image), image);
+}
+
+TEST(Chain, TakesAndGivesViewsWithAnyStride) {
+    const DepthImage large = two_walls({50, 20}, 1);
+    const Size size{33, 11};
+    const DepthView part{large.view().row(3) + 5, size, 50};
+    DepthImage packed(size), out(size), large_out(large.size);
+    for (int y = 0; y < size.height; ++y)
+        std::copy_n(part.row(y), size.width, packed.view().row(y));
+    Chain first = make_chain("default", size), second = make_chain("default", size);
+    first.apply(packed.view(), out.view(), frame_time);
+    const MutableDepthView corner{large_out.view().row(0), size, 50};
+    second.apply(part, corner, frame_time);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            ASSERT_EQ(corner.row(y)[x], out.view().row(y)[x]);
+    EXPECT_EQ(large_out.view().row(0)[33], 0) << "written beside the view";
+}
+
+TEST(Chain, StepsRunInTheirOrder) {
+    // A hole in front of a wall that goes: filled first, it goes with the wall.
+    DepthImage image = wall({9, 9}, 3000);
+    image.view().row(4)[4] = 0;
+    Chain fill_first = make_chain("holes+range:min_mm=2000", image.size);
+    EXPECT_EQ(applied(fill_first, image), wall(image.size, 3000));
+    Chain remove_first = make_chain("range:max_mm=2000+holes", image.size);
+    EXPECT_EQ(applied(remove_first, image), wall(image.size, 0));
+}
+
+TEST(Chain, RangesAndBackgroundsHaveTheCamerasUnit) {
+    const ParsedChain parsed = parse_chain("range:min_mm=1000,max_mm=2000");
+    Chain chain(parsed.settings, {.size = {4, 1}, .depth_unit_mm = 0.25});
+    DepthImage image({4, 1});
+    image.pixels = {3999, 4000, 8000, 8001};
+    EXPECT_EQ(applied(chain, image).pixels, (std::vector<std::uint16_t>{0, 4000, 8000, 0}));
+}
+
+TEST(Chain, TheRecordedEmptySceneGoesAndWhatStandsInItStays) {
+    const Size size{40, 20};
+    Background background;
+    for (unsigned i = 0; i < 30; ++i)
+        EXPECT_TRUE(add_frame(background, two_walls(size, 7 + 0 * i, 3, 0).view()));
+    DepthImage frame = two_walls(size, 7, 3, 0);
+    for (int y = 5; y < 15; ++y)
+        for (int x = 5; x < 15; ++x)
+            frame.view().row(y)[x] = 1200;
+    Chain chain = make_chain("background", size, &background);
+    const DepthImage out = applied(chain, frame);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const bool inside = x >= 5 && x < 15 && y >= 5 && y < 15;
+            ASSERT_EQ(out.view().row(y)[x], inside ? 1200 : 0) << x << ", " << y;
+        }
+}
+
+TEST(Chain, WithoutABackgroundOfItsSizeThatStepDoesNothing) {
+    const Background background{wall({8, 8}, 100), 1, 1};
+    const DepthImage image = wall({9, 9}, 1000);
+    Chain none = make_chain("background", image.size);
+    EXPECT_EQ(applied(none, image), image);
+    Chain other = make_chain("background", image.size, &background);
+    EXPECT_EQ(applied(other, image), image);
+}
+
+TEST(Chain, ASecondChainWithTheSameFramesGivesTheSame) {
+    Chain first = make_chain("default", {64, 48}), second = make_chain("default", {64, 48});
+    for (unsigned i = 0; i < 10; ++i) {
+        const DepthImage image = two_walls({64, 48}, i / 4);
+        ASSERT_EQ(applied(first, image), applied(second, image));
+    }
+}
+
+}  // namespace
+}  // namespace theatron::filter

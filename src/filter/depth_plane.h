@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth between two filters, with a margin of "no measurement" around it, so that
+// kernels read neighbours and whole vectors without asking where the image ends.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "image/view.h"
+
+namespace theatron::filter {
+
+// Rows -1 to height may be read, and of each row the pixels -margin to
+// padded_width + margin. All outside the image stays 0.
+class DepthPlane {
+public:
+    static constexpr int margin = 32;  // the longest vector of 16-bit lanes
+
+    explicit DepthPlane(Size size)
+        : size_(size),
+          padded_width_((size.width + margin - 1) / margin * margin),
+          pitch_(padded_width_ + 2 * margin),
+          pixels_(std::size_t(pitch_) * std::size_t(size.height + 2)) {}
+
+    Size size() const { return size_; }
+    int padded_width() const { return padded_width_; }
+    std::ptrdiff_t pitch() const { return pitch_; }
+
+    std::uint16_t* row(int y) { return pixels_.data() + (y + 1) * pitch_ + margin; }
+    const std::uint16_t* row(int y) const { return pixels_.data() + (y + 1) * pitch_ + margin; }
+
+    MutableDepthView view() { return {row(0), size_, pitch_}; }
+    DepthView view() const { return {row(0), size_, pitch_}; }
+
+    void clear() { std::fill(pixels_.begin(), pixels_.end(), std::uint16_t(0)); }
+
+private:
+    Size size_;
+    int padded_width_;
+    std::ptrdiff_t pitch_;
+    std::vector<std::uint16_t> pixels_;
+};
+
+}  // namespace theatron::filter
