@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bench_color.h"
 #include "bench_depth.h"
+#include "bench_filter.h"
 #include "bench_pipeline.h"
 #include "bench_plot.h"
 #include "bench_render.h"
@@ -264,6 +265,7 @@ void add_bench_command(CLI::App& app) {
     bench->require_subcommand(1);
     add_depth(*bench);
     add_color(*bench);
+    add_filter_bench(*bench);
     add_pipeline(*bench);
     add_render(*bench);
 }

@@ -3,14 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
-#include "filter/flying_pixels.h"
-#include "filter/holes.h"
-#include "filter/kalman.h"
-#include "filter/limits.h"
-#include "filter/speckles.h"
+#include "filter/stage_rules.h"
 
 namespace theatron::filter {
 namespace {
@@ -18,24 +13,6 @@ namespace {
 // The gains of the Kalman filter are those of 30 frames a second.
 constexpr Duration nominal_period = std::chrono::microseconds(33'333);
 constexpr Duration longest_memory = std::chrono::seconds(1);
-
-std::uint16_t to_u16(double value) {
-    return std::uint16_t(std::clamp(std::lround(value), 0l, 65535l));
-}
-
-KalmanRule kalman_rule(const KalmanParams& params, const ChainCamera& camera) {
-    const double steps = (1 << estimate_bits) / camera.depth_unit_mm;  // of a millimetre
-    const double metres = camera.depth_unit_mm / 1000;                 // of a depth unit
-    KalmanRule rule;
-    rule.noise_constant = to_u16(camera.noise.constant_mm * steps);
-    rule.noise_squared =
-        to_u16(camera.noise.squared_mm * steps * metres * metres * 65536.0 * 65536.0);
-    rule.reset_sigmas = params.reset_sigmas;
-    rule.trend = to_u16(params.trend_sigmas_100 * 40.96);
-    rule.least_gain = std::clamp(params.gain_1000 * 256 / 1000, 1, 255);
-    rule.most_hold = params.hold_frames;
-    return rule;
-}
 
 // One filter with all that it remembers and needs while it runs.
 struct FlyingPixels {
@@ -66,24 +43,19 @@ public:
     }
 
 private:
-    void add(const RangeParams& p) { limits().keep_range(units(p.min_mm), units(p.max_mm)); }
-    void add(const BackgroundParams& p) {
-        if (camera_.background != nullptr)
-            limits().remove_background(*camera_.background, p.margin_mm, p.margin_sigmas,
-                                       camera_.noise, camera_.depth_unit_mm);
+    void add(const RangeParams& params) { narrow(limits(), params, camera_); }
+    void add(const BackgroundParams& params) { narrow(limits(), params, camera_); }
+    void add(const FlyingPixelParams& params) {
+        stages_.push_back(FlyingPixels{rule_of(params, camera_)});
     }
-    void add(const FlyingPixelParams& p) {
-        stages_.push_back(FlyingPixels{{tolerance(p), p.min_support}});
+    void add(const SpeckleParams& params) {
+        stages_.push_back(Speckles{rule_of(params, camera_), SpeckleScratch(camera_.size)});
     }
-    void add(const SpeckleParams& p) {
-        stages_.push_back(Speckles{{p.max_pixels, tolerance(p)}, SpeckleScratch(camera_.size)});
+    void add(const HoleParams& params) {
+        stages_.push_back(Holes{rule_of(params, camera_), HoleScratch(camera_.size)});
     }
-    void add(const HoleParams& p) {
-        stages_.push_back(Holes{{p.iterations, p.max_size, p.min_neighbours, tolerance(p)},
-                                HoleScratch(camera_.size)});
-    }
-    void add(const KalmanParams& p) {
-        stages_.push_back(Kalman{kalman_rule(p, camera_), KalmanState(camera_.size)});
+    void add(const KalmanParams& params) {
+        stages_.push_back(Kalman{rule_of(params, camera_), KalmanState(camera_.size)});
     }
 
     // Neighbouring steps that only compare share one comparison.
@@ -91,11 +63,6 @@ private:
         if (stages_.empty() || !std::holds_alternative<Limits>(stages_.back()))
             stages_.push_back(Limits(camera_.size));
         return std::get<Limits>(stages_.back());
-    }
-    int units(int mm) const { return to_u16(mm / camera_.depth_unit_mm); }
-    template <class Params>
-    Tolerance tolerance(const Params& p) const {
-        return {to_u16(p.step_mm / camera_.depth_unit_mm), to_u16(p.slope_1000 * 65.536)};
     }
 
     const ChainCamera& camera_;

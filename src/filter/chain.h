@@ -10,22 +10,11 @@
 #include <memory>
 
 #include "base/time.h"
-#include "filter/background.h"
+#include "filter/chain_camera.h"
 #include "filter/chain_settings.h"
-#include "filter/noise_model.h"
 #include "image/view.h"
 
 namespace theatron::filter {
-
-// What a chain must know of its camera.
-struct ChainCamera {
-    Size size;
-    double depth_unit_mm = 1;
-    // The recorded empty scene, for the step `background`; read while the chain is
-    // made. Without one of the camera's size that step does nothing.
-    const Background* background = nullptr;
-    NoiseModel noise;
-};
 
 class Chain {
 public:

@@ -67,7 +67,6 @@ Limits::Limits(Size size) : furthest(size) {
 }
 
 void Limits::keep_range(int first, int last) {
-    any = true;
     nearest = std::uint16_t(std::clamp<int>(first, nearest, 0xffff));
     narrow(furthest, [&](int, int) { return last + 1l; });
 }
@@ -76,7 +75,6 @@ void Limits::remove_background(const Background& background, double margin, doub
                                const NoiseModel& noise, double unit_mm) {
     if (background.nearest.size != furthest.size())
         return;
-    any = true;
     narrow(furthest, [&](int x, int y) -> long {
         const std::uint16_t empty = background.nearest.view().row(y)[x];
         if (empty == 0)

@@ -15,7 +15,6 @@ struct Limits {
 
     std::uint16_t nearest = 1;
     DepthPlane furthest;  // 0xffff in the image where there is no limit
-    bool any = false;
 
     // Each narrows what stays. Lengths in the camera's unit.
     void keep_range(int first, int last);
