@@ -47,10 +47,10 @@ FilterClip draw(const char* name, int frames, Draw surface) {
 
 // Spots so dark that they are not measured, one to nine pixels wide, on a grid.
 bool in_dark_spot(int x, int y) {
-    constexpr int grid = 24;
+    constexpr int grid = 36;
     const int column = x / grid, row = y / grid;
     const double width = 1 + (column * 5 + row * 3) % 9;
-    return std::hypot(x % grid - 12, y % grid - 12) < width / 2;
+    return std::hypot(x % grid - grid / 2, y % grid - grid / 2) < width / 2;
 }
 
 Surface room(int x, int y, double person_x) {

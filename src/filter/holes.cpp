@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -115,121 +116,175 @@ bool mark_fillable(const DepthPlane& depth, int side, HoleScratch& s, Range imag
     return !hn::AllTrue(dw, hn::Eq(any, hn::Zero(dw)));
 }
 
-// rim_of() for a vector of pixels.
-struct RimLanes {
-    hn::Vec<decltype(d)> count, median;
-    hn::Mask<decltype(d)> edge;
-};
+using Pixels = hn::Vec<decltype(d)>;
 
-template <class V>
-HWY_INLINE void sort_pair(V& a, V& b) {
-    const V low = hn::Min(a, b);
+HWY_INLINE void sort_pair(Pixels& a, Pixels& b) {
+    const auto low = hn::Min(a, b);
     b = hn::Max(a, b);
     a = low;
 }
 
-HWY_INLINE RimLanes rim_of_lanes(const std::uint16_t* pixel, std::ptrdiff_t pitch,
-                                 Tolerance tolerance) {
-    const auto zero = hn::Zero(d);
-    const auto one = hn::Set(d, 1);
-    auto n0 = hn::LoadU(d, pixel - pitch - 1), n1 = hn::LoadU(d, pixel - pitch),
-         n2 = hn::LoadU(d, pixel - pitch + 1), n3 = hn::LoadU(d, pixel - 1),
-         n4 = hn::LoadU(d, pixel + 1), n5 = hn::LoadU(d, pixel + pitch - 1),
-         n6 = hn::LoadU(d, pixel + pitch), n7 = hn::LoadU(d, pixel + pitch + 1);
-    const auto furthest = hn::Max(hn::Max(hn::Max(n0, n1), hn::Max(n2, n3)),
-                                  hn::Max(hn::Max(n4, n5), hn::Max(n6, n7)));
-    // A mask is -1 in each lane.
-    const auto is_none = [&](auto n) HWY_ATTR { return hn::VecFromMask(d, hn::Eq(n, zero)); };
-    const auto minus_nones =
-        hn::Add(hn::Add(hn::Add(is_none(n0), is_none(n1)), hn::Add(is_none(n2), is_none(n3))),
-                hn::Add(hn::Add(is_none(n4), is_none(n5)), hn::Add(is_none(n6), is_none(n7))));
-    const auto count = hn::Add(hn::Set(d, 8), minus_nones);
+// rim_of() for a vector of pixels, in two steps: what is found more often first.
+class RimLanes {
+public:
+    HWY_INLINE RimLanes(const std::uint16_t* pixel, std::ptrdiff_t pitch)
+        : n0_(hn::LoadU(d, pixel - pitch - 1)),
+          n1_(hn::LoadU(d, pixel - pitch)),
+          n2_(hn::LoadU(d, pixel - pitch + 1)),
+          n3_(hn::LoadU(d, pixel - 1)),
+          n4_(hn::LoadU(d, pixel + 1)),
+          n5_(hn::LoadU(d, pixel + pitch - 1)),
+          n6_(hn::LoadU(d, pixel + pitch)),
+          n7_(hn::LoadU(d, pixel + pitch + 1)) {}
 
-    // One less puts "no measurement" behind all others.
-    n0 = hn::Sub(n0, one);
-    n1 = hn::Sub(n1, one);
-    n2 = hn::Sub(n2, one);
-    n3 = hn::Sub(n3, one);
-    n4 = hn::Sub(n4, one);
-    n5 = hn::Sub(n5, one);
-    n6 = hn::Sub(n6, one);
-    n7 = hn::Sub(n7, one);
-    // The best network for eight; of its result only the first four are used.
-    sort_pair(n0, n2), sort_pair(n1, n3), sort_pair(n4, n6), sort_pair(n5, n7);
-    sort_pair(n0, n4), sort_pair(n1, n5), sort_pair(n2, n6), sort_pair(n3, n7);
-    sort_pair(n0, n1), sort_pair(n2, n3), sort_pair(n4, n5), sort_pair(n6, n7);
-    sort_pair(n2, n4), sort_pair(n3, n5);
-    sort_pair(n1, n4), sort_pair(n3, n6);
-    sort_pair(n1, n2), sort_pair(n3, n4), sort_pair(n5, n6);
+    // Without neighbours there are neither near nor far ones.
+    HWY_INLINE auto edge(Tolerance tolerance) {
+        const auto furthest = hn::Max(hn::Max(hn::Max(n0_, n1_), hn::Max(n2_, n3_)),
+                                      hn::Max(hn::Max(n4_, n5_), hn::Max(n6_, n7_)));
+        // One less puts "no measurement" behind all others.
+        const auto one = hn::Set(d, 1);
+        n0_ = hn::Sub(n0_, one);
+        n1_ = hn::Sub(n1_, one);
+        n2_ = hn::Sub(n2_, one);
+        n3_ = hn::Sub(n3_, one);
+        n4_ = hn::Sub(n4_, one);
+        n5_ = hn::Sub(n5_, one);
+        n6_ = hn::Sub(n6_, one);
+        n7_ = hn::Sub(n7_, one);
+        const auto nearest = hn::Add(hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
+                                             hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))),
+                                     one);
+        const auto limit = hn::SaturatedAdd(hn::Set(d, tolerance.constant),
+                                            hn::MulHigh(nearest, hn::Set(d, tolerance.slope)));
+        return hn::Gt(hn::Sub(furthest, nearest), limit);
+    }
 
-    auto median = n0;
-    median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 2)), n1, median);
-    median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 4)), n2, median);
-    median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 6)), n3, median);
-    const auto nearest = hn::Add(n0, one);
-    const auto limit = hn::SaturatedAdd(hn::Set(d, tolerance.constant),
-                                        hn::MulHigh(nearest, hn::Set(d, tolerance.slope)));
-    return {count, hn::Add(median, one), hn::Gt(hn::Sub(furthest, nearest), limit)};
-}
+    // Behind edge().
+    HWY_INLINE Pixels count() const {
+        const auto nothing = hn::Set(d, 0xffff);
+        // A mask is -1 in each lane.
+        const auto is_none = [&](Pixels n)
+                                 HWY_ATTR { return hn::VecFromMask(d, hn::Eq(n, nothing)); };
+        return hn::Add(
+            hn::Set(d, 8),
+            hn::Add(
+                hn::Add(hn::Add(is_none(n0_), is_none(n1_)), hn::Add(is_none(n2_), is_none(n3_))),
+                hn::Add(hn::Add(is_none(n4_), is_none(n5_)), hn::Add(is_none(n6_), is_none(n7_)))));
+    }
+
+    // Behind edge(), and once.
+    HWY_INLINE Pixels median(Pixels count) {
+        // The best network for eight; of its result only the first four are used.
+        sort_pair(n0_, n2_), sort_pair(n1_, n3_), sort_pair(n4_, n6_), sort_pair(n5_, n7_);
+        sort_pair(n0_, n4_), sort_pair(n1_, n5_), sort_pair(n2_, n6_), sort_pair(n3_, n7_);
+        sort_pair(n0_, n1_), sort_pair(n2_, n3_), sort_pair(n4_, n5_), sort_pair(n6_, n7_);
+        sort_pair(n2_, n4_), sort_pair(n3_, n5_);
+        sort_pair(n1_, n4_), sort_pair(n3_, n6_);
+        sort_pair(n1_, n2_), sort_pair(n3_, n4_);
+        auto median = n0_;
+        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 2)), n1_, median);
+        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 4)), n2_, median);
+        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 6)), n3_, median);
+        return hn::Add(median, hn::Set(d, 1));
+    }
+
+private:
+    Pixels n0_, n1_, n2_, n3_, n4_, n5_, n6_, n7_;
+};
 
 void list_blocks(const DepthPlane& depth, HoleScratch& s) {
     const int lanes = int(hn::Lanes(d));
+    const std::uint64_t first = (std::uint64_t(1) << lanes) - 1;
     s.blocks.clear();
     for (int y = 0; y < depth.size().height; ++y) {
         const std::uint64_t* row = s.row(s.may_fill, y);
         for (int word = 0; 64 * word < depth.padded_width(); ++word) {
             if (row[word] == 0)
                 continue;
-            const std::uint64_t first = lanes == 64 ? ~0ull : (1ull << lanes) - 1;
             for (int x = 0; x < 64; x += lanes)
-                if (row[word] >> x & first)
-                    s.blocks.push_back({std::uint16_t(y), std::uint16_t(64 * word + x)});
+                if ((row[word] >> x & first) != 0)
+                    s.blocks.push_back({std::uint32_t(y * depth.pitch() + 64 * word + x),
+                                        std::uint32_t(8 * (y * s.words_per_row() + word) + x / 8)});
         }
     }
 }
 
-// Fills one ring. Blocks that are full leave the list.
-void fill_ring(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
+// Whether an open pixel of the block lies beside one of the ring.
+HWY_INLINE bool reaches_block(std::uint8_t* ring, const std::uint8_t* open,
+                              std::ptrdiff_t bytes_per_row) {
+    // From eight pixels left of the block on.
+    const auto word_at = [](const std::uint8_t* bytes) {
+        std::uint64_t word;
+        std::memcpy(&word, bytes - 1, sizeof(word));
+        return word;
+    };
+    const std::uint64_t rows =
+        word_at(ring - bytes_per_row) | word_at(ring) | word_at(ring + bytes_per_row);
+    constexpr std::uint64_t block = ((std::uint64_t(1) << hn::MaxLanes(d)) - 1) << 8;
+    return ((rows | rows << 1 | rows >> 1) & word_at(open) & block) != 0;
+}
+
+// Fills one ring of pixels. After the first only what lies beside a pixel of the
+// ring before can have changed. False if nothing was filled.
+bool fill_ring(DepthPlane& depth, const HoleRule& rule, HoleScratch& s, bool first) {
     const int lanes = int(hn::Lanes(d));
     const auto min_neighbours = hn::Set(d, std::uint16_t(rule.min_neighbours));
+    const std::ptrdiff_t bytes_per_row = 8 * s.words_per_row();
+    std::uint16_t* pixels = depth.row(0);
+    std::uint8_t* open = bytes_of(s.row(s.open, 0));
+    std::uint8_t* ring = bytes_of(s.row(s.ring, 0));
+    std::uint8_t* next_ring = bytes_of(s.row(s.next_ring, 0));
     std::uint16_t* pending = s.pending.data();
-    for (const HoleScratch::Block block : s.open) {
-        const std::uint16_t* pixel = depth.row(block.y) + block.x;
-        std::uint8_t* left = bytes_of(s.row(s.left, block.y)) + block.x / 8;
-        const auto wanted = hn::LoadMaskBits(d, left);
-        const RimLanes rim = rim_of_lanes(pixel, depth.pitch(), rule.tolerance);
-        const auto fills =
-            hn::And(wanted, hn::AndNot(rim.edge, at_least(rim.count, min_neighbours)));
-        hn::StoreU(hn::IfThenElse(fills, rim.median, hn::LoadU(d, pixel)), d, pending);
+    s.changed.clear();
+    std::fill(s.next_ring.begin(), s.next_ring.end(), 0);
+    for (const HoleScratch::Block block : s.open_blocks) {
+        if (!first && !reaches_block(ring + block.byte, open + block.byte, bytes_per_row))
+            continue;
+        std::uint16_t* pixel = pixels + block.pixel;
+        const auto wanted = hn::LoadMaskBits(d, open + block.byte);
+        RimLanes rim(pixel, depth.pitch());
+        const auto edge = rim.edge(rule.tolerance);
+        const auto count = rim.count();
+        const auto fills = hn::And(wanted, hn::AndNot(edge, at_least(count, min_neighbours)));
+        if (hn::AllFalse(d, fills))
+            continue;
+        hn::StoreMaskBits(d, fills, next_ring + block.byte);
+        hn::StoreU(hn::IfThenElse(fills, rim.median(count), hn::LoadU(d, pixel)), d, pending);
         pending += lanes;
-        hn::StoreMaskBits(d, hn::AndNot(fills, wanted), left);
+        s.changed.push_back(block);
     }
     pending = s.pending.data();
-    auto still_open = s.open.begin();
-    for (const HoleScratch::Block block : s.open) {
-        hn::StoreU(hn::LoadU(d, pending), d, depth.row(block.y) + block.x);
+    for (const HoleScratch::Block block : s.changed) {
+        hn::StoreU(hn::LoadU(d, pending), d, pixels + block.pixel);
         pending += lanes;
-        const std::uint8_t* left = bytes_of(s.row(s.left, block.y)) + block.x / 8;
-        bool full = true;
-        for (int byte = 0; byte < lanes / 8; ++byte)
-            full &= left[byte] == 0;
-        if (!full)
-            *still_open++ = block;
+        const auto was_open = hn::LoadMaskBits(d, open + block.byte);
+        const auto filled = hn::LoadMaskBits(d, next_ring + block.byte);
+        hn::StoreMaskBits(d, hn::AndNot(filled, was_open), open + block.byte);
     }
-    s.open.erase(still_open, s.open.end());
+    // Without branches: which blocks are full follows no pattern.
+    std::size_t kept = 0;
+    for (const HoleScratch::Block block : s.open_blocks) {
+        const auto still_open = hn::LoadMaskBits(d, open + block.byte);
+        s.open_blocks[kept] = block;
+        kept += !hn::AllFalse(d, still_open);
+    }
+    s.open_blocks.resize(kept);
+    std::swap(s.ring, s.next_ring);
+    return !s.changed.empty();
 }
 
 // Marks what sees an edge. False if nothing does.
 bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
+    const std::uint16_t* pixels = depth.row(0);
+    const std::uint8_t* may_fill = bytes_of(s.row(s.may_fill, 0));
+    std::uint8_t* edges = bytes_of(s.row(s.edge, 0));
+    std::fill(s.edge.begin(), s.edge.end(), 0);
     bool any = false;
     for (const HoleScratch::Block block : s.blocks) {
-        const RimLanes rim = rim_of_lanes(depth.row(block.y) + block.x, depth.pitch(), tolerance);
-        const auto may_fill =
-            hn::LoadMaskBits(d, bytes_of(s.row(s.may_fill, block.y)) + block.x / 8);
-        // Without neighbours there are neither near nor far ones.
-        const auto edge = hn::And(hn::And(rim.edge, may_fill), hn::Ne(rim.count, hn::Zero(d)));
+        RimLanes rim(pixels + block.pixel, depth.pitch());
+        const auto edge = hn::And(rim.edge(tolerance), hn::LoadMaskBits(d, may_fill + block.byte));
         any |= !hn::AllFalse(d, edge);
-        hn::StoreMaskBits(d, edge, bytes_of(s.row(s.edge, block.y)) + block.x / 8);
+        hn::StoreMaskBits(d, edge, edges + block.byte);
     }
     return any;
 }
@@ -261,20 +316,21 @@ void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
     const Range image{first, first + depth.size().height * row};
     if (!mark_fillable(depth, rule.max_size + 1, s, image))
         return;
-    std::copy(s.may_fill.begin(), s.may_fill.end(), s.left.begin());
     list_blocks(depth, s);
-    s.open = s.blocks;
-    for (int i = 0; i < rule.iterations && !s.open.empty(); ++i)
-        fill_ring(depth, rule, s);
+    std::copy(s.may_fill.begin(), s.may_fill.end(), s.open.begin());
+    s.open_blocks = s.blocks;
+    for (int i = 0; i < rule.iterations; ++i)
+        if (!fill_ring(depth, rule, s, i == 0))
+            break;
 
-    std::fill(s.edge.begin(), s.edge.end(), 0);
     if (!mark_edges(depth, rule.tolerance, s))
         return;
     for (int i = 0; i < rule.iterations; ++i)
         spread_edges(s, image);
+    const std::uint8_t* edges = bytes_of(s.row(s.edge, 0));
     for (const HoleScratch::Block block : s.blocks) {
-        std::uint16_t* pixel = depth.row(block.y) + block.x;
-        const auto edge = hn::LoadMaskBits(d, bytes_of(s.row(s.edge, block.y)) + block.x / 8);
+        std::uint16_t* pixel = depth.row(0) + block.pixel;
+        const auto edge = hn::LoadMaskBits(d, edges + block.byte);
         hn::StoreU(hn::IfThenZeroElse(edge, hn::LoadU(d, pixel)), d, pixel);
     }
 }
@@ -293,12 +349,13 @@ HoleScratch::HoleScratch(Size size) : words_per_row_((size.width + 63) / 64 + 2)
     const std::size_t words =
         std::size_t(words_per_row_) * std::size_t(size.height + 2 * margin_rows) + 2 * slack;
     hole.assign(words, ~std::uint64_t(0));
-    for (Bits* bits : {&may_fill, &left, &edge, &work})
+    for (Bits* bits : {&may_fill, &open, &ring, &next_ring, &edge, &work})
         bits->assign(words, 0);
     // The shortest vectors have eight pixels.
     const std::size_t most_blocks = std::size_t((size.width + 7) / 8) * std::size_t(size.height);
     blocks.reserve(most_blocks);
-    open.reserve(most_blocks);
+    open_blocks.reserve(most_blocks);
+    changed.reserve(most_blocks);
     // The longest have DepthPlane::margin.
     pending.resize(std::size_t(size.width + DepthPlane::margin) * std::size_t(size.height));
 }

@@ -40,18 +40,19 @@ public:
         return bits.data() + slack + (y + margin_rows) * words_per_row_ + 1;
     }
 
-    Bits hole;      // not measured; the margins too
-    Bits may_fill;  // by the shape of the holes
-    Bits left;      // of these, not yet filled
-    Bits edge;      // of these, near an edge
+    Bits hole;             // not measured; the margins too
+    Bits may_fill;         // by the shape of the holes
+    Bits open;             // of these, not yet filled
+    Bits ring, next_ring;  // of these, filled in one iteration
+    Bits edge;             // of these, near an edge
     Bits work;
 
-    // Vectors of pixels, row and column, in which there is something to fill, and
-    // what an iteration found for them.
+    // Vectors of pixels in which there is something to fill; those where there is
+    // still something; those that an iteration changes, and to what.
     struct Block {
-        std::uint16_t y, x;
+        std::uint32_t pixel, byte;  // from the first pixel, and from its byte of bits
     };
-    std::vector<Block> blocks, open;
+    std::vector<Block> blocks, open_blocks, changed;
     std::vector<std::uint16_t> pending;
 
 private:

@@ -34,9 +34,12 @@ public:
                          std::uint16_t* estimate_at, std::uint16_t* gain_at) const {
         const auto measured = hn::LoadU(du, in);
         const auto depth = hn::LoadU(du, depth_at);
+        const auto zero = hn::Zero(du);
+        // The sensor's blind corners, and where the background is gone.
+        if (hn::AllTrue(du, hn::Eq(hn::Or(measured, depth), zero)))
+            return zero;
         const auto estimate = hn::LoadU(du, estimate_at);
         const auto gains = hn::LoadU(du, gain_at);
-        const auto zero = hn::Zero(du);
 
         const auto missing = hn::And(hn::ShiftRight<8>(gains), hn::Set(du, 0xf));
         const auto hold = hn::ShiftRight<12>(gains);

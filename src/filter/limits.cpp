@@ -21,6 +21,9 @@ void limit_rows(DepthView in, const Limits& limits, DepthPlane& out) {
     const hn::ScalableTag<std::uint16_t> d;
     const int lanes = int(hn::Lanes(d));
     const auto nearest = hn::Set(d, limits.nearest);
+    // One number takes less memory bandwidth than an image of equal ones.
+    const bool one_limit = limits.common.has_value();
+    const auto common = hn::Set(d, limits.common.value_or(0));
     for (int y = 0; y < in.size.height; ++y) {
         const std::uint16_t* row = in.row(y);
         const std::uint16_t* furthest = limits.furthest.row(y);
@@ -28,8 +31,8 @@ void limit_rows(DepthView in, const Limits& limits, DepthPlane& out) {
         int x = 0;
         for (; x + lanes <= in.size.width; x += lanes) {
             const auto depth = hn::LoadU(d, row + x);
-            const auto goes =
-                hn::Or(hn::Lt(depth, nearest), at_least(depth, hn::LoadU(d, furthest + x)));
+            const auto limit = one_limit ? common : hn::LoadU(d, furthest + x);
+            const auto goes = hn::Or(hn::Lt(depth, nearest), at_least(depth, limit));
             hn::StoreU(hn::IfThenZeroElse(goes, depth), d, out_row + x);
         }
         for (; x < in.size.width; ++x) {
@@ -69,12 +72,15 @@ Limits::Limits(Size size) : furthest(size) {
 void Limits::keep_range(int first, int last) {
     nearest = std::uint16_t(std::clamp<int>(first, nearest, 0xffff));
     narrow(furthest, [&](int, int) { return last + 1l; });
+    if (common)
+        common = std::uint16_t(std::min<int>(*common, last + 1));
 }
 
 void Limits::remove_background(const Background& background, double margin, double sigmas,
                                const NoiseModel& noise, double unit_mm) {
     if (background.nearest.size != furthest.size())
         return;
+    common.reset();
     narrow(furthest, [&](int x, int y) -> long {
         const std::uint16_t empty = background.nearest.view().row(y)[x];
         if (empty == 0)

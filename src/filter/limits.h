@@ -3,6 +3,8 @@
 // Both of background subtraction's ways come down to one comparison per pixel.
 #pragma once
 
+#include <optional>
+
 #include "filter/background.h"
 #include "filter/depth_plane.h"
 #include "filter/noise_model.h"
@@ -14,7 +16,8 @@ struct Limits {
     explicit Limits(Size size);
 
     std::uint16_t nearest = 1;
-    DepthPlane furthest;  // 0xffff in the image where there is no limit
+    DepthPlane furthest;                           // 0xffff in the image where there is no limit
+    std::optional<std::uint16_t> common = 0xffff;  // the limit, where all pixels have the same
 
     // Each narrows what stays. Lengths in the camera's unit.
     void keep_range(int first, int last);
