@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Times the depth codecs natively and as WebAssembly under node, on folders with
-# depth/*.png:  tools/bench_web.sh FOLDER...
+# depth/*.png:  tools/bench_web.sh FOLDER...  (--no-liftoff: the time once all is compiled)
 set -euo pipefail
 [ $# -gt 0 ] || { echo "usage: tools/bench_web.sh FOLDER..." >&2; exit 1; }
 folders=()
@@ -20,7 +20,7 @@ for folder in "${folders[@]}"; do
     echo "$(basename "$folder"), ms a frame"
     printf '  %-14s %10s %10s %12s %12s\n' codec "encode" "decode" "encode, web" "decode, web"
     join <(build/release/bench/depth_decoders time "$frames" | sort) \
-         <(node build/web/bench/depth_decoders.js time "$frames" | sort) |
+         <(node --no-liftoff build/web/bench/depth_decoders.js time "$frames" | sort) |
         while read -r name encode decode web_encode web_decode; do
             printf '  %-14s %10.2f %10.2f %12.2f %12.2f\n' \
                 "$name" "$encode" "$decode" "$web_encode" "$web_decode"
