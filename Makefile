@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup build demo test format fuzz clean
+.PHONY: help setup build demo test format fuzz bench-web clean
 
 help:
 	@echo "make demo               install what is needed, build, and show a streamed room"
@@ -11,6 +11,7 @@ help:
 	@echo "make test               build and run every check"
 	@echo "make build              build/release/apps/theatron/theatron"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
+	@echo "make bench-web FOLDERS='DIR ...'   depth codecs natively and under node"
 	@echo "make format             clang-format over all sources"
 
 setup:
@@ -28,6 +29,9 @@ test: setup
 
 fuzz: setup
 	@tools/fuzz.sh $(or $(TIME),60)
+
+bench-web: setup
+	@tools/bench_web.sh $(FOLDERS)
 
 format: setup
 	@git ls-files '*.h' '*.cpp' '*.cu' | xargs clang-format -i
