@@ -16,6 +16,8 @@ namespace {
 using render::CloudScene;
 using render::Picture;
 
+constexpr int before_last = ViewBenchCamera::frames - 2;
+
 struct Figures {
     render::SquaredError seen, overlap, flicker, patterned, patterned_depth_sized;
     render::Similarity similarity;
@@ -33,13 +35,13 @@ void show(CloudScene& scene, const std::vector<ViewBenchCamera>& cameras, int fr
     }
 }
 
-void show_depth_sized(CloudScene& scene, const std::vector<ViewBenchCamera>& cameras) {
+void show_depth_sized(CloudScene& scene, const std::vector<ViewBenchCamera>& cameras, int frame) {
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const ViewBenchCamera& camera = cameras[i];
-        const DepthSizedColor sized =
-            depth_sized_color(camera.calibration, camera.depth[0].view(), camera.color[0].view());
+        const DepthSizedColor sized = depth_sized_color(
+            camera.calibration, camera.depth[frame].view(), camera.color[frame].view());
         scene.set_camera(CameraId(i), sized.calibration);
-        if (scene.upload(CameraId(i), camera.depth[0].view(), sized.color.view()) != Status::ok)
+        if (scene.upload(CameraId(i), camera.depth[frame].view(), sized.color.view()) != Status::ok)
             throw Error("A generated camera's images do not have the size of its calibration.");
     }
 }
@@ -62,25 +64,40 @@ nlohmann::json bench_view(const ViewBenchScene& truth, std::vector<std::string> 
     render::OffscreenContext context;
     std::vector<Figures> figures(renderers.size());
     {
-        CloudScene first, second, depth_sized;
-        show(first, truth.cameras, 0);
-        show(second, truth.cameras, 1);
-        show_depth_sized(depth_sized, truth.cameras);
+        // Renderers may take the frames before into account: they see all of them.
+        CloudScene scene, depth_sized;
+        for (int frame = 0; frame < before_last; ++frame) {
+            show(scene, truth.cameras, frame);
+            show_depth_sized(depth_sized, truth.cameras, frame);
+            for (const std::string& renderer : renderers) {
+                (void)scene.render(truth.places[0].view, size, renderer);
+                (void)depth_sized.render(truth.places[0].view, size, renderer);
+            }
+        }
+        std::vector<std::vector<ColorImage>> before;
+        show(scene, truth.cameras, before_last);
+        for (const ViewBenchPlace& place : truth.places) {
+            auto& pictures_here = before.emplace_back();
+            for (const std::string& renderer : renderers)
+                pictures_here.push_back(scene.render(place.view, size, renderer).color);
+            progress("drawing", double(before.size()) / double(truth.places.size()));
+        }
+        show(scene, truth.cameras, before_last + 1);
+        show_depth_sized(depth_sized, truth.cameras, before_last + 1);
         for (std::size_t p = 0; p < truth.places.size(); ++p) {
             const ViewBenchPlace& place = truth.places[p];
             const ColorView exact = place.exact_color.view();
             write(pictures, "view" + std::to_string(p) + "_exact", place.exact_color);
             for (std::size_t r = 0; r < renderers.size(); ++r) {
-                const Picture a = first.render(place.view, size, renderers[r]);
-                const Picture b = second.render(place.view, size, renderers[r]);
+                const Picture drawn = scene.render(place.view, size, renderers[r]);
                 Figures& f = figures[r];
-                f.seen.add(a.color.view(), exact, place.seen.view());
-                f.overlap.add(a.color.view(), exact, place.overlap.view());
-                f.similarity.add(a.color.view(), exact, place.seen.view());
-                f.flicker.add(a.color.view(), b.color.view(), place.overlap.view());
-                f.outline.add(a.depth_mm.view(), place.exact_mm.view(), place.person.view());
-                f.holes.add(a.depth_mm.view(), place.exact_mm.view(), place.person.view());
-                write(pictures, "view" + std::to_string(p) + "_" + renderers[r], a.color);
+                f.seen.add(drawn.color.view(), exact, place.seen.view());
+                f.overlap.add(drawn.color.view(), exact, place.overlap.view());
+                f.similarity.add(drawn.color.view(), exact, place.seen.view());
+                f.flicker.add(drawn.color.view(), before[p][r].view(), place.overlap.view());
+                f.outline.add(drawn.depth_mm.view(), place.exact_mm.view(), place.person.view());
+                f.holes.add(drawn.depth_mm.view(), place.exact_mm.view(), place.person.view());
+                write(pictures, "view" + std::to_string(p) + "_" + renderers[r], drawn.color);
             }
             progress("drawing and comparing", double(p + 1) / double(truth.places.size()));
         }
@@ -89,7 +106,7 @@ nlohmann::json bench_view(const ViewBenchScene& truth, std::vector<std::string> 
             const ColorView exact = place.exact_color.view();
             write(pictures, "close" + std::to_string(p) + "_exact", place.exact_color);
             for (std::size_t r = 0; r < renderers.size(); ++r) {
-                const Picture fine = first.render(place.view, size, renderers[r]);
+                const Picture fine = scene.render(place.view, size, renderers[r]);
                 const Picture coarse = depth_sized.render(place.view, size, renderers[r]);
                 figures[r].patterned.add(fine.color.view(), exact, place.patterned.view());
                 figures[r].patterned_depth_sized.add(coarse.color.view(), exact,

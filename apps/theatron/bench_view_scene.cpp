@@ -184,7 +184,8 @@ Sight sight_of(const ViewBenchCamera& camera, Vec3 point_room, Vec3 normal_room)
     for (int i = 0; i < 4; ++i) {
         const int x = x0 + i % 2, y = y0 + i / 2;
         const double z = camera.exact_depth_m.view().row(y)[x];
-        const double z_measured = camera.depth[0].view().row(y)[x] / 1000.0;
+        const double z_measured =
+            camera.depth[ViewBenchCamera::frames - 1].view().row(y)[x] / 1000.0;
         seen = seen || std::abs(z - p.z) < 0.01 + 0.005 * p.z;
         measured += std::abs(z_measured - p.z) < 0.03 + 0.01 * p.z;
     }

@@ -17,8 +17,8 @@ struct ViewBenchCamera {
     Calibration calibration;
     Image<float> exact_depth_m;
     ColorImage exact_color;
-    // Two frames of one moment: all that differs is noise.
-    static constexpr int frames = 2;
+    // Frames of one moment: all that differs is noise.
+    static constexpr int frames = 5;
     DepthImage depth[frames];
     ColorImage color[frames];
 };

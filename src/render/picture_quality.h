@@ -48,7 +48,8 @@ private:
 };
 
 // The share of the mask where the surface is missing: nothing is drawn, or something that
-// lies more than `jump_mm` behind.
+// lies more than `jump_mm` behind. Within two pixels of the exact outline it is left to
+// OutlineError.
 class Holes {
 public:
     static constexpr int jump_mm = 150;

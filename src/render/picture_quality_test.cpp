@@ -77,7 +77,8 @@ TEST(PictureQuality, WhereTheWallShowsThroughThereIsAHole) {
         drawn.view().row(5)[20 + i] = std::uint16_t(i % 2 ? 2000 : 0);
     Holes holes;
     holes.add(drawn.view(), board(16).view(), on_board.view());
-    EXPECT_NEAR(holes.percent(), 100.0 * 4 / (16 * size.height), 1e-9);
+    // Two columns of the board lie too near to its outline to tell.
+    EXPECT_NEAR(holes.percent(), 100.0 * 4 / (14 * size.height), 1e-9);
 }
 
 }  // namespace
