@@ -14,11 +14,14 @@
 #include "bench_plot.h"
 #include "bench_render.h"
 #include "bench_sequence.h"
+#include "bench_view.h"
 #include "camera_option.h"
 #include "capture/crop.h"
 #include "codec/depth_codec.h"
 #include "codec/rows.h"
 #include "commands.h"
+#include "progress.h"
+#include "render/cloud_scene.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -268,6 +271,58 @@ void add_render(CLI::App& bench) {
     });
 }
 
+void add_view(CLI::App& bench) {
+    struct Flags {
+        ViewBenchOptions scene;
+        std::vector<std::string> renderers;
+        std::string pictures, json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "view", "Renderers: pictures of the generated operating room beside the exact ones");
+    command->footer("Example: theatron bench view --cameras 4 --json view.json");
+    command->add_option("--cameras", flags->scene.cameras, "Generated cameras")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 12));
+    command->add_option("--renderers", flags->renderers,
+                        "Which renderers, separated by blanks (default: all)");
+    command
+        ->add_option("--exposure", flags->scene.exposure_stops,
+                     "How far the cameras' exposures differ, in stops")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--detail", flags->scene.detail, "Of the generated room, 0.3 to 1")
+        ->capture_default_str()
+        ->check(CLI::Range(0.3, 1.0));
+    command->add_option("--pictures", flags->pictures, "Write the pictures to this folder");
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        for (const std::string& renderer : flags->renderers)
+            render::check_renderer_name(renderer);
+        const capture::Progress progress = show_progress();
+        const ViewBenchScene scene = make_view_bench_scene(flags->scene, progress);
+        nlohmann::json r = bench_view(scene, flags->renderers, flags->pictures, progress);
+        r["exposure_stops"] = flags->scene.exposure_stops;
+        report(r, flags->json, [&] {
+            std::printf("%s, %dx%d, %d camera(s), %d views\n",
+                        r["gl_renderer"].get<std::string>().c_str(), r["width"].get<int>(),
+                        r["height"].get<int>(), r["cameras"].get<int>(), r["views"].get<int>());
+            std::printf("  %-8s %8s %10s %6s %8s %11s %9s %13s %12s\n", "renderer", "PSNR dB",
+                        "in overlap", "SSIM", "holes %", "outline px", "flicker", "patterned dB",
+                        "depth-sized");
+            for (const auto& v : r["renderers"])
+                std::printf("  %-8s %8.2f %10.2f %6.3f %8.2f %11.2f %9.2f %13.2f %12.2f\n",
+                            v["name"].get<std::string>().c_str(), v["psnr_db"].get<double>(),
+                            v["psnr_overlap_db"].get<double>(), v["ssim"].get<double>(),
+                            v["holes_percent"].get<double>(), v["silhouette_px"].get<double>(),
+                            v["flicker_overlap"].get<double>(),
+                            v["psnr_patterned_db"].get<double>(),
+                            v["psnr_patterned_depth_sized_db"].get<double>());
+        });
+    });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -278,6 +333,7 @@ void add_bench_command(CLI::App& app) {
     add_filter_bench(*bench);
     add_pipeline(*bench);
     add_render(*bench);
+    add_view(*bench);
 }
 
 }  // namespace theatron::app

@@ -5,7 +5,6 @@
 // closeness to an edge, instead of building a common mesh.
 #include "render/cloud_passes.h"
 #include "render/color_visibility.h"
-#include "render/edge_maps.h"
 
 namespace theatron::render {
 namespace {
@@ -15,10 +14,9 @@ constexpr int layer_colors_unit = 5, layer_depths_unit = 6;
 class BlendPass final : public CloudPass {
 public:
     BlendPass()
-        : layer_program_(
-              make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl",
-                                  "quality.glsl", "set_back.glsl", "mesh.vert"},
-                                 {"cloud.glsl", "color.glsl", "torn.glsl", "blend_layer.frag"})),
+        : layer_program_(make_cloud_program(
+              {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "set_back.glsl", "mesh.vert"},
+              {"cloud.glsl", "color.glsl", "torn.glsl", "blend_layer.frag"})),
           blend_program_(make_cloud_program({"full_picture.vert"}, {"output.glsl", "blend.frag"})),
           columns_(layer_program_.uniform("columns")),
           first_camera_(layer_program_.uniform("first_camera")),
@@ -30,9 +28,10 @@ public:
         blend_program_.set_sampler("layer_depths", layer_depths_unit);
     }
 
+    void prepare(const CloudFrame& frame) override { surfaces_.update(frame.textures); }
+
     void draw(const CloudFrame& frame) override {
         make_layers(frame.target.size, int(frame.textures.sources().size()));
-        edges_.update(frame.textures);
         draw_layers(frame);
         blend(frame);
     }
@@ -105,7 +104,7 @@ private:
     Program layer_program_, blend_program_;
     GLint columns_, first_camera_;
     GLint layer_count_, depth_from_w_, picture_corner_, presence_;
-    EdgeMaps edges_;
+    SurfaceMaps surfaces_{SurfaceMaps::Kind::refined};
     Framebuffer framebuffer_;
     std::optional<Texture> colors_, depths_;
     Size size_;

@@ -41,7 +41,7 @@ protected:
         const auto camera = CameraId(id);
         const Calibration& calibration = exact[std::size_t(i)];
         BallSceneImages images = ball_scene_images(calibration, 2, seed);
-        const double exposure = 1 - 0.08 * i;
+        const double exposure = 1.08 - 0.08 * i;
         for (Rgb& p : images.color.pixels)
             p = {std::uint8_t(p.r * exposure), std::uint8_t(p.g * exposure),
                  std::uint8_t(p.b * exposure)};
@@ -100,6 +100,7 @@ TEST_F(BlendTest, IsCloserToTheTruthThanTheMeshesAndFlickersLess) {
 TEST_F(BlendTest, DoesNotDependOnTheOrderOfTheCameras) {
     show_all(1);
     const Picture one = scene->render(view, picture_size, "blend");
+    scene = std::make_unique<CloudScene>();
     show(0, 2, 1);
     show(1, 0, 2);
     show(2, 1, 3);
@@ -122,9 +123,10 @@ TEST_F(BlendTest, ASingleCameraFadesIntoTheBackground) {
     const Picture full = scene->render(view, picture_size, "blend");
     scene->set_presence(CameraId{1}, 0.5);
     const Picture half = scene->render(view, picture_size, "blend");
-    for (std::size_t i = 0; i < picture_size.area(); ++i)
+    for (std::size_t i = 0; i < picture_size.area(); ++i) {
         ASSERT_NEAR(half.color.pixels[i].g, (full.color.pixels[i].g + background.g) / 2.0, 1.1);
-    EXPECT_EQ(half.depth_mm, full.depth_mm);
+        ASSERT_NEAR(half.depth_mm.pixels[i], full.depth_mm.pixels[i], 1);
+    }
 }
 
 TEST_F(BlendTest, DrawsIntoAPartOfATarget) {

@@ -2,7 +2,6 @@
 #include "render/cloud_passes.h"
 
 #include "render/color_visibility.h"
-#include "render/edge_maps.h"
 #include "render/matrix.h"
 
 namespace theatron::render {
@@ -18,8 +17,9 @@ struct CameraUniforms {
     float color_image[4];
     float depth_image[4];
     float viewer[4];
+    float color_gain[4];
 };
-static_assert(sizeof(CameraUniforms) == 224);
+static_assert(sizeof(CameraUniforms) == 240);
 
 void put(float (&out)[16], const Mat4& matrix) {
     for (std::size_t i = 0; i < 16; ++i)
@@ -52,6 +52,7 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
     put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
+    put(u.color_gain, source.color_gain.x, source.color_gain.y, source.color_gain.z, 0);
     return u;
 }
 
@@ -82,7 +83,15 @@ private:
 // Draws every camera's depth image as a grid.
 class GridPass final : public CloudPass {
 public:
-    explicit GridPass(Program program) : program_(std::move(program)) {}
+    GridPass(Program program, bool reads_surfaces) : program_(std::move(program)) {
+        if (reads_surfaces)
+            surfaces_.emplace(SurfaceMaps::Kind::measured);
+    }
+
+    void prepare(const CloudFrame& frame) override {
+        if (surfaces_)
+            surfaces_->update(frame.textures);
+    }
 
     void draw(const CloudFrame& frame) override {
         program_.use();
@@ -97,35 +106,38 @@ private:
     GLint columns_ = program_.uniform("columns");
     GLint sets_back_ = program_.uniform("sets_back");
     GLint depth_from_w_ = program_.uniform("depth_from_w");
+    std::optional<SurfaceMaps> surfaces_;
 };
 
 }  // namespace
 
 std::unique_ptr<CloudPass> make_splat_pass() {
     return std::make_unique<PointPass>(
-        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl",
-                            "set_back.glsl", "splat.vert"},
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "measured.glsl", "neighbours.glsl",
+                            "splat_steps.glsl", "set_back.glsl", "splat.vert"},
                            {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_disc_pass() {
     return std::make_unique<PointPass>(
-        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "splat_steps.glsl",
-                            "set_back.glsl", "disc.vert"},
+        make_cloud_program({"cloud.glsl", "color_place.glsl", "measured.glsl", "neighbours.glsl",
+                            "splat_steps.glsl", "set_back.glsl", "disc.vert"},
                            {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
     return std::make_unique<GridPass>(
-        make_cloud_program({"cloud.glsl", "color_place.glsl", "neighbours.glsl", "quality.glsl",
-                            "set_back.glsl", "mesh.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}));
+        make_cloud_program(
+            {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "set_back.glsl", "mesh.vert"},
+            {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}),
+        true);
 }
 
 std::unique_ptr<CloudPass> make_bare_grid_pass() {
     return std::make_unique<GridPass>(
         make_cloud_program({"cloud.glsl", "bare_grid.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "bare_grid.frag"}));
+                           {"cloud.glsl", "color.glsl", "output.glsl", "bare_grid.frag"}),
+        false);
 }
 
 void CameraBlock::bind(const CloudFrame& frame) const {
@@ -147,6 +159,8 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("color_images", 2);
     program.set_sampler("nearest_in_color", ColorVisibility::texture_unit);
     program.set_sampler("edge_distances", EdgeMaps::texture_unit);
+    program.set_sampler("refined_depth", SurfaceMaps::refined_unit);
+    program.set_sampler("surfaces", SurfaceMaps::texture_unit);
     program.bind_block("Cameras", CameraBlock::binding);
     return program;
 }

@@ -11,6 +11,7 @@
 #include "render/cloud_textures.h"
 #include "render/gl.h"
 #include "render/grid_mesh.h"
+#include "render/surface_maps.h"
 
 namespace theatron::render {
 
@@ -25,6 +26,9 @@ struct CloudFrame {
 class CloudPass {
 public:
     virtual ~CloudPass() = default;
+    // Draws maps that do not depend on the view and are out of date. Changes framebuffer,
+    // viewport and tests.
+    virtual void prepare(const CloudFrame&) {}
     // Target, depth test and masks are set; draws over what is there.
     virtual void draw(const CloudFrame& frame) = 0;
 };
@@ -48,7 +52,7 @@ private:
 };
 
 // A program with cloud.glsl and its companions in it: samplers and block are bound as
-// CloudTextures::bind, ColorVisibility::update, EdgeMaps::update and
+// CloudTextures::bind, ColorVisibility::update, SurfaceMaps::update and
 // CameraBlock::bind do.
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 

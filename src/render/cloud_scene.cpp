@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "render/cloud_passes.h"
 #include "render/cloud_textures.h"
+#include "render/color_balance.h"
 #include "render/color_visibility.h"
 #include "render/render_target.h"
 
@@ -53,6 +54,7 @@ void check_renderer_name(std::string_view name) {
 
 struct CloudScene::Parts {
     CloudTextures textures;
+    ColorBalance balance;
     CameraBlock cameras;
     ColorVisibility visibility;
     GridMesh grid;
@@ -87,10 +89,15 @@ void CloudScene::set_presence(CameraId camera, double presence) {
 
 void CloudScene::remove_camera(CameraId camera) {
     parts_->textures.remove_camera(camera);
+    parts_->balance.remove(camera);
 }
 
 Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
-    return parts_->textures.upload(camera, depth, color);
+    const Status status = parts_->textures.upload(camera, depth, color);
+    if (status == Status::ok)
+        parts_->balance.add(camera, parts_->textures.sources().at(camera).calibration, depth,
+                            color);
+    return status;
 }
 
 void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::string_view renderer) {
@@ -104,9 +111,13 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
     glBindVertexArray(parts_->no_attributes.name());
+    if (parts_->balance.update())
+        for (const auto& [id, source] : parts_->textures.sources())
+            parts_->textures.set_color_gain(id, parts_->balance.gain(id));
     const CloudFrame frame{parts_->textures, view, target, parts_->grid};
     parts_->cameras.bind(frame);
     parts_->visibility.update(parts_->textures);
+    pass.prepare(frame);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(target.x, target.y, target.size.width, target.size.height);

@@ -42,7 +42,7 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
 
     CloudSource source;
     if (known != sources_.end())
-        source.presence = known->second.presence;
+        source.presence = known->second.presence, source.color_gain = known->second.color_gain;
     source.calibration = calibration;
     source.revision = ++revision_;
     source.rays = make_ray_table(calibration.depth);
@@ -56,6 +56,11 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
 void CloudTextures::set_presence(CameraId camera, double presence) {
     if (const auto known = sources_.find(camera); known != sources_.end())
         known->second.presence = std::clamp(presence, 0.0, 1.0);
+}
+
+void CloudTextures::set_color_gain(CameraId camera, Vec3 gain) {
+    if (const auto known = sources_.find(camera); known != sources_.end())
+        known->second.color_gain = gain;
 }
 
 void CloudTextures::remove_camera(CameraId camera) {

@@ -22,10 +22,11 @@ namespace theatron::render {
 struct CloudSource {
     Calibration calibration;
     int layer = 0;
-    double presence = 1;    // see CloudScene
-    Size color_size;        // of the newest picture; 0 x 0: none yet
-    unsigned revision = 0;  // other than before whenever images or calibration changed
-    Image<Ray> rays;        // kept for moving to larger textures
+    double presence = 1;       // see CloudScene
+    Vec3 color_gain{1, 1, 1};  // red, green, blue; see ColorBalance
+    Size color_size;           // of the newest picture; 0 x 0: none yet
+    unsigned revision = 0;     // other than before whenever images or calibration changed
+    Image<Ray> rays;           // kept for moving to larger textures
 };
 
 class CloudTextures {
@@ -33,6 +34,7 @@ public:
     // See CloudScene for what these do.
     void set_camera(CameraId camera, const Calibration& calibration);
     void set_presence(CameraId camera, double presence);
+    void set_color_gain(CameraId camera, Vec3 gain);
     void remove_camera(CameraId camera);
     Status upload(CameraId camera, DepthView depth, ColorView color);
 

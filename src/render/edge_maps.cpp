@@ -11,20 +11,18 @@ constexpr int whole_unit = 5;
 }  // namespace
 
 EdgeMaps::EdgeMaps()
-    : find_edges_(make_cloud_program({"full_picture.vert"},
-                                     {"cloud.glsl", "neighbours.glsl", "edges.frag"})),
+    : find_edges_(make_cloud_program(
+          {"full_picture.vert"}, {"cloud.glsl", "refined.glsl", "neighbours.glsl", "edges.frag"})),
       spread_(make_cloud_program({"full_picture.vert"}, {"edge_distance.frag"})),
       camera_(find_edges_.uniform("camera")) {
     spread_.set_sampler("whole", whole_unit);
 }
 
-void EdgeMaps::update(const CloudTextures& textures) {
-    const Size depth = textures.depth_size();
+void EdgeMaps::draw(int camera, int layer, Size depth, int layers) {
     const Size size{(depth.width + 3) / 4, (depth.height + 3) / 4};
-    if (!distances_ || size != size_ || textures.layers() != layers_) {
+    if (!distances_ || size != size_ || layers != layers_) {
         size_ = size;
-        layers_ = textures.layers();
-        drawn_ = {};
+        layers_ = layers;
         whole_.emplace();
         glActiveTexture(GL_TEXTURE0 + whole_unit);
         glBindTexture(GL_TEXTURE_2D, whole_->name());
@@ -33,30 +31,23 @@ void EdgeMaps::update(const CloudTextures& textures) {
         glActiveTexture(GL_TEXTURE0 + texture_unit);
         distances_ = make_texture_array(GL_R8, size, layers_, GL_LINEAR);
     }
-    glDisable(GL_DEPTH_TEST);
     glViewport(0, 0, size_.width, size_.height);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    int camera = 0;
-    for (const auto& [id, source] : textures.sources()) {
-        unsigned& drawn = drawn_[std::size_t(source.layer)];
-        if (drawn != source.revision) {
-            glActiveTexture(GL_TEXTURE0 + whole_unit);
-            glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
-            glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                                   whole_->name(), 0);
-            find_edges_.use();
-            glUniform1i(camera_, camera);
-            glDrawArrays(GL_TRIANGLES, 0, 3);
+    // Nobody may read what is being drawn.
+    glActiveTexture(GL_TEXTURE0 + texture_unit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    glActiveTexture(GL_TEXTURE0 + whole_unit);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, whole_->name(), 0);
+    find_edges_.use();
+    glUniform1i(camera_, camera);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
 
-            glBindTexture(GL_TEXTURE_2D, whole_->name());
-            glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, distances_->name(), 0,
-                                      source.layer);
-            spread_.use();
-            glDrawArrays(GL_TRIANGLES, 0, 3);
-            drawn = source.revision;
-        }
-        ++camera;
-    }
+    glBindTexture(GL_TEXTURE_2D, whole_->name());
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, distances_->name(), 0, layer);
+    spread_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindTexture(GL_TEXTURE_2D, 0);
     glActiveTexture(GL_TEXTURE0 + texture_unit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, distances_->name());
     glActiveTexture(GL_TEXTURE0);

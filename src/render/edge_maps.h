@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far each depth pixel is from the next edge of its surface, for blending: one small
-// picture for each camera, drawn again when its depth changed.
+// picture for each camera.
 #pragma once
 
-#include <array>
 #include <optional>
 
-#include "render/cloud_scene.h"
-#include "render/cloud_textures.h"
 #include "render/gl.h"
 
 namespace theatron::render {
@@ -18,9 +15,9 @@ public:
 
     EdgeMaps();
 
-    // Draws the maps that are out of date, and binds them to their unit. CameraBlock must
-    // be bound with these textures' cameras. Changes framebuffer, viewport and tests.
-    void update(const CloudTextures& textures);
+    // Draws the map of one camera from refined depth (SurfaceMaps), which must be bound, and
+    // binds all maps to their unit. Changes framebuffer and viewport.
+    void draw(int camera, int layer, Size depth, int layers);
 
 private:
     Program find_edges_, spread_;
@@ -30,7 +27,6 @@ private:
     std::optional<Texture> distances_;
     Size size_;
     int layers_ = 0;
-    std::array<unsigned, max_cameras> drawn_{};  // CloudSource::revision, by layer
 };
 
 }  // namespace theatron::render

@@ -10,16 +10,21 @@ uniform vec2 depth_from_w;    // window depth of distance w: x + y / w
 uniform ivec2 picture_corner;  // of the target in its framebuffer
 uniform float presence[16];
 
+const float set_back_from_behind = 0.15;  // metres
+
 void main() {
     ivec2 place = ivec2(gl_FragCoord.xy) - picture_corner;
-    float distances[16];
+    float distances[16], tested[16];
     float front = 1e6;
     for (int i = 0; i < layer_count; ++i) {
         float depth = texelFetch(layer_depths, ivec3(place, i), 0).r;
         // An empty layer is at the far plane; without presence a camera shows nothing.
         bool empty = depth == 1.0 || presence[i] == 0.0;
         distances[i] = empty ? 1e6 : depth_from_w.y / (depth - depth_from_w.x);
-        front = min(front, distances[i]);
+        // Surfaces are thin: their other side, as another camera sees it, must not show through.
+        bool from_behind = texelFetch(layer_colors, ivec3(place, i), 0).a < 1.5 / 255.0;
+        tested[i] = distances[i] + (from_behind && !empty ? set_back_from_behind : 0.0);
+        front = min(front, tested[i]);
     }
     if (front == 1e6)
         discard;
@@ -30,12 +35,12 @@ void main() {
     float distance = 0.0;
     float coverage = 0.0;
     for (int i = 0; i < layer_count; ++i) {
-        float behind = distances[i] - front;
+        float behind = tested[i] - front;
         if (behind > agreement)
             continue;
         vec4 layer = texelFetch(layer_colors, ivec3(place, i), 0);
-        float weight = layer.a * layer.a * presence[i] *
-                       (1.0 - smoothstep(0.5 * agreement, agreement, behind)) + 1e-6;
+        float weight = pow(layer.a, 4.0) * presence[i] *
+                       (1.0 - smoothstep(0.5 * agreement, agreement, behind)) + 1e-9;
         color += vec4(layer.rgb, 1.0) * weight;
         distance += distances[i] * weight;
         coverage = max(coverage, presence[i]);

@@ -12,6 +12,7 @@ struct Camera {
                              // the map of color_place.glsl
     vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
     vec4 viewer;             // the eye in the depth camera's frame
+    vec4 color_gain;         // red, green, blue: balances the cameras' exposures
 };
 
 layout(std140) uniform Cameras {

@@ -14,7 +14,7 @@ void main() {
     for (int y = 0; y <= 4 && whole; ++y) {
         float before = 0.0;
         for (int x = 0; x <= 4; ++x) {
-            float z = depth_near(camera, corner, ivec2(x, y));
+            float z = surface_near(camera, corner, ivec2(x, y));
             float step = largest_step(footprint_m(camera, z));
             whole = whole && z > 0.0 && (x == 0 || abs(z - before) < step) &&
                     (y == 0 || abs(z - above[x]) < step);

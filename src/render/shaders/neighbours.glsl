@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which neighbouring pixels lie on one surface. Needs cloud.glsl.
+// Which neighbouring pixels lie on one surface. Needs cloud.glsl and measured.glsl or
+// refined.glsl.
 
 // Depth beside the image is that of its border: cells there do not exist.
-float depth_near(int camera, ivec2 pixel, ivec2 offset) {
+float surface_near(int camera, ivec2 pixel, ivec2 offset) {
     ivec2 last = textureSize(depth_images, 0).xy - 1;
-    return depth_m(camera, clamp(pixel + offset, ivec2(0), last));
+    return surface_m(camera, clamp(pixel + offset, ivec2(0), last));
 }
 
 // The side of what a pixel at distance `z` sees, in metres.
@@ -24,8 +25,8 @@ float largest_step(float footprint) {
 // The change of depth to the next pixel of the same surface, along `direction`: to the
 // one or from the one before, whichever is less, 0 if neither is connected.
 float depth_step(int camera, ivec2 pixel, float z, ivec2 direction) {
-    float next = depth_near(camera, pixel, direction);
-    float before = depth_near(camera, pixel, -direction);
+    float next = surface_near(camera, pixel, direction);
+    float before = surface_near(camera, pixel, -direction);
     float ahead = next > 0.0 ? next - z : 1e6;
     float behind = before > 0.0 ? z - before : 1e6;
     float smaller = abs(ahead) < abs(behind) ? ahead : behind;

@@ -4,18 +4,16 @@
 // Distance to the next edge of the surface for each camera, from 0 to 1.
 uniform sampler2DArray edge_distances;
 
-// `steepness`: change of depth per footprint, to the right and downwards. `seen`: how
-// well the colour camera sees the point, see color_place.glsl.
+// `steepness`: change of depth per footprint, to the right and downwards. `seen`: how well
+// the colour camera sees the point, see color_place.glsl. What depends on the view is in
+// alignment.glsl.
 float quality_at(int camera, ivec2 pixel, vec3 point, vec2 steepness, float seen) {
     // Noise and the size of a pixel grow with the distance; one metre is as good as it gets.
     float near = min(1.0, 1.0 / (point.z * point.z));
     // The cosine at which the camera sees the surface.
     float facing = inversesqrt(1.0 + dot(steepness, steepness));
-    // The camera that looks from where the viewer looks has the right colours.
-    vec3 from_viewer = point - cameras[camera].viewer.xyz;
-    float aligned = max(dot(normalize(point), normalize(from_viewer)), 0.1);
     // Nothing of a camera may begin or end suddenly.
     vec2 place = (vec2(pixel) + 0.5) / (4.0 * vec2(textureSize(edge_distances, 0).xy));
     float inner = texture(edge_distances, vec3(place, float(layer_of(camera)))).r;
-    return near * facing * facing * aligned * aligned * inner * max(seen, 0.002);
+    return near * facing * facing * inner * max(seen, 0.002);
 }

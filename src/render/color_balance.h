@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras differ in exposure and white balance. Where two of them see the same surface, their
+// colours tell by how much; a common solution gives each camera a gain.
+//
+// Works on small copies of a few of the cameras' images, on the CPU, so that it costs some
+// milliseconds now and then.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/ids.h"
+#include "geometry/calibration.h"
+#include "image/image.h"
+
+namespace theatron::render {
+
+class ColorBalance {
+public:
+    // A camera's newest images; most are passed over. `color` may be empty.
+    void add(CameraId camera, const Calibration& calibration, DepthView depth, ColorView color);
+    void remove(CameraId camera) { cameras_.erase(camera); }
+
+    // Estimates anew if there is enough that is new. True if gains changed.
+    bool update();
+
+    // What to multiply a camera's sRGB values with: x, y, z for red, green, blue. Near 1;
+    // changes slowly, except when a camera is first compared with others.
+    Vec3 gain(CameraId camera) const;
+
+private:
+    // A place on a surface as one camera sees it.
+    struct Sample {
+        Vec3 point_room;
+        Vec3 light;  // linear, averaged over the surroundings
+    };
+    struct Camera {
+        Calibration calibration;
+        CameraModel color;  // of `light`
+        DepthImage depth;   // every so many pixels
+        Image<Vec3> light;
+        std::vector<Sample> samples;
+        unsigned uploads = 0;
+        bool estimated = false;
+        Vec3 log_gain{0, 0, 0};  // linear light
+    };
+    // By how much `b` is brighter than `a` in each channel (logarithms), from how many places.
+    struct Difference {
+        Vec3 log_ratio;
+        double places = 0;
+    };
+    static void copy_images(Camera& camera, DepthView depth, ColorView color);
+    static std::optional<Vec3> light_at(const Camera& camera, Vec3 point_room);
+    Difference compare(const Camera& a, const Camera& b, std::size_t step) const;
+
+    std::map<CameraId, Camera> cameras_;
+    std::size_t copies_ = 0;  // since the last estimate
+};
+
+}  // namespace theatron::render

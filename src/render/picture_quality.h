@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// How close a drawn picture is to the exact one: the figures of `theatron bench view`.
+//
+// Each figure is summed up over pictures: add() one after the other, then ask. All
+// views given to one add() have the same size; a mask is not 0 where a pixel counts.
+#pragma once
+
+#include "image/image.h"
+
+namespace theatron::render {
+
+using MaskView = View<const std::uint8_t>;
+
+// Mean squared difference of all three channels.
+class SquaredError {
+public:
+    void add(ColorView drawn, ColorView exact, MaskView mask);
+    double root_mean_square() const;  // in steps of 255; 0 without pixels
+    double psnr_db() const;           // at most 99
+
+private:
+    double sum_ = 0, count_ = 0;
+};
+
+// Structural similarity of brightness in windows of 8x8 pixels (Wang et al. 2004), over windows
+// that lie in the mask with at least half of their pixels. Other pixels count as equal.
+class Similarity {
+public:
+    void add(ColorView drawn, ColorView exact, MaskView mask);
+    double mean() const { return count_ > 0 ? sum_ / count_ : 1; }
+
+private:
+    double sum_ = 0, count_ = 0;
+};
+
+// How far the outline of what is in the mask is from where it belongs, in pixels. An outline is
+// where depth jumps back by more than `jump_mm`; 0 mm, nothing drawn, is endlessly far.
+class OutlineError {
+public:
+    static constexpr int jump_mm = 150;
+    static constexpr int reach = 8;  // further away counts as this far
+
+    void add(DepthView drawn_mm, DepthView exact_mm, MaskView mask);
+    double mean_px() const { return count_ > 0 ? sum_ / count_ : 0; }
+
+private:
+    double sum_ = 0, count_ = 0;
+};
+
+// The share of the mask where the surface is missing: nothing is drawn, or something that
+// lies more than `jump_mm` behind. Within two pixels of the exact outline it is left to
+// OutlineError.
+class Holes {
+public:
+    static constexpr int jump_mm = 150;
+
+    void add(DepthView drawn_mm, DepthView exact_mm, MaskView mask);
+    double percent() const { return count_ > 0 ? 100 * holes_ / count_ : 0; }
+
+private:
+    double holes_ = 0, count_ = 0;
+};
+
+}  // namespace theatron::render

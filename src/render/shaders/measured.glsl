@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface as it was measured. Needs cloud.glsl.
+
+// Metres, 0 where there is none.
+float surface_m(int camera, ivec2 pixel) {
+    return depth_m(camera, pixel);
+}

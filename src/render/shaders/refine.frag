@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth for blending: less noise, also over time, and small gaps closed where both sides of a gap lie on one
+// surface. Nothing is continued beyond what was measured.
+
+uniform int camera;
+uniform usampler2DArray refined_before;  // what this shader drew for the frame before
+uniform bool has_before;
+
+layout(location = 0) out uint out_depth;
+
+const int reach = 8;           // pixels, to either side of a gap
+const float widest_gap = 9.0;  // pixels, from side to side
+
+// The nearest depth that was measured along `direction`, and how many pixels away; 0, 0: none.
+vec2 nearest_along(ivec2 pixel, ivec2 direction) {
+    for (int i = 1; i <= reach; ++i) {
+        float z = surface_near(camera, pixel, i * direction);
+        if (z > 0.0)
+            return vec2(z, float(i));
+    }
+    return vec2(0.0);
+}
+
+// Between the two sides of a gap along `axis`: depth, and the gap's width.
+vec2 across(ivec2 pixel, ivec2 axis) {
+    vec2 after = nearest_along(pixel, axis), before = nearest_along(pixel, -axis);
+    float width = (after.y + before.y) * length(vec2(axis));
+    float limit = largest_step(footprint_m(camera, max(after.x, before.x)));
+    if (after.x == 0.0 || before.x == 0.0 || after.y + before.y > widest_gap + 1.0 ||
+        abs(after.x - before.x) > limit * (1.0 + 0.25 * width))
+        return vec2(0.0, 1e6);
+    return vec2(mix(before.x, after.x, before.y / (before.y + after.y)), width);
+}
+
+float filled(ivec2 pixel) {
+    vec2 best = vec2(0.0, 1e6);
+    for (int i = 0; i < 4; ++i) {
+        vec2 line = across(pixel, ivec2[4](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1))[i]);
+        if (line.y < best.y)
+            best = line;
+    }
+    return best.x;
+}
+
+// Light of two surfaces in one pixel pulls the rim of the nearer one back: there the surface is
+// continued as it was before.
+float straightened(ivec2 pixel, float z) {
+    float footprint = footprint_m(camera, z);
+    float limit = largest_step(footprint);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 outwards = ivec2[4](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1))[i];
+        float beyond = surface_near(camera, pixel, outwards);
+        if (beyond > 0.0 && beyond < z + limit)
+            continue;
+        float inner = surface_near(camera, pixel, -outwards);
+        float further = surface_near(camera, pixel, -2 * outwards);
+        float continued = 2.0 * inner - further;
+        if (inner > 0.0 && further > 0.0 && abs(inner - further) < limit &&
+            abs(z - inner) < limit && z > continued + 0.004 + 2.0 * footprint)
+            return continued;
+    }
+    return z;
+}
+
+// A mean of the neighbours on the same surface. Pairs of opposite neighbours, so that
+// slopes and rims stay where they are.
+float smoothed(ivec2 pixel, float z) {
+    float limit = largest_step(footprint_m(camera, z));
+    float sum = 2.0 * z, weight = 2.0;
+    for (int i = 0; i < 6; ++i) {
+        ivec2 offset = ivec2[6](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0),
+                                ivec2(0, 2))[i];
+        float a = surface_near(camera, pixel, offset), b = surface_near(camera, pixel, -offset);
+        float w = abs(a - z) < limit && abs(b - z) < limit ? (i < 2 ? 1.5 : i < 4 ? 1.0 : 0.6) : 0.0;
+        sum += w * (a + b);
+        weight += 2.0 * w;
+    }
+    return sum / weight;
+}
+
+// What stays follows its noise slowly; what moves is taken as it is.
+float steadied(ivec2 pixel, float z) {
+    if (!has_before || z == 0.0)
+        return z;
+    uint bits = texelFetch(refined_before, ivec3(pixel, layer_of(camera)), 0).r;
+    float before = uintBitsToFloat(bits);
+    // Noise grows as less light comes back.
+    float noise = 0.0015 + 0.0008 * z * z;
+    float moved = smoothstep(1.0, 3.5, abs(z - before) / noise);
+    return mix(before, z, mix(0.25, 1.0, moved));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float z = surface_m(camera, pixel);
+    z = z > 0.0 ? smoothed(pixel, straightened(pixel, z)) : filled(pixel);
+    out_depth = floatBitsToUint(steadied(pixel, z));
+}

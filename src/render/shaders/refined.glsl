@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface as refine.frag made it from what was measured. Needs cloud.glsl.
+
+uniform usampler2DArray refined_depth;
+
+// Metres, 0 where there is none.
+float surface_m(int camera, ivec2 pixel) {
+    return uintBitsToFloat(texelFetch(refined_depth, ivec3(pixel, layer_of(camera)), 0).r);
+}

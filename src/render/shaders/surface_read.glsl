@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surface.frag found out about each depth pixel. Needs cloud.glsl.
+
+uniform usampler2DArray surfaces;
+
+struct Surface {
+    float z;        // metres; borrowed from a neighbour where nothing was measured
+    vec2 color;     // colour pixel
+    int kept;       // triangles of the cell to the lower right: 1 upper, 2 lower
+    float support;  // how many neighbours are connected, 1: all
+    float seen;     // as in color_place.glsl
+    float quality;  // for blending, without what depends on the view
+};
+
+Surface surface_at(int camera, ivec2 pixel) {
+    uvec4 texel = texelFetch(surfaces, ivec3(pixel, layer_of(camera)), 0);
+    Surface s;
+    s.z = uintBitsToFloat(texel.x);
+    s.color = (unpackUnorm2x16(texel.y) * 2.0 - 0.5) * cameras[camera].color_image.xy;
+    s.kept = int(texel.z & 3u);
+    s.support = float((texel.z >> 2) & 255u) / 255.0;
+    s.seen = float((texel.z >> 10) & 255u) / 255.0;
+    s.quality = float(texel.w) / 65535.0;
+    return s;
+}
