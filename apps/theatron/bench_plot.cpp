@@ -78,6 +78,11 @@ public:
         svg_ += "<text x='" + number(x) + "' y='" + number(y) + "' text-anchor='" + anchor + "' " +
                 more + ">" + escaped(words) + "</text>\n";
     }
+    // What is drawn from here on has its origin there.
+    void begin_at(double x, double y) {
+        svg_ += "<g transform='translate(" + number(x) + " " + number(y) + ")'>\n";
+    }
+    void end() { svg_ += "</g>\n"; }
     const std::string& svg() const { return svg_; }
 
 private:
@@ -85,7 +90,7 @@ private:
     std::string svg_;
 };
 
-void draw_panel(Drawing& out, const nlohmann::json& sequence, double x0) {
+void draw_panel(Drawing& out, const nlohmann::json& sequence) {
     std::vector<double> ms, kb;
     for (const auto& codec : sequence["codecs"]) {
         // What is faster than the clock is precise is drawn at its edge.
@@ -93,7 +98,7 @@ void draw_panel(Drawing& out, const nlohmann::json& sequence, double x0) {
         ms.push_back(std::max(codec["decode_ms"].get<double>(), 0.005));
         kb.push_back(codec["bytes_mean"].get<double>() / 1000);
     }
-    const Axis x = axis_of(ms, x0 + left, x0 + panel_width - right);
+    const Axis x = axis_of(ms, left, panel_width - right);
     const Axis y = axis_of(kb, panel_height - bottom, top);
 
     for (const double tick : x.ticks()) {
@@ -104,12 +109,12 @@ void draw_panel(Drawing& out, const nlohmann::json& sequence, double x0) {
         out.line(x.from, y.place(tick), x.to, y.place(tick), "#e3e3e3", 1);
         out.text(x.from - 6, y.place(tick) + 4, formatted("%g", tick), "end");
     }
-    out.text(x0 + left, 20,
+    out.text(left, 20,
              sequence["sequence"].get<std::string>() + ", " +
                  std::to_string(sequence["frames"].get<int>()) + " frames",
              "start", "font-weight='bold'");
     out.text((x.from + x.to) / 2, panel_height - 16, "ms a frame, one thread", "middle");
-    out.text(x0 + left, 36, "kB a frame; filled: encode, hollow: decode, orange: lossy", "start",
+    out.text(left, 36, "kB a frame; filled: encode, hollow: decode, orange: lossy", "start",
              "fill='#555555'");
 
     std::vector<Box> taken;
@@ -150,14 +155,21 @@ void draw_panel(Drawing& out, const nlohmann::json& sequence, double x0) {
 }  // namespace
 
 std::string size_speed_svg(const nlohmann::json& sequences) {
-    const double width = panel_width * double(sequences.size());
+    constexpr std::size_t most_in_a_row = 3;
+    const std::size_t columns = std::min(sequences.size(), most_in_a_row);
+    const std::size_t rows = (sequences.size() + most_in_a_row - 1) / most_in_a_row;
+    const double width = panel_width * double(columns), height = panel_height * double(rows);
     Drawing drawing;
-    for (std::size_t i = 0; i < sequences.size(); ++i)
-        draw_panel(drawing, sequences[i], panel_width * double(i));
+    for (std::size_t i = 0; i < sequences.size(); ++i) {
+        drawing.begin_at(panel_width * double(i % most_in_a_row),
+                         panel_height * double(i / most_in_a_row));
+        draw_panel(drawing, sequences[i]);
+        drawing.end();
+    }
     const std::string size =
-        "width='" + formatted("%.0f", width) + "' height='" + formatted("%.0f", panel_height) + "'";
+        "width='" + formatted("%.0f", width) + "' height='" + formatted("%.0f", height) + "'";
     return "<svg xmlns='http://www.w3.org/2000/svg' " + size + " viewBox='0 0 " +
-           formatted("%.0f", width) + " " + formatted("%.0f", panel_height) +
+           formatted("%.0f", width) + " " + formatted("%.0f", height) +
            "' font-family='sans-serif' font-size='11'>\n<rect " + size + " fill='#ffffff'/>\n" +
            drawing.svg() + "</svg>\n";
 }
