@@ -43,12 +43,51 @@ HWY_INLINE V32 gather(const std::uint32_t* from, hn::Vec<S32> index) {
 #endif
 }
 
-// The first words, in order, to the lanes of the mask.
+#if !(HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86) && HWY_TARGET != HWY_SCALAR
+// Shuffles of 8 words for each set of lanes: those of the set to the front, and
+// the first words to the set.
+struct WordShuffles {
+    alignas(16) std::uint8_t front[256][16] = {}, spread[256][16] = {};
+    constexpr WordShuffles() {
+        for (unsigned set = 0; set < 256; ++set) {
+            unsigned count = 0;
+            for (unsigned lane = 0; lane < 8; ++lane) {
+                if ((set >> lane & 1) == 0)
+                    continue;
+                for (unsigned half = 0; half < 2; ++half) {
+                    front[set][2 * count + half] = std::uint8_t(2 * lane + half);
+                    spread[set][2 * lane + half] = std::uint8_t(2 * count + half);
+                }
+                ++count;
+            }
+        }
+    }
+};
+inline constexpr WordShuffles word_shuffles;
+static_assert(chunk_lanes <= 8);
+
+HWY_INLINE unsigned set_of(M32 mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D32(), mask, bits);
+    return bits[0];
+}
+HWY_INLINE hn::Vec<Half16> shuffle(hn::Vec<Half16> words, const std::uint8_t* bytes) {
+    const hn::Repartition<std::uint8_t, Half16> d8;
+    return hn::BitCast(Half16(),
+                       hn::TableLookupBytes(hn::BitCast(d8, words), hn::LoadU(d8, bytes)));
+}
+#endif
+
+// The first words, in order, to the lanes of the mask; anything to the others.
 HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
-    const D32 d;
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     return V32{_mm512_maskz_expand_epi32(mask.raw, load32(words).raw)};
+#elif HWY_TARGET == HWY_AVX2
+    return hn::PromoteTo(D32(),
+                         shuffle(hn::LoadU(Half16(), words), word_shuffles.spread[set_of(mask)]));
 #else
+    // Of four lanes one by one: a shuffle is not faster, and slower in WebAssembly.
+    const D32 d;
     alignas(64) std::uint32_t wanted[chunk_lanes];
     hn::Store(hn::IfThenElseZero(mask, hn::Set(d, 1)), d, wanted);
     std::uint32_t taken = 0;
@@ -204,8 +243,16 @@ private:
 HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     const D32 d;
     const V32 low = hn::And(state, hn::Set(d, 0xffff));
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 || HWY_TARGET == HWY_SCALAR
     store16(hn::Compress(low, mask), out);
     out += hn::CountTrue(d, mask);
+#else
+    // Highway's own compression of four or eight lanes copies its table each time.
+    const unsigned set = set_of(mask);
+    const auto words = hn::DemoteTo(Half16(), hn::BitCast(S32(), low));
+    hn::StoreU(shuffle(words, word_shuffles.front[set]), Half16(), out);
+    out += hwy::PopCount(set);
+#endif
     return hn::IfThenElse(mask, hn::ShiftRight<16>(state), state);
 }
 
