@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "bench_ssim.h"
 #include "video/color_codec.h"
 
 namespace theatron::app {
@@ -39,6 +40,7 @@ double squared_error(ColorView a, ColorView b) {
 struct Measured {
     std::vector<double> bytes, encode_ms, decode_ms;
     double squared_error = 0;
+    double ssim = 0;  // mean of all frames
 };
 
 nlohmann::json row(const std::string& name, const Measured& m,
@@ -60,8 +62,10 @@ nlohmann::json row(const std::string& name, const Measured& m,
                              {"ratio", double(frames[0].pixels.size() * 3) / mean},
                              {"encode_ms", median(rest(m.encode_ms))},
                              {"decode_ms", median(rest(m.decode_ms))}};
-    if (m.squared_error > 0)
+    if (m.squared_error > 0) {
         result["psnr_db"] = 10 * std::log10(255.0 * 255.0 * values / m.squared_error);
+        result["ssim"] = m.ssim;
+    }
     return result;
 }
 
@@ -73,7 +77,7 @@ Measured measure(const video::ColorSetting& setting, const std::vector<ColorImag
     for (int pass = 0; pass < passes; ++pass) {
         const auto encoder = video::make_color_encoder(setting);
         const auto decoder = video::make_color_decoder(setting.id);
-        m.squared_error = 0;
+        m.squared_error = m.ssim = 0;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             ColorData color;
             color.size = frames[i].size;
@@ -96,6 +100,8 @@ Measured measure(const video::ColorSetting& setting, const std::vector<ColorImag
             m.encode_ms[i] = std::min(m.encode_ms[i], encode_ms);
             m.decode_ms[i] = std::min(m.decode_ms[i], decode_ms);
             m.squared_error += squared_error(frames[i].view(), decoded->image.view());
+            if (pass + 1 == passes)
+                m.ssim += ssim(frames[i].view(), decoded->image.view()) / double(frames.size());
             decoder->recycle(std::move(decoded->image));
         }
     }

@@ -53,7 +53,8 @@ std::string likeness(const nlohmann::json& codec) {
         std::snprintf(text, sizeof(text), "  lossy: RMSE %.1f, at most %d mm",
                       codec["rmse_mm"].get<double>(), codec["max_error_mm"].get<int>());
     else if (codec.contains("psnr_db") && codec["psnr_db"].is_number())
-        std::snprintf(text, sizeof(text), "  lossy: PSNR %.1f dB", codec["psnr_db"].get<double>());
+        std::snprintf(text, sizeof(text), "  lossy: PSNR %.1f dB, SSIM %.4f",
+                      codec["psnr_db"].get<double>(), codec["ssim"].get<double>());
     return text;
 }
 

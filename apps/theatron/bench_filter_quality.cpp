@@ -63,6 +63,16 @@ Surroundings around(const Image<float>& exact, int x, int y, int radius) {
     return s;
 }
 
+// Whether nothing around is at about this distance.
+bool hangs_in_the_air(const Image<float>& exact, int x, int y, float mm) {
+    constexpr int radius = 2;
+    for (int v = std::max(0, y - radius); v <= std::min(exact.size.height - 1, y + radius); ++v)
+        for (int u = std::max(0, x - radius); u <= std::min(exact.size.width - 1, x + radius); ++u)
+            if (std::abs(exact.view().row(v)[u] - mm) < flying_mm)
+                return false;
+    return true;
+}
+
 template <class Each>
 void for_each_pixel(Size size, Each each) {
     for (int y = 0; y < size.height; ++y)
@@ -98,10 +108,10 @@ double temporal_sigma(const FilterClip& clip, const std::vector<DepthImage>& ima
 // Against the mean of the raw measurements of a pixel the sensor's constant errors
 // drop out; what is left is what a filter can change.
 struct Errors {
-    double rmse_mm = 0;          // of measured pixels within flying_mm of the truth
-    double valid = 0;            // share of pixels that have depth, of those with a surface
-    double flips = 0;            // share of pixels that gain or lose depth from frame to frame
-    double flying = 0;           // share of pixels beside an edge that hang between its sides
+    double rmse_mm = 0;  // of measured pixels within flying_mm of the truth
+    double valid = 0;    // share of pixels that have depth, of those with a surface
+    double flips = 0;    // share of pixels that gain or lose depth from frame to frame
+    double flying = 0;   // share of pixels beside an edge that are at no distance seen around them
     double mbit_per_second = 0;  // with strata, at 30 frames a second
 };
 
@@ -139,8 +149,8 @@ Errors errors_of(const FilterClip& clip, const std::vector<DepthImage>& images) 
                 square.add(error * error);
             // Every fourth frame: looking around takes time.
             if (t % 4 == 0)
-                if (const Surroundings s = around(clip.exact[t], x, y, 2); s.edge())
-                    flying.add(s.between(float(mm)));
+                if (around(clip.exact[t], x, y, 2).edge())
+                    flying.add(hangs_in_the_air(clip.exact[t], x, y, float(mm)));
         });
     return {std::sqrt(square.value()), valid.value(), flips.value(), flying.value(),
             mbit_per_second(images)};
@@ -156,7 +166,7 @@ nlohmann::json to_json(const Errors& e) {
 
 // Where something was up to two frames ago that was much nearer than what is there
 // since: the share of pixels in which it can still be seen.
-double ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
+Mean ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
     Mean ghost;
     for (std::size_t t = 4; t < images.size(); ++t)
         for_each_pixel(clip.size, [&](int x, int y, std::size_t i) {
@@ -169,7 +179,7 @@ double ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
             const float mm = images[t].pixels[i];
             ghost.add(mm > 0 && mm < now - edge_mm / 2);
         });
-    return ghost.value();
+    return ghost;
 }
 
 // Holes that the filter is there for: without measurement, at most nine pixels
@@ -283,7 +293,7 @@ nlohmann::json crossing(const filter::ChainSettings& settings) {
             }
         const double lag = std::max(std::abs(leading.value()), std::abs(trailing.value())) / speed;
         worst_lag = std::max(worst_lag, lag);
-        ghost.add(ghosts(clip, images));
+        ghost.add(ghosts(clip, images).value());
         rows.push_back({{"pixels_per_frame", speed},
                         {"leading_lag_frames", leading.value() / speed},
                         {"trailing_lag_frames", trailing.value() / speed},
@@ -302,7 +312,9 @@ nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings,
     result["scene"] = clip.name;
     result["temporal_sigma_mm"] = now;
     result["temporal_sigma_cut"] = now > 0 ? raw / now : 0;
-    result["ghosts"] = ghosts(clip, images);
+    const Mean ghost = ghosts(clip, images);
+    result["ghosts"] = ghost.value();
+    result["uncovered_pixels"] = ghost.count();
     const Holes holes = holes_of(clip, images);
     result["holes_filled"] = holes.filled;
     result["holes_error_mm"] = holes.error_mm;

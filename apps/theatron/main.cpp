@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     theatron::app::add_demo_command(app);
     theatron::app::add_cameras_command(app);
     theatron::app::add_status_command(app);
+    theatron::app::add_background_command(app);
 
     try {
         app.parse(argc, argv);

@@ -16,8 +16,10 @@ using nlohmann::json;
 std::vector<Step> preset(std::string_view name) {
     if (name == "paper")
         return {RangeParams{}, HoleParams{}, KalmanParams{}};
-    if (name == "default")
-        return {FlyingPixelParams{}, HoleParams{}, KalmanParams{}};
+    if (name == "default") {
+        // Holes first: where a flying pixel was there is an edge, and nothing to fill.
+        return {HoleParams{}, FlyingPixelParams{}, KalmanParams{}};
+    }
     return {};
 }
 

@@ -30,8 +30,8 @@ struct BackgroundParams {
 
 // Removes pixels that too few of their eight neighbours support.
 struct FlyingPixelParams {
-    int step_mm = 12;     // neighbours this close support a pixel, and
-    int slope_1000 = 15;  // this share of the distance more
+    int step_mm = 6;     // neighbours this close support a pixel, and
+    int slope_1000 = 8;  // this share of the distance more
     int min_support = 3;
     bool operator==(const FlyingPixelParams&) const = default;
 };

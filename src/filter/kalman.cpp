@@ -23,6 +23,7 @@ public:
           reset_sigmas_(hn::Set(di, std::int16_t(rule.reset_sigmas))),
           trend_(hn::Set(du, std::uint16_t(rule.trend))),
           least_gain_(hn::Set(di, std::int16_t(rule.least_gain))),
+          twice_least_gain_(hn::Set(du, std::uint16_t(2 * rule.least_gain))),
           most_hold_(hn::Set(du, std::uint16_t(rule.most_hold))),
           fresh_gain_(hn::Set(
               du,
@@ -74,7 +75,8 @@ public:
             beyond = hn::Add(beyond, threshold);
         }
         const auto moving = hn::Gt(mean, threshold);
-        auto gain = hn::Add(as_signed(hn::And(gains, hn::Set(du, 0xff))), boost_);
+        const auto old_gain = hn::And(gains, hn::Set(du, 0xff));
+        auto gain = hn::Add(as_signed(old_gain), boost_);
         gain = hn::Max(hn::Min(gain, hn::Set(di, 255)), floor);
 
         // (innovation * gain + 128) >> 8
@@ -95,7 +97,9 @@ public:
         const auto followed = hn::Sub(raised, hn::Min(down, hn::Sub(raised, one)));
 
         const auto longer = hn::Min(hn::Max(hold, hn::Add(missing, hn::Set(du, 2))), most_hold_);
-        const auto next_hold = hn::IfThenElse(hn::Ne(missing, zero), longer, hold);
+        const auto settled = hn::Not(hn::Gt(old_gain, twice_least_gain_));
+        const auto grows = hn::And(hn::Ne(missing, zero), settled);
+        const auto next_hold = hn::IfThenElse(grows, longer, hold);
         const auto gain_u = hn::BitCast(du, gain);
         const auto next_gain = hn::Max(hn::Sub(gain_u, hn::ShiftRight<9>(hn::Mul(gain_u, gain_u))),
                                        hn::BitCast(du, least_gain_));
@@ -142,7 +146,7 @@ private:
     VI reset_sigmas_;
     VU trend_;
     VI least_gain_;
-    VU most_hold_, fresh_gain_;
+    VU twice_least_gain_, most_hold_, fresh_gain_;
     VI boost_;
 };
 

@@ -98,7 +98,8 @@ THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int innovatio
     const int step = size > dead_band ? (moved + 16) >> estimate_bits : 0;
     const int left = clamped(moved - (step << estimate_bits), -most_estimate, most_estimate);
 
-    if (missing > 0)
+    // Only what has long been still may be missing for long.
+    if (missing > 0 && (before.gain & 0xff) <= 2 * rule.least_gain)
         hold = smaller(larger(hold, missing + 2), rule.most_hold);
     const int next_gain = larger(gain - ((gain * gain) >> 9), rule.least_gain);
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the filters promise about scenes, on the chain as cameras use it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "filter/chain.h"
+#include "filter/test_depth.h"
+
+namespace theatron::filter {
+namespace {
+
+constexpr Duration frame_time = std::chrono::microseconds(33'333);
+constexpr Size size{64, 32};
+
+// A wall whose depth and noise the test says, frame by frame, behind `kalman`.
+class Wall {
+public:
+    explicit Wall(const char* filters = "kalman")
+        : chain_(parse_chain(filters).settings, {.size = size}) {}
+
+    const DepthImage& next(double mm, double sigma, Duration since = frame_time) {
+        std::normal_distribution<double> noise(mm, sigma);
+        for (auto& pixel : in.pixels)
+            pixel = mm > 0 ? std::uint16_t(std::lround(noise(random_))) : std::uint16_t(0);
+        chain_.apply(in.view(), out.view(), since);
+        return out;
+    }
+    double mean() const {
+        double sum = 0;
+        for (const auto pixel : out.pixels)
+            sum += pixel;
+        return sum / double(out.pixels.size());
+    }
+    DepthImage in{size}, out{size};
+
+private:
+    Chain chain_;
+    std::mt19937 random_{3};
+};
+
+TEST(Kalman, AStillWallStandsStill) {
+    Wall wall;
+    double changed = 0, error = 0;
+    DepthImage before;
+    for (int i = 0; i < 80; ++i) {
+        wall.next(2000.3, 1.5);
+        if (i >= 40) {
+            for (std::size_t p = 0; p < size.area(); ++p) {
+                changed += wall.out.pixels[p] != before.pixels[p];
+                error += std::abs(wall.out.pixels[p] - 2000.3);
+            }
+        }
+        before = wall.out;
+    }
+    EXPECT_LT(changed / (40.0 * double(size.area())), 0.06) << "share of pixels that change";
+    EXPECT_LT(error / (40.0 * double(size.area())), 0.6) << "mm";
+}
+
+TEST(Kalman, ARealStepIsThereAtOnce) {
+    Wall wall;
+    for (int i = 0; i < 40; ++i)
+        wall.next(2000, 1);
+    wall.next(1900, 1);
+    EXPECT_NEAR(wall.mean(), 1900, 0.5);
+    for (const auto pixel : wall.out.pixels)
+        ASSERT_LT(pixel, 1910) << "a trail of what was there";
+}
+
+TEST(Kalman, SlowMotionIsFollowedClosely) {
+    for (const double mm_per_second : {5.0, 20.0, 100.0, -50.0}) {
+        Wall wall;
+        double behind = 0;
+        for (int i = 0; i < 90; ++i) {
+            const double truth = 1800 + mm_per_second * i / 30;
+            wall.next(truth, 1.2);
+            if (i >= 30)
+                behind += (wall.mean() - truth) / 60;
+        }
+        EXPECT_LT(std::abs(behind), 2) << mm_per_second << " mm/s";
+    }
+}
+
+TEST(Kalman, APixelThatMissesAFrameKeepsItsDepthAndNoLonger) {
+    Wall wall;
+    for (int i = 0; i < 40; ++i)
+        wall.next(2000, 0);
+    EXPECT_EQ(wall.next(0, 0).pixels[0], 2000);
+    EXPECT_EQ(wall.next(0, 0).pixels[0], 0) << "gone for two frames is gone";
+}
+
+TEST(Kalman, AStillPixelThatComesAndGoesStaysLonger) {
+    Wall wall;
+    for (int i = 0; i < 60; ++i)
+        wall.next(i % 2 == 0 || i < 40 ? 2000 : 0, 0);
+    wall.next(2000, 0);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(wall.next(0, 0).pixels[0], 2000) << i;
+    for (int i = 0; i < 15; ++i)
+        wall.next(0, 0);
+    EXPECT_EQ(wall.out.pixels[0], 0) << "but not for ever";
+}
+
+TEST(Kalman, ThePastCountsLessAfterAPauseAndNothingAfterASecond) {
+    const auto after = [](Duration pause) {
+        Wall wall;
+        for (int i = 0; i < 60; ++i)
+            wall.next(2000, 0);
+        wall.next(2004, 0, pause);
+        return wall.mean();
+    };
+    EXPECT_LE(after(frame_time), 2001);
+    EXPECT_GT(after(10 * frame_time), 2002);
+    EXPECT_EQ(after(std::chrono::seconds(2)), 2004);
+    EXPECT_EQ(after(-frame_time), 2004) << "time that runs backwards";
+}
+
+TEST(Holes, NothingIsInventedAcrossAnEdge) {
+    // A gap of two to eight pixels between two surfaces: nobody knows whose it is.
+    for (int gap = 2; gap <= 8; ++gap) {
+        DepthImage image({60, 40});
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 60; ++x)
+                image.view().row(y)[x] = x < 30 ? 1200 : x < 30 + gap ? 0 : 2500;
+        DepthImage out(image.size);
+        Chain chain(parse_chain("holes").settings, {.size = image.size});
+        chain.apply(image.view(), out.view(), frame_time);
+        EXPECT_EQ(out, image) << "gap of " << gap;
+    }
+}
+
+TEST(Holes, SmallHolesFillFromTheirRimAndLargeOnesStay) {
+    DepthImage image({80, 60});
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 80; ++x) {
+            const bool small = x >= 10 && x < 17 && y >= 10 && y < 17;
+            const bool large = x >= 30 && x < 50 && y >= 20 && y < 40;
+            image.view().row(y)[x] = small || large ? 0 : std::uint16_t(1500 + 2 * x + y);
+        }
+    DepthImage out(image.size);
+    Chain chain(parse_chain("holes").settings, {.size = image.size});
+    chain.apply(image.view(), out.view(), frame_time);
+    for (int y = 10; y < 17; ++y)
+        for (int x = 10; x < 17; ++x)
+            EXPECT_NEAR(out.view().row(y)[x], 1500 + 2 * x + y, 12);
+    for (int y = 20; y < 40; ++y)
+        for (int x = 30; x < 50; ++x)
+            ASSERT_EQ(out.view().row(y)[x], 0) << x << ", " << y;
+}
+
+TEST(FlyingPixels, WhatHangsBetweenTwoSurfacesGoesAndTheSurfacesStay) {
+    DepthImage image({40, 30});
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x)
+            image.view().row(y)[x] = std::uint16_t(x < 20 ? 1200 : x == 20 ? 1800 + 60 * y : 2500);
+    DepthImage out(image.size);
+    Chain chain(parse_chain("flying_pixels").settings, {.size = image.size});
+    chain.apply(image.view(), out.view(), frame_time);
+    for (int y = 2; y < 28; ++y)
+        for (int x = 0; x < 40; ++x) {
+            const bool flies = x == 20 && std::abs(1800 + 60 * y - 2500) > 100;
+            if (flies || x != 20)
+                ASSERT_EQ(out.view().row(y)[x], flies ? 0 : image.view().row(y)[x])
+                    << x << ", " << y;
+        }
+}
+
+}  // namespace
+}  // namespace theatron::filter
