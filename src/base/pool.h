@@ -2,8 +2,10 @@
 // Objects whose memory is used again, so that a running pipeline allocates nothing.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace theatron {
@@ -24,12 +26,15 @@ public:
         }
         if (!object)
             object = std::make_unique<T>();
-        return {object.release(), [shelf = shelf_](T* used) {
-                    std::unique_ptr<T> back(used);
-                    const std::lock_guard lock(shelf->mutex);
-                    if (shelf->objects.size() < max_kept)
-                        shelf->objects.push_back(std::move(back));
-                }};
+        return std::shared_ptr<T>(
+            object.release(),
+            [shelf = shelf_](T* used) {
+                std::unique_ptr<T> back(used);
+                const std::lock_guard lock(shelf->mutex);
+                if (shelf->objects.size() < max_kept)
+                    shelf->objects.push_back(std::move(back));
+            },
+            CountAllocator<T>{shelf_});
     }
 
 private:
@@ -37,6 +42,41 @@ private:
     struct Shelf {
         std::mutex mutex;
         std::vector<std::unique_ptr<T>> objects;
+        std::vector<void*> counts;  // memory of reference counts, all of one size
+        ~Shelf() {
+            for (void* count : counts)
+                ::operator delete(count);
+        }
+    };
+    // Reference counts are kept like the objects. The library asks for one size only.
+    template <class Count>
+    struct CountAllocator {
+        using value_type = Count;
+        std::shared_ptr<Shelf> shelf;
+
+        explicit CountAllocator(std::shared_ptr<Shelf> s) : shelf(std::move(s)) {}
+        template <class Other>
+        CountAllocator(const CountAllocator<Other>& other) : shelf(other.shelf) {}
+
+        Count* allocate(std::size_t n) {
+            const std::lock_guard lock(shelf->mutex);
+            if (n != 1 || shelf->counts.empty())
+                return static_cast<Count*>(::operator new(n * sizeof(Count)));
+            void* memory = shelf->counts.back();
+            shelf->counts.pop_back();
+            return static_cast<Count*>(memory);
+        }
+        void deallocate(Count* memory, std::size_t n) {
+            const std::lock_guard lock(shelf->mutex);
+            if (n == 1 && shelf->counts.size() < max_kept)
+                shelf->counts.push_back(memory);
+            else
+                ::operator delete(memory);
+        }
+        template <class Other>
+        bool operator==(const CountAllocator<Other>& other) const {
+            return shelf == other.shelf;
+        }
     };
     std::shared_ptr<Shelf> shelf_ = std::make_shared<Shelf>();
 };
