@@ -3,6 +3,7 @@
 
 in vec4 v_place;
 in float v_support;
+in float v_share;
 in float v_quality;
 flat in ivec4 v_cell;
 
@@ -16,7 +17,7 @@ vec3 color_of_pixel(int camera, vec2 place) {
 }
 
 void main() {
-    if (is_torn(v_cell, v_place.zw, v_support))
+    if (is_torn(v_cell, v_place.zw, v_support) || is_faded(v_share))
         discard;
     // The square root keeps small weights apart in 8 bits. 0 means nothing is here, 1 that
     // it is seen from behind: the grid's triangles run clockwise for their own camera.
