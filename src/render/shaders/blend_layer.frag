@@ -12,6 +12,8 @@ layout(location = 0) out vec4 out_color;
 // The mean over the picture's pixel, which may cover several of the camera's.
 vec3 color_of_pixel(int camera, vec2 place) {
     vec2 dx = 0.25 * dFdx(place), dy = 0.25 * dFdy(place);
+    if (dot(dx, dx) + dot(dy, dy) < 0.125)
+        return color_at(camera, place);
     return 0.25 * (color_at(camera, place + dx + dy) + color_at(camera, place + dx - dy) +
                    color_at(camera, place - dx + dy) + color_at(camera, place - dx - dy));
 }
