@@ -6,6 +6,8 @@
 #include <optional>
 #include <random>
 
+#include "base/error.h"
+
 namespace theatron::render {
 namespace {
 
@@ -114,6 +116,20 @@ Picture ball_scene_picture(const CameraView& view, Size size) {
             picture.color.view().row(y)[x] = seen.color;
         }
     return picture;
+}
+
+CameraView golden_view() {
+    return view_towards({-0.2, 1.6, 1.7}, ball_scene_middle, 50, golden_picture_size);
+}
+
+void show_golden_scene(CloudScene& scene) {
+    for (int i = 0; i < 2; ++i) {
+        const Calibration camera = ball_scene_camera(i, 2, 80, {160, 144}, {320, 180});
+        const BallSceneImages images = ball_scene_images(camera, 0, 0);
+        scene.set_camera(CameraId(i), camera);
+        if (scene.upload(CameraId(i), images.depth.view(), images.color.view()) != Status::ok)
+            throw Error("The golden scene's images do not have the size of its calibration.");
+    }
 }
 
 }  // namespace theatron::render

@@ -32,4 +32,9 @@ Picture ball_scene_picture(const CameraView& view, Size size);
 // Where the cameras look.
 inline constexpr Vec3 ball_scene_middle{0, 0.9, 0};
 
+// The picture that every renderer's golden picture is of: two cameras, seen from between.
+inline constexpr Size golden_picture_size{80, 60};
+CameraView golden_view();
+void show_golden_scene(CloudScene& scene);
+
 }  // namespace theatron::render

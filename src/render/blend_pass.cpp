@@ -15,8 +15,9 @@ class BlendPass final : public CloudPass {
 public:
     BlendPass()
         : layer_program_(make_cloud_program(
-              {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "set_back.glsl", "mesh.vert"},
-              {"cloud.glsl", "color.glsl", "torn.glsl", "blend_layer.frag"})),
+              {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "shown.glsl", "set_back.glsl",
+               "mesh.vert"},
+              {"cloud.glsl", "color.glsl", "torn.glsl", "fade.glsl", "blend_layer.frag"})),
           blend_program_(make_cloud_program({"full_picture.vert"}, {"output.glsl", "blend.frag"})),
           columns_(layer_program_.uniform("columns")),
           first_camera_(layer_program_.uniform("first_camera")),

@@ -18,8 +18,11 @@ struct CameraUniforms {
     float depth_image[4];
     float viewer[4];
     float color_gain[4];
+    float keep[4];
+    float remove_from[4];
+    float remove_to[4];
 };
-static_assert(sizeof(CameraUniforms) == 240);
+static_assert(sizeof(CameraUniforms) == 288);
 
 void put(float (&out)[16], const Mat4& matrix) {
     for (std::size_t i = 0; i < 16; ++i)
@@ -31,6 +34,20 @@ void put(float (&out)[4], double x, double y, double z, double w) {
     out[1] = float(y);
     out[2] = float(z);
     out[3] = float(w);
+}
+
+void put_cut(CameraUniforms& u, const CloudCut& cut, const Pose& camera_from_room) {
+    if (cut.keep) {
+        const Vec3 middle = camera_from_room * cut.keep->middle;
+        put(u.keep, middle.x, middle.y, middle.z, cut.keep->radius_m);
+    }
+    if (cut.remove) {
+        const Vec3 from = camera_from_room * cut.remove->from;
+        const Vec3 to = camera_from_room * cut.remove->to;
+        put(u.remove_from, from.x, from.y, from.z, cut.remove->radius_m);
+        put(u.remove_to, to.x, to.y, to.z, 0);
+    }
+    u.remove_to[3] = float(cut.border_m);
 }
 
 CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
@@ -52,7 +69,9 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
     put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
-    put(u.color_gain, source.color_gain.x, source.color_gain.y, source.color_gain.z, 0);
+    put(u.color_gain, source.color_gain.x, source.color_gain.y, source.color_gain.z,
+        source.presence);
+    put_cut(u, source.cut, inverse(calibration.room_from_camera));
     return u;
 }
 
@@ -114,22 +133,23 @@ private:
 std::unique_ptr<CloudPass> make_splat_pass() {
     return std::make_unique<PointPass>(
         make_cloud_program({"cloud.glsl", "color_place.glsl", "measured.glsl", "neighbours.glsl",
-                            "splat_steps.glsl", "set_back.glsl", "splat.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "splat.frag"}));
+                            "splat_steps.glsl", "shown.glsl", "set_back.glsl", "splat.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "fade.glsl", "splat.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_disc_pass() {
     return std::make_unique<PointPass>(
         make_cloud_program({"cloud.glsl", "color_place.glsl", "measured.glsl", "neighbours.glsl",
-                            "splat_steps.glsl", "set_back.glsl", "disc.vert"},
-                           {"cloud.glsl", "color.glsl", "output.glsl", "disc.frag"}));
+                            "splat_steps.glsl", "shown.glsl", "set_back.glsl", "disc.vert"},
+                           {"cloud.glsl", "color.glsl", "output.glsl", "fade.glsl", "disc.frag"}));
 }
 
 std::unique_ptr<CloudPass> make_mesh_pass() {
     return std::make_unique<GridPass>(
         make_cloud_program(
-            {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "set_back.glsl", "mesh.vert"},
-            {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "mesh.frag"}),
+            {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "shown.glsl", "set_back.glsl",
+             "mesh.vert"},
+            {"cloud.glsl", "color.glsl", "output.glsl", "torn.glsl", "fade.glsl", "mesh.frag"}),
         true);
 }
 

@@ -87,6 +87,10 @@ void CloudScene::set_presence(CameraId camera, double presence) {
     parts_->textures.set_presence(camera, presence);
 }
 
+void CloudScene::set_cut(CameraId camera, const CloudCut& cut) {
+    parts_->textures.set_cut(camera, cut);
+}
+
 void CloudScene::remove_camera(CameraId camera) {
     parts_->textures.remove_camera(camera);
     parts_->balance.remove(camera);

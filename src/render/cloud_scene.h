@@ -19,6 +19,7 @@
 #include "geometry/calibration.h"
 #include "image/image.h"
 #include "render/camera_view.h"
+#include "render/cloud_cut.h"
 
 namespace theatron::render {
 
@@ -66,10 +67,13 @@ public:
     // also the camera's picture. Throws Error beyond max_cameras.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
-    // How much a camera shows in "blend", from 0 to 1, so that new ones fade in and stale
-    // ones fade out: where others see the same surface they take over, elsewhere
-    // it becomes transparent. 1 when added. The other renderers ignore it.
+    // How much a camera shows, from 0 to 1, so that new ones fade in and stale ones fade
+    // out. In "blend" others take over where they see the same surface, and elsewhere it becomes
+    // transparent; in the other renderers more and more of its pixels are left out. 1 when added.
     void set_presence(CameraId camera, double presence);
+
+    // Which part of a camera's cloud is shown; all of it when added.
+    void set_cut(CameraId camera, const CloudCut& cut);
 
     // Takes a camera's newest images; both may be freed afterwards. `color` may
     // be empty (no pixels: the last one stays, grey if there was none) and of any size:

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -207,6 +208,65 @@ TEST_P(CloudSceneTest, WhatTheColorCameraDoesNotSeeIsNotPaintedWithTheForeground
     EXPECT_LE(wrong, 5);
 }
 
+int count_drawn(const Picture& picture) {
+    return int(std::count_if(picture.depth_mm.pixels.begin(), picture.depth_mm.pixels.end(),
+                             [](std::uint16_t mm) { return mm > 0; }));
+}
+
+TEST_P(CloudSceneTest, WithHalfThePresenceHalfOfItIsSeen) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    const Picture full = render(own_view(calibration));
+    scene->set_presence(first_camera, 0.5);
+    const Picture half = render(own_view(calibration));
+    scene->set_presence(first_camera, 0);
+    const Picture none = render(own_view(calibration));
+    double blue = 0;  // 128 where all is seen, 38 where the background is
+    for (int y = 4; y < 18; ++y)
+        for (int x = 4; x < 90; ++x)
+            blue += half.color.view().row(y)[x].b / (14.0 * 86);
+    EXPECT_NEAR(blue, (128 + 38) / 2.0, 4);
+    EXPECT_EQ(count_drawn(none), 0);
+    EXPECT_GT(count_drawn(full), 6000);
+}
+
+TEST_P(CloudSceneTest, OfAPersonOnlyWhatIsNearTheirBodyIsShown) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    CloudCut cut;
+    cut.keep = {calibration.room_from_camera * Vec3{0, 0, 1.2}, 0.5};
+    scene->set_cut(first_camera, cut);
+    const Picture drawn = render(own_view(calibration));
+    EXPECT_EQ(drawn.depth_mm.view().row(44)[45], step_mm) << "the board";
+    EXPECT_EQ(drawn.depth_mm.view().row(10)[80], 0) << "the wall behind";
+}
+
+TEST_P(CloudSceneTest, WhatBlocksOnesViewIsNotShownAndFadesAtItsBorder) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    CloudCut cut;
+    cut.remove = {calibration.room_from_camera * Vec3{0, 0, 0.5},
+                  calibration.room_from_camera * Vec3{0, 0, 1.2}, 0.1};
+    cut.border_m = 0.2;
+    scene->set_cut(first_camera, cut);
+    const Picture drawn = render(own_view(calibration));
+    int removed = 0, faded = 0, kept = 0;
+    for (int y = 41; y < 48; ++y)
+        for (int x = 31; x < 59; ++x) {
+            const Vec2 ray = unproject(calibration.depth, {double(x), double(y)}).value();
+            const double away = 1.2 * std::hypot(ray.x, ray.y);
+            const bool shown = drawn.depth_mm.view().row(y)[x] == step_mm;
+            if (away < 0.09)
+                removed += shown;
+            else if (away > 0.18 && away < 0.22)
+                ++(shown ? kept : faded);
+        }
+    EXPECT_EQ(removed, 0);
+    EXPECT_GT(kept, 3);
+    EXPECT_GT(faded, 3);
+    EXPECT_EQ(drawn.depth_mm.view().row(10)[80], wall_mm);
+}
+
 TEST_P(CloudSceneTest, HolesStayHoles) {
     const Calibration calibration = simple_calibration();
     show(calibration);
@@ -294,8 +354,8 @@ TEST_P(CloudSceneTest, MovingACameraInTheRoomMovesItsPicture) {
     calibration.room_from_camera.translation.z -= 0.5;  // away from the viewer
     scene->set_camera(first_camera, calibration);
     const DepthImage after = render(view).depth_mm;
-    EXPECT_EQ(before.view().row(46)[48], step_mm);
-    EXPECT_EQ(after.view().row(46)[48], step_mm + 500);
+    EXPECT_EQ(before.view().row(36)[36], step_mm);
+    EXPECT_EQ(after.view().row(36)[36], step_mm + 500);
     EXPECT_EQ(after.view().row(0)[0], 0) << "the picture became smaller";
 }
 

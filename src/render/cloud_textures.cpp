@@ -41,8 +41,11 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
         throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
 
     CloudSource source;
-    if (known != sources_.end())
-        source.presence = known->second.presence, source.color_gain = known->second.color_gain;
+    if (known != sources_.end()) {
+        source.presence = known->second.presence;
+        source.color_gain = known->second.color_gain;
+        source.cut = known->second.cut;
+    }
     source.calibration = calibration;
     source.revision = ++revision_;
     source.rays = make_ray_table(calibration.depth);
@@ -56,6 +59,11 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
 void CloudTextures::set_presence(CameraId camera, double presence) {
     if (const auto known = sources_.find(camera); known != sources_.end())
         known->second.presence = std::clamp(presence, 0.0, 1.0);
+}
+
+void CloudTextures::set_cut(CameraId camera, const CloudCut& cut) {
+    if (const auto known = sources_.find(camera); known != sources_.end())
+        known->second.cut = cut;
 }
 
 void CloudTextures::set_color_gain(CameraId camera, Vec3 gain) {

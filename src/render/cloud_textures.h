@@ -14,6 +14,7 @@
 #include "geometry/calibration.h"
 #include "geometry/ray_table.h"
 #include "image/image.h"
+#include "render/cloud_cut.h"
 #include "render/gl.h"
 
 namespace theatron::render {
@@ -25,8 +26,9 @@ struct CloudSource {
     double presence = 1;       // see CloudScene
     Vec3 color_gain{1, 1, 1};  // red, green, blue; see ColorBalance
     Size color_size;           // of the newest picture; 0 x 0: none yet
-    unsigned revision = 0;     // other than before whenever images or calibration changed
-    Image<Ray> rays;           // kept for moving to larger textures
+    CloudCut cut;
+    unsigned revision = 0;  // other than before whenever images or calibration changed
+    Image<Ray> rays;        // kept for moving to larger textures
 };
 
 class CloudTextures {
@@ -34,6 +36,7 @@ public:
     // See CloudScene for what these do.
     void set_camera(CameraId camera, const Calibration& calibration);
     void set_presence(CameraId camera, double presence);
+    void set_cut(CameraId camera, const CloudCut& cut);
     void set_color_gain(CameraId camera, Vec3 gain);
     void remove_camera(CameraId camera);
     Status upload(CameraId camera, DepthView depth, ColorView color);

@@ -15,7 +15,7 @@
 namespace theatron::render {
 namespace {
 
-constexpr Size picture_size{80, 60};
+constexpr Size picture_size = golden_picture_size;
 
 std::string header(Size size) {
     return "P6\n" + std::to_string(size.width) + " " + std::to_string(size.height) + "\n255\n";
@@ -55,14 +55,8 @@ INSTANTIATE_TEST_SUITE_P(EveryRenderer, GoldenTest, ::testing::ValuesIn(renderer
 TEST_P(GoldenTest, DrawsThePictureThatWasLookedAt) {
     test_context();
     CloudScene scene;
-    for (int i = 0; i < 2; ++i) {
-        const Calibration camera = ball_scene_camera(i, 2, 80, {160, 144}, {320, 180});
-        const BallSceneImages images = ball_scene_images(camera, 0, 0);
-        scene.set_camera(CameraId(i), camera);
-        ASSERT_EQ(scene.upload(CameraId(i), images.depth.view(), images.color.view()), Status::ok);
-    }
-    const CameraView view = view_towards({-0.2, 1.6, 1.7}, ball_scene_middle, 50, picture_size);
-    const ColorImage drawn = scene.render(view, picture_size, GetParam()).color;
+    show_golden_scene(scene);
+    const ColorImage drawn = scene.render(golden_view(), picture_size, GetParam()).color;
 
     const std::string file = "tests/golden/render_" + GetParam() + ".ppm";
     if (std::getenv("THEATRON_WRITE_GOLDEN"))

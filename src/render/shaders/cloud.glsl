@@ -12,7 +12,10 @@ struct Camera {
                              // the map of color_place.glsl
     vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
     vec4 viewer;             // the eye in the depth camera's frame
-    vec4 color_gain;         // red, green, blue: balances the cameras' exposures
+    vec4 color_gain;         // red, green, blue: balances the cameras' exposures; presence
+    vec4 keep;               // shown.glsl: middle of a ball, radius (0: no such cut)
+    vec4 remove_from;        // beginning of a capsule, radius (0: no such cut)
+    vec4 remove_to;          // its end; width of the borders
 };
 
 layout(std140) uniform Cameras {

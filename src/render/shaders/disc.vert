@@ -3,6 +3,7 @@
 // surface at each of their pixels. What neighbours cover is then decided by
 // geometry, not by which point comes first.
 
+flat out float v_share;
 flat out vec4 v_place;    // colour pixel, camera, diameter
 flat out vec3 v_ellipse;  // a, b, c of a x^2 + b x y + c y^2 <= 1, in picture pixels
 flat out vec4 v_plane;    // distance at the centre, its change to the right, upwards; how much
@@ -15,7 +16,8 @@ void main() {
     vec3 point = point_at(camera, pixel, z);
     mat4 m = cameras[camera].clip_from_camera;
     vec4 clip = m * vec4(point, 1.0);
-    if (z == 0.0 || point.x > 1e6 || clip.w <= 0.0) {
+    v_share = share_shown(camera, point);
+    if (z == 0.0 || point.x > 1e6 || clip.w <= 0.0 || v_share == 0.0) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the picture
         gl_PointSize = 1.0;
         return;

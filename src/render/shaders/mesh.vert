@@ -9,11 +9,12 @@
 
 uniform int columns;       // of the depth images
 uniform int first_camera;  // of those drawn by this call
-uniform bool sets_back;    // whether set_back.glsl is asked
+uniform bool sets_back;    // whether set_back.glsl is asked, and cameras fade by themselves
 
 out vec4 v_place;       // colour pixel, place in the depth image
 out float v_support;    // how many neighbours are connected, 1: all
 out float v_quality;    // for blending; see quality.glsl
+out float v_share;      // how much is to be seen
 flat out ivec4 v_cell;  // corner of the cell, camera, kept triangles: 1 upper, 2 lower
 
 void main() {
@@ -24,6 +25,7 @@ void main() {
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
     if (sets_back)
         gl_Position = set_back(gl_Position, s.seen);
+    v_share = sets_back ? share_shown(camera, point) : share_within_cut(camera, point);
     v_place = vec4(s.color, vec2(pixel));
     v_support = s.support;
     v_quality = s.quality * alignment(camera, point);

@@ -6,6 +6,7 @@
 uniform float pixels_per_tan;  // of the picture, at its centre
 
 flat out vec4 v_place;  // colour pixel, camera, diameter
+flat out float v_share;
 
 void main() {
     int camera = gl_InstanceID;
@@ -13,7 +14,8 @@ void main() {
     float z = depth_m(camera, pixel);
     vec3 point = point_at(camera, pixel, z);
     vec4 clip = cameras[camera].clip_from_camera * vec4(point, 1.0);
-    if (z == 0.0 || point.x > 1e6 || clip.w <= 0.0) {
+    v_share = share_shown(camera, point);
+    if (z == 0.0 || point.x > 1e6 || clip.w <= 0.0 || v_share == 0.0) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the picture
         gl_PointSize = 1.0;
         return;

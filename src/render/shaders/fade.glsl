@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fading without sorting: of a surface that is seen to a share, that share of the pixels is
+// drawn, evenly spread (interleaved gradient noise, Jimenez 2014).
+
+bool is_faded(float share) {
+    float threshold =
+        fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    return share <= threshold * 0.998 + 0.001;
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the golden scene in a browser and prints each renderer's picture: a line
+// "picture NAME WIDTH HEIGHT HEX", and "problem ..." for whatever went wrong.
+#include <GLES3/gl3.h>
+#include <emscripten/html5.h>
+
+#include <cstdio>
+#include <string>
+
+#include "base/error.h"
+#include "render/ball_scene.h"
+
+using namespace theatron;
+using namespace theatron::render;
+
+int main() {
+    EmscriptenWebGLContextAttributes attributes;
+    emscripten_webgl_init_context_attributes(&attributes);
+    attributes.majorVersion = 2;
+    const auto context = emscripten_webgl_create_context("#canvas", &attributes);
+    if (context <= 0 ||
+        emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS) {
+        std::puts("problem no WebGL 2");
+        return 0;
+    }
+    std::printf("driver %s\n", reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    for (const std::string& renderer : renderer_names()) {
+        try {
+            CloudScene scene;
+            show_golden_scene(scene);
+            const ColorImage drawn =
+                scene.render(golden_view(), golden_picture_size, renderer).color;
+            std::string line = "picture " + renderer + " " + std::to_string(drawn.size.width) +
+                               " " + std::to_string(drawn.size.height) + " ";
+            const auto put = [&line](unsigned value) {
+                line += "0123456789abcdef"[value / 16];
+                line += "0123456789abcdef"[value % 16];
+            };
+            for (const Rgb p : drawn.pixels) {
+                put(p.r);
+                put(p.g);
+                put(p.b);
+            }
+            std::puts(line.c_str());
+        } catch (const Error& e) {
+            std::printf("problem %s\n", e.what());
+        }
+        for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
+            std::printf("problem %s raises GL error 0x%x\n", renderer.c_str(), error);
+    }
+    return 0;
+}
