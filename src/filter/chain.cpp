@@ -5,14 +5,11 @@
 #include <cassert>
 #include <utility>
 
+#include "filter/frame_gap.h"
 #include "filter/stage_rules.h"
 
 namespace theatron::filter {
 namespace {
-
-// The gains of the Kalman filter are those of 30 frames a second.
-constexpr Duration nominal_period = std::chrono::microseconds(33'333);
-constexpr Duration longest_memory = std::chrono::seconds(1);
 
 // One filter with all that it remembers and needs while it runs.
 struct FlyingPixels {
@@ -78,14 +75,10 @@ public:
 
     std::vector<Stage> stages;
     DepthPlane current, next;
-    bool first = true;
+    FrameGap gap;
 
     void apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
-        const bool forgets =
-            first || since_last_frame < Duration(0) || since_last_frame > longest_memory;
-        const auto missed =
-            forgets ? 0 : (since_last_frame + nominal_period / 2) / nominal_period - 1;
-        first = false;
+        const FrameGap::Meaning now = gap.next(since_last_frame);
 
         // The first stage reads the frame, a Kalman filter at the end writes it.
         std::size_t begin = 0;
@@ -97,8 +90,7 @@ public:
             !stages.empty() && std::holds_alternative<Kalman>(stages.back());
         for (std::size_t i = begin; i < stages.size(); ++i) {
             const bool last = i + 1 == stages.size();
-            std::visit([&](auto& stage) { run(stage, last, out, forgets, int(missed)); },
-                       stages[i]);
+            std::visit([&](auto& stage) { run(stage, last, out, now); }, stages[i]);
         }
         if (!ends_with_kalman)
             copy(current.view(), out);
@@ -110,23 +102,23 @@ private:
             std::copy_n(in.row(y), in.size.width, out.row(y));
     }
 
-    void run(Limits& limits, bool, MutableDepthView, bool, int) {
+    void run(Limits& limits, bool, MutableDepthView, FrameGap::Meaning) {
         apply_limits(current.view(), limits, current);
     }
-    void run(FlyingPixels& stage, bool, MutableDepthView, bool, int) {
+    void run(FlyingPixels& stage, bool, MutableDepthView, FrameGap::Meaning) {
         remove_flying_pixels(current, stage.rule, next);
         std::swap(current, next);
     }
-    void run(Speckles& stage, bool, MutableDepthView, bool, int) {
+    void run(Speckles& stage, bool, MutableDepthView, FrameGap::Meaning) {
         remove_speckles(current, stage.rule, stage.scratch);
     }
-    void run(Holes& stage, bool, MutableDepthView, bool, int) {
+    void run(Holes& stage, bool, MutableDepthView, FrameGap::Meaning) {
         fill_holes(current, stage.rule, stage.scratch);
     }
-    void run(Kalman& stage, bool last, MutableDepthView out, bool forgets, int missed) {
-        if (forgets)
+    void run(Kalman& stage, bool last, MutableDepthView out, FrameGap::Meaning now) {
+        if (now.forgets)
             stage.state.clear();
-        const int boost = std::clamp(missed, 0, 255) * stage.rule.least_gain;
+        const int boost = now.missed * stage.rule.least_gain;
         apply_kalman(current, stage.rule, boost, stage.state, last ? out : current.view());
     }
 };

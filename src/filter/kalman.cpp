@@ -69,8 +69,8 @@ public:
             as_signed(hn::Min(hn::MulHigh(hn::ShiftLeft<4>(noise), trend_), hn::Set(du, 4095)));
         auto floor = least_gain_;
         auto beyond = threshold;
-        for (const int gain : trend_gains) {
-            const auto raised = hn::Max(floor, hn::Set(di, std::int16_t(gain)));
+        for (int times = 1; times <= trend_steps; ++times) {
+            const auto raised = hn::Max(floor, hn::Set(di, std::int16_t(trend_gain(times))));
             floor = hn::IfThenElse(hn::Gt(mean, beyond), raised, floor);
             beyond = hn::Add(beyond, threshold);
         }

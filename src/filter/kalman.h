@@ -62,8 +62,13 @@ inline constexpr int most_noise = 1023;       // in 1/32 unit
 inline constexpr int most_estimate = 127;     // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256
 inline constexpr int hold_after_reset = 1;
-inline constexpr int trend_gains[] = {40, 90, 160, 230};  // beyond 1, 2, 3, 4 times the trend
-inline constexpr int least_dead_band = 24;                // in 1/32 unit
+// The least gain, of 256, where the mean innovation is beyond 1, 2, 3, 4 times the
+// trend.
+THEATRON_HD constexpr int trend_gain(int times) {
+    return times == 1 ? 40 : times == 2 ? 90 : times == 3 ? 160 : 230;
+}
+inline constexpr int trend_steps = 4;
+inline constexpr int least_dead_band = 24;  // in 1/32 unit
 inline constexpr int most_dead_band = 112;
 
 THEATRON_HD inline int noise_at(const KalmanRule& rule, int depth) {
@@ -86,9 +91,9 @@ THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int innovatio
     const int mean = 2 * (trend < 0 ? -trend : trend);  // in 1/32
     const int threshold = smaller(((noise << 4) * rule.trend) >> 16, 4095);
     int floor = rule.least_gain;
-    for (int i = 0; i < 4; ++i)
-        if (mean > (i + 1) * threshold)
-            floor = larger(floor, trend_gains[i]);
+    for (int times = 1; times <= trend_steps; ++times)
+        if (mean > times * threshold)
+            floor = larger(floor, trend_gain(times));
     const bool moving = mean > threshold;
     gain = larger(gain, floor);
 

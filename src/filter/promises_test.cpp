@@ -160,9 +160,10 @@ TEST(FlyingPixels, WhatHangsBetweenTwoSurfacesGoesAndTheSurfacesStay) {
     for (int y = 2; y < 28; ++y)
         for (int x = 0; x < 40; ++x) {
             const bool flies = x == 20 && std::abs(1800 + 60 * y - 2500) > 100;
-            if (flies || x != 20)
+            if (flies || x != 20) {
                 ASSERT_EQ(out.view().row(y)[x], flies ? 0 : image.view().row(y)[x])
                     << x << ", " << y;
+            }
         }
 }
 
