@@ -234,6 +234,9 @@ void add_pipeline(CLI::App& bench) {
                 "costliest stage is %s; zstd1 of a frame %.2f ms\n",
                 r["cameras_possible"].get<double>(), r["ends_first"].get<std::string>().c_str(),
                 r["costliest_stage"].get<std::string>().c_str(), r["yardstick_ms"].get<double>());
+            if (const double others = r["cpu_cores_of_others"].get<double>(); others > 0.2)
+                std::printf("  other programs used %.2f cores meanwhile: measure again alone\n",
+                            others);
             for (const auto& stage : r["stages"])
                 std::printf("  %-14s p50 %6.2f ms  p99 %6.2f ms\n",
                             stage["name"].get<std::string>().c_str(), stage["p50_ms"].get<double>(),

@@ -90,6 +90,7 @@ double yardstick_ms() {
 // Host and viewers at one moment.
 struct Look {
     TimePoint time = steady_now();
+    double machine = machine_cpu_seconds();
     ProcessUsage host;
     std::vector<ProcessUsage> viewers;
 
@@ -101,7 +102,8 @@ struct Look {
 };
 
 // How many cameras there could be if all went on as between the two looks, by what
-// would be full first: all cores, or a thread that works alone.
+// would be full first: all cores, or a thread that works alone. `cameras` counts those
+// that were carried: of two that lost half of their frames, one was.
 nlohmann::json capacity(const Look& before, const Look& after, double cameras) {
     const double seconds = to_seconds(after.time - before.time);
     double cores = after.host.cpu_seconds - before.host.cpu_seconds;
@@ -122,7 +124,9 @@ nlohmann::json capacity(const Look& before, const Look& after, double cameras) {
     nlohmann::json shares;
     for (const auto& [name, share] : used)
         shares[name] = share;
+    const double others = (after.machine - before.machine) / seconds - cores;
     return {{"cores", cores},
+            {"others", std::max(0.0, others)},
             {"cores_here", here},
             {"shares", shares},
             {"ends_first", fullest->first},
@@ -164,13 +168,15 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
     sleep_for(bench.seconds - 0.7);
     const Look after(host, viewers);
 
-    double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, memory = 0;
+    double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, memory = 0, frames = 0;
     std::uint64_t dropped = 0;
     for (const auto& viewer : viewers) {
         const auto figures = nlohmann::json::parse(viewer->read_line(), nullptr, false);
         const ChildProcess::End end = viewer->wait();
         if (end.exit_code != 0 || !figures.is_object())
             throw Error("A viewer failed; its message is above.");
+        for (const auto& camera : figures["cameras"])
+            frames += camera["frames"].get<double>();
         for (const auto& camera : figures["cameras"])
             fps_min = std::min(fps_min, camera["frames"].get<double>() / bench.seconds);
         mbit += figures["mbit_per_s"].get<double>();
@@ -189,7 +195,12 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
         dropped += camera["dropped_newest"].get<std::uint64_t>();
 
     const double cameras = double(bench.cameras.size());
-    const nlohmann::json load = capacity(before, after, cameras);
+    double offered = 0;
+    for (const auto& camera : report["cameras"])
+        offered += camera["fps"].get<double>();
+    const double carried =
+        offered > 0 ? std::min(1.0, frames / bench.seconds / bench.viewers / offered) : 0;
+    const nlohmann::json load = capacity(before, after, cameras * carried);
     double viewer_growth = 0;
     for (std::size_t i = 0; i < viewers.size(); ++i)
         viewer_growth =
@@ -205,6 +216,7 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             {"mbit_per_camera", mbit / cameras / bench.viewers},
             {"cpu_cores", load["cores"]},
             {"cpu_cores_here", load["cores_here"]},
+            {"cpu_cores_of_others", load["others"]},
             {"cpu_shares", load["shares"]},
             {"cameras_possible", load["cameras_possible"]},
             {"ends_first", load["ends_first"]},

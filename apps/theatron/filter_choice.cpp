@@ -33,6 +33,15 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
+std::string shown_filter(const std::string& spelling) {
+    if (spelling.empty())
+        return "unfiltered";
+    for (const char* preset : {"default", "paper"})
+        if (filter::parse_chain(preset).settings.spelling() == spelling)
+            return preset;
+    return spelling;
+}
+
 LoadedFilter FilterSource::load() {
     filter::ParsedChain parsed;
     fs::path folder;

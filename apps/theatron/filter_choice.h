@@ -20,6 +20,10 @@ struct LoadedFilter {
     std::shared_ptr<const filter::Background> background;  // empty where none is needed
 };
 
+// For people: the name of the preset that has this spelling, or else the spelling;
+// "unfiltered" where there is none.
+std::string shown_filter(const std::string& spelling);
+
 // A preset, a line as in docs/filters.md, or the name of a JSON file.
 class FilterSource {
 public:

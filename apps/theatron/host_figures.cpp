@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "filter_choice.h"
 #include "participant_figures.h"
 
 namespace theatron::app {
@@ -212,7 +213,7 @@ std::string to_table(const nlohmann::json& figures) {
             line, sizeof(line), "%-24.24s %-7.7s %6.1f %8.0f %8.2f %8.2f %8.0f %8.0f  %s\n",
             text(camera, "name").c_str(), text(camera, "state").c_str(), number(camera, "fps"),
             number(camera, "age_ms"), p50, p99, number(camera, "dropped_newest"),
-            number(camera, "reopens"), filter.empty() ? "unfiltered" : filter.c_str());
+            number(camera, "reopens"), shown_filter(filter).c_str());
         table += line;
         if (const std::string problem = text(camera, "problem"); !problem.empty())
             table += "    " + problem + "\n";

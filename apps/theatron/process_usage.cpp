@@ -46,6 +46,14 @@ ProcessUsage usage_of(int pid) {
     return usage;
 }
 
+double machine_cpu_seconds() {
+    std::ifstream file("/proc/stat");
+    std::string cpu;
+    double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, irq = 0, soft = 0, stolen = 0;
+    file >> cpu >> user >> nice >> system >> idle >> waiting >> irq >> soft >> stolen;
+    return (user + nice + system + irq + soft + stolen) / double(sysconf(_SC_CLK_TCK));
+}
+
 double busiest(const ProcessUsage& before, const ProcessUsage& after, const std::string& name,
                double seconds) {
     double most = 0;

@@ -19,6 +19,9 @@ struct ProcessUsage {
 
 ProcessUsage usage_of(int pid);
 
+// Of the whole machine since it was started, all cores together.
+double machine_cpu_seconds();
+
 // The busiest thread of that name between two looks, in cores.
 double busiest(const ProcessUsage& before, const ProcessUsage& after, const std::string& name,
                double seconds);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "filter_choice.h"
 #include "participant_figures.h"
 
 namespace theatron::app {
@@ -97,7 +98,7 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
         facts.push_back({"Depth", common(cameras, "depth_codec")});
         facts.push_back({"Colour", common(cameras, "color_codec")});
         const std::string filter = common(cameras, "filter");
-        facts.push_back({"Filter", filter == "none" ? "unfiltered" : filter});
+        facts.push_back({"Filter", shown_filter(filter == "none" ? std::string() : filter)});
     } else if (screen.has_picture) {
         facts.push_back(age);
     }

@@ -14,6 +14,19 @@ int usual_threads() {
 
 }  // namespace
 
+Workers::Names::Names(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) {
+    observe(true);
+}
+
+Workers::Names::~Names() {
+    observe(false);
+}
+
+void Workers::Names::on_scheduler_entry(bool is_worker) {
+    if (is_worker)
+        name_this_thread("work");
+}
+
 Workers::Workers(int threads)
     : threads_(threads > 0 ? threads : usual_threads()),
       limit_(tbb::global_control::max_allowed_parallelism, std::size_t(threads_) + 1),

@@ -12,6 +12,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
 
 #include "base/time.h"
 
@@ -45,12 +46,20 @@ public:
     void forget(Ticket ticket);
 
 private:
+    // Threads come into being when there is work, and take the name of who has it.
+    struct Names final : tbb::task_scheduler_observer {
+        explicit Names(tbb::task_arena& arena);
+        ~Names() override;
+        void on_scheduler_entry(bool is_worker) override;
+    };
+
     void look_around();
 
     const int threads_;
     // The library counts the calling thread, which does no work here.
     tbb::global_control limit_;
     tbb::task_arena arena_;
+    Names names_{arena_};
 
     std::mutex mutex_;  // guards all below; held while somebody looks
     std::condition_variable changed_;

@@ -70,7 +70,8 @@ class Recording(unittest.TestCase):
                          self.inspect("a.mkv")["cameras"][0]["calibration"])
 
     def test_a_session_is_recorded_as_it_comes(self):
-        with host(self.folder / "state", f"folder:{self.source},loop=1", f"folder:{self.source},loop=1") as h:
+        with host(self.folder / "state", f"folder:{self.source},loop=1", f"folder:{self.source},loop=1",
+                  options=("--filter", "off")) as h:
             code, out, errors = run("record", h.greeting["link"], self.folder / "session.mkv", "--seconds", 1,
                                     "--json", "--depth-codec", "trvl")
             self.assertEqual(code, 0, errors)

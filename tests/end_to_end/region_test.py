@@ -32,7 +32,7 @@ class Region(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def host(self, *options):
-        return host(self.folder / "state", f"folder:{self.source},loop=1", options=options)
+        return host(self.folder / "state", f"folder:{self.source},loop=1", options=("--filter", "off", *options))
 
     def test_inside_is_exact_and_outside_is_bounded(self):
         box = f"0={LEFT}:{TOP}:{RIGHT - LEFT}:{BOTTOM - TOP}"
