@@ -12,7 +12,7 @@
 namespace theatron::render {
 namespace {
 
-constexpr int environment_unit = 0, shadow_unit = 1;
+constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2;
 
 void set_matrix(GLint uniform, const Mat4& matrix) {
     float values[16];
@@ -52,6 +52,9 @@ struct ScenePasses::Parts {
     Texture shadow_map;
     int shadow_side = 0;
     Framebuffer shadow_target;
+    Texture scene_depth;
+    Size scene_depth_size;
+    Framebuffer scene_depth_target;
     std::optional<TextPass> text;
 
     explicit Parts(const FontAtlas* atlas) {
@@ -59,8 +62,47 @@ struct ScenePasses::Parts {
         environment = make_environment();
         lit.set_sampler("environment", environment_unit);
         lit.set_sampler("shadow_map", shadow_unit);
+        lit.set_sampler("scene_depth", scene_depth_unit);
         if (atlas)
             text.emplace(*atlas);
+    }
+
+    void make_scene_depth(Size size) {
+        if (size == scene_depth_size)
+            return;
+        scene_depth_size = size;
+        scene_depth = Texture();
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, scene_depth.name());
+        glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT24, size.width, size.height);
+        set_sampling(GL_TEXTURE_2D, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, scene_depth_target.name());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                               scene_depth.name(), 0);
+        const GLenum none = GL_NONE;
+        glDrawBuffers(1, &none);
+        glReadBuffer(GL_NONE);
+    }
+
+    // Draws the opaque objects' depth alone; for shadows and for ambient occlusion.
+    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room) {
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_BLEND);
+        glDisable(GL_CULL_FACE);
+        const float farthest = 1;
+        glClearBufferfv(GL_DEPTH, 0, &farthest);
+        shadow.use();
+        for (const SceneObject& object : frame.objects) {
+            // What is half transparent would hide light as something solid does.
+            if (is_translucent(object))
+                continue;
+            set_matrix(shadow.uniform("clip_from_object"),
+                       clip_from_room * matrix(object.room_from_object));
+            object.mesh->buffers().draw();
+        }
+        glBindVertexArray(0);
     }
 
     void make_shadow_map(int side) {
@@ -125,29 +167,27 @@ void ScenePasses::prepare(const SceneFrame& frame) {
     glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
     glBindFramebuffer(GL_FRAMEBUFFER, p.shadow_target.name());
     glViewport(0, 0, p.shadow_side, p.shadow_side);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    const float farthest = 1;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
-    p.shadow.use();
-    const Mat4 light = LightView(frame).clip_from_room;
-    for (const SceneObject& object : frame.objects) {
-        // What is half transparent would cast a shadow as of something solid.
-        if (is_translucent(object))
-            continue;
-        set_matrix(p.shadow.uniform("clip_from_object"), light * matrix(object.room_from_object));
-        object.mesh->buffers().draw();
-    }
-    glBindVertexArray(0);
+    p.draw_depth(frame, LightView(frame).clip_from_room);
 }
 
 void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
                               const DrawTarget& target) {
     Parts& p = *parts_;
+    const bool occludes = frame.quality == SceneQuality::high;
+    if (occludes) {
+        p.make_scene_depth(target.size);
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+        glBindFramebuffer(GL_FRAMEBUFFER, p.scene_depth_target.name());
+        glViewport(0, 0, target.size.width, target.size.height);
+        p.draw_depth(frame, projection(view) * matrix(inverse(view.room_from_eye)));
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, p.scene_depth.name());
+    }
     p.begin_lit(frame, view, target);
+    glUniform1i(p.lit.uniform("occludes"), occludes);
+    const double n = view.near_m, f = view.far_m;
+    glUniform2f(p.lit.uniform("depth_from_w"), float(f / (f - n)), float(-f * n / (f - n)));
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glEnable(GL_CULL_FACE);
@@ -173,6 +213,7 @@ void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& vi
         return distance(a) > distance(b);
     });
     p.begin_lit(frame, view, target);
+    glUniform1i(p.lit.uniform("occludes"), 0);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

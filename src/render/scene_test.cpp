@@ -89,6 +89,22 @@ TEST_F(SceneTest, LowQualityHasShadowsToo) {
     EXPECT_LT(at(picture, {-0.85, 0, -0.08}).g + 25, at(picture, {-0.85, 0, 0.5}).g);
 }
 
+TEST_F(SceneTest, InCornersLessLightArrivesInHighQuality) {
+    const auto brightness = [&](Vec3 place) {
+        const Picture picture = draw({320, 240});
+        double sum = 0;
+        for (int i = 0; i < 8; ++i)
+            sum += at(picture, {place.x + 0.01 * i, place.y, place.z}).g / 8.0;
+        return sum;
+    };
+    // Beside the blue ball where it stands, and in the open.
+    const Vec3 corner{0.68, 0, 0.08}, open{-0.6, 0, 0.8};
+    const double corner_high = brightness(corner), open_high = brightness(open);
+    frame.quality = SceneQuality::low;
+    EXPECT_LT(corner_high, brightness(corner) - 8);
+    EXPECT_NEAR(open_high, brightness(open), 3);
+}
+
 TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
     if (!std::filesystem::exists(font))
         GTEST_SKIP() << "fonts-dejavu-core is not installed";

@@ -15,6 +15,12 @@ uniform float light;
 uniform float shadow_texel;
 uniform int shadow_taps;  // to each side
 
+// Ambient occlusion, by what the opaque objects' depth shows around a place.
+uniform bool occludes;
+uniform sampler2D scene_depth;
+uniform mat4 clip_from_room;
+uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
+
 in vec3 v_place;
 in vec3 v_normal;
 
@@ -62,13 +68,36 @@ vec3 shown(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
+// The share of the light from all around that reaches the place.
+float open_share(vec3 n) {
+    if (!occludes)
+        return 1.0;
+    const int count = 12;
+    const float reach = 0.25;  // metres
+    vec3 side = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
+    vec3 other = cross(n, side);
+    // Each pixel turns its samples by another angle.
+    float turn = 6.2832 * fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    float hidden = 0.0;
+    for (int i = 0; i < count; ++i) {
+        float a = (float(i) + 0.5) / float(count), angle = turn + 2.39996 * float(i);
+        vec3 d = n * sqrt(1.0 - a) + (side * cos(angle) + other * sin(angle)) * sqrt(a);
+        vec3 p = v_place + 0.01 * n + d * reach * (0.1 + 0.9 * fract(0.618 * float(i)));
+        vec4 clip = clip_from_room * vec4(p, 1.0);
+        float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
+        float before = clip.w - depth_from_w.y / (seen - depth_from_w.x);
+        hidden += float(before > 0.01 && before < 2.0 * reach);
+    }
+    return 1.0 - hidden / float(count);
+}
+
 void main() {
     vec3 v = normalize(eye - v_place);
     vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
     vec3 diffuse = base_color * (1.0 - look.x);
     vec3 mirror = mix(vec3(0.04), base_color, look.x);
     vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
-                 from_surroundings(n, v, diffuse, mirror, look.y);
+                 from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
     write_surface(shown(color), 1.0 / gl_FragCoord.w);
     // A thin wall seen along itself lets less light through.
     out_color.a = look.z < 1.0 ? 1.0 - pow(1.0 - look.z, 1.0 / max(dot(n, v), 0.2)) : 1.0;
