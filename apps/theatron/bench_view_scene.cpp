@@ -164,6 +164,9 @@ ViewBenchCamera make_camera(const OperatingRoom& room, const synthetic::RoomMome
     return camera;
 }
 
+// A surface that a camera looks along is not seen: 0.17 is 10 degrees.
+constexpr double least_cosine = 0.17;
+
 enum class Sight { none, seen, measured };
 
 // Whether the depth camera sees this side of a surface, and has measured it there.
@@ -172,7 +175,7 @@ Sight sight_of(const ViewBenchCamera& camera, Vec3 point_room, Vec3 normal_room)
     const Vec3 p = inverse(c.room_from_camera) * point_room;
     const Vec3 normal = rotate(conjugate(c.room_from_camera.rotation), normal_room);
     const auto pixel = project(c.depth, p);
-    if (!pixel || dot(normal, p) >= 0)
+    if (!pixel || dot(normal, p) > -least_cosine * length(p))
         return Sight::none;
     const int x0 = int(std::floor(pixel->x)), y0 = int(std::floor(pixel->y));
     const Size size = c.depth.size;

@@ -28,7 +28,7 @@ struct ViewBenchPlace {
     render::CameraView view;
     DepthImage exact_mm;
     ColorImage exact_color;
-    // Pixels whose surface one camera sees at least, from its side; that two have measured;
+    // Pixels whose surface one camera sees at least, at 10 degrees or more; that two have measured;
     // that are a person's and seen; that are finely patterned and measured. As render::MaskView.
     Image<std::uint8_t> seen, overlap, person, patterned;
 };

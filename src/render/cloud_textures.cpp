@@ -13,19 +13,28 @@ Size larger(Size a, Size b) {
     return {std::max(a.width, b.width), std::max(a.height, b.height)};
 }
 
+// By way of a buffer that gets new memory each time: neither waits for the GPU to be done with
+// what it still draws from the texture or from the last upload.
 template <class Image>
-void upload_layer(const Texture& texture, int layer, Image image, GLenum format, GLenum type) {
+void upload_layer(const Buffer& staging, const Texture& texture, int layer, Image image,
+                  GLenum format, GLenum type) {
+    const auto pixels = std::size_t(image.stride) * std::size_t(image.size.height - 1) +
+                        std::size_t(image.size.width);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, staging.name());
+    glBufferData(GL_PIXEL_UNPACK_BUFFER, GLsizeiptr(pixels * sizeof(*image.pixels)), image.pixels,
+                 GL_STREAM_DRAW);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, GLint(image.stride));
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, image.size.width, image.size.height, 1,
-                    format, type, image.pixels);
+                    format, type, nullptr);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
-void clear_depth(const Texture& texture, Size size, int layer) {
+void clear_depth(const Buffer& staging, const Texture& texture, Size size, int layer) {
     const DepthImage nothing(size);
-    upload_layer(texture, layer, nothing.view(), GL_RED_INTEGER, GL_UNSIGNED_SHORT);
+    upload_layer(staging, texture, layer, nothing.view(), GL_RED_INTEGER, GL_UNSIGNED_SHORT);
 }
 
 }  // namespace
@@ -51,8 +60,8 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
     source.rays = make_ray_table(calibration.depth);
     source.layer = known != sources_.end() ? known->second.layer : free_layer();
     make_room(source.layer + 1, calibration.depth.size, calibration.color.size);
-    upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
-    clear_depth(*depth_, depth_size_, source.layer);
+    upload_layer(staging_, *rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
+    clear_depth(staging_, *depth_, depth_size_, source.layer);
     sources_[camera] = std::move(source);
 }
 
@@ -81,10 +90,10 @@ Status CloudTextures::upload(CameraId camera, DepthView depth, ColorView color) 
         return Status::size_mismatch;
     CloudSource& source = known->second;
     source.revision = ++revision_;
-    upload_layer(*depth_, source.layer, depth, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
+    upload_layer(staging_, *depth_, source.layer, depth, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
     if (color.pixels) {
         make_room(0, {}, color.size);
-        upload_layer(*color_, source.layer, color, GL_RGB, GL_UNSIGNED_BYTE);
+        upload_layer(staging_, *color_, source.layer, color, GL_RGB, GL_UNSIGNED_BYTE);
         source.color_size = color.size;
     }
     return Status::ok;
@@ -107,7 +116,7 @@ void CloudTextures::make_room(int layers, Size depth, Size color) {
     if (new_layers != layers_ || new_depth != depth_size_) {
         Texture moved = make_texture_array(GL_R16UI, new_depth, new_layers, GL_NEAREST);
         for (int layer = 0; layer < new_layers; ++layer)
-            clear_depth(moved, new_depth, layer);
+            clear_depth(staging_, moved, new_depth, layer);
         for (const auto& [id, source] : sources_)
             copy_layer(*depth_, moved, source.layer, source.calibration.depth.size);
         depth_ = std::move(moved);
@@ -116,7 +125,7 @@ void CloudTextures::make_room(int layers, Size depth, Size color) {
         // Not every driver can copy float textures.
         rays_ = make_texture_array(GL_RG32F, new_depth, new_layers, GL_NEAREST);
         for (const auto& [id, source] : sources_)
-            upload_layer(*rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
+            upload_layer(staging_, *rays_, source.layer, source.rays.view(), GL_RG, GL_FLOAT);
     }
     if (new_layers != layers_ || new_color != color_size_) {
         Texture moved = make_texture_array(GL_RGB8, new_color, new_layers, GL_LINEAR);

@@ -60,6 +60,7 @@ private:
     Size depth_size_, color_size_;
     std::optional<Texture> depth_, rays_, color_;
     Framebuffer copy_source_;
+    Buffer staging_;
 };
 
 }  // namespace theatron::render

@@ -9,9 +9,30 @@
 
 #include "base/error.h"
 #include "render/ball_scene.h"
+#include "render/render_target.h"
+#include "render/scene_passes.h"
 
 using namespace theatron;
 using namespace theatron::render;
+
+// Shaders of the lit scene: that they compile and raise no error. Pictures are tested natively.
+void draw_lit_scene() {
+    const SceneMesh ball(make_sphere_mesh(0.3, 12));
+    SceneFrame frame;
+    frame.objects = {{&ball, {}, {}},
+                     {&ball, {Quat{}, {0.5, 0, 0}}, {{0.8, 0.1, 0.1}, 0, 0.4, 0.5}}};
+    ScenePasses passes;
+    const RenderTarget target(golden_picture_size);
+    target.clear({});
+    passes.prepare(frame);
+    passes.draw_opaque(frame, golden_view(), target.target());
+    passes.draw_translucent(frame, golden_view(), target.target());
+}
+
+void report_errors(const std::string& what) {
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
+        std::printf("problem %s raises GL error 0x%x\n", what.c_str(), error);
+}
 
 int main() {
     EmscriptenWebGLContextAttributes attributes;
@@ -45,8 +66,13 @@ int main() {
         } catch (const Error& e) {
             std::printf("problem %s\n", e.what());
         }
-        for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
-            std::printf("problem %s raises GL error 0x%x\n", renderer.c_str(), error);
+        report_errors(renderer);
     }
+    try {
+        draw_lit_scene();
+    } catch (const Error& e) {
+        std::printf("problem %s\n", e.what());
+    }
+    report_errors("the lit scene");
     return 0;
 }

@@ -39,7 +39,7 @@ void main() {
         if (behind > agreement)
             continue;
         vec4 layer = texelFetch(layer_colors, ivec3(place, i), 0);
-        float weight = pow(layer.a, 4.0) * presence[i] *
+        float weight = pow(layer.a, 3.0) * presence[i] *
                        (1.0 - smoothstep(0.5 * agreement, agreement, behind)) + 1e-9;
         color += vec4(layer.rgb, 1.0) * weight;
         distance += distances[i] * weight;

@@ -87,7 +87,7 @@ float steadied(ivec2 pixel, float z) {
     // Noise grows as less light comes back.
     float noise = 0.0015 + 0.0008 * z * z;
     float moved = smoothstep(1.0, 3.5, abs(z - before) / noise);
-    return mix(before, z, mix(0.25, 1.0, moved));
+    return mix(before, z, mix(0.2, 1.0, moved));
 }
 
 void main() {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Letters as distances to their outlines: sharp at any size. Made by a font library natively;
+// a browser can fill the same from a canvas.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "image/image.h"
+
+namespace theatron::render {
+
+struct FontAtlas {
+    struct Glyph {
+        int x = 0, y = 0, width = 0, height = 0;  // in `distances`
+        // From the pen to the glyph's upper left corner and to the next pen, in pixels.
+        int left = 0, top = 0;
+        double advance = 0;
+    };
+    Image<std::uint8_t> distances;  // 128 at the outline, more inside
+    std::map<char32_t, Glyph> glyphs;
+    double capital_height = 0;  // pixels
+};
+
+// Latin letters, digits and signs of this font file. Throws Error if it cannot be read.
+FontAtlas load_font_atlas(const std::string& file);
+
+}  // namespace theatron::render

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is drawn beside the clouds: the room, organs, texts; a description that whoever makes
+// a picture fills in anew for each picture. No GL type appears here.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/vec.h"
+#include "image/image.h"
+
+namespace theatron::render {
+
+// Triangles with a normal at each corner, counter-clockwise seen from outside. Metres.
+struct MeshData {
+    struct Vertex {
+        float px = 0, py = 0, pz = 0, nx = 0, ny = 0, nz = 0;
+    };
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+};
+
+MeshData make_box_mesh(Vec3 low, Vec3 high);
+MeshData make_sphere_mesh(double radius, int rings);
+
+// A mesh on the GPU. Needs the GL context current in which it was made.
+class SceneMesh {
+public:
+    explicit SceneMesh(const MeshData& data);
+    ~SceneMesh();
+    SceneMesh(SceneMesh&&) noexcept;
+    SceneMesh& operator=(SceneMesh&&) noexcept;
+
+    struct Buffers;
+    const Buffers& buffers() const { return *buffers_; }
+
+private:
+    std::unique_ptr<Buffers> buffers_;
+};
+
+// Metal-rough, as in glTF. Colours are linear, 0 to 1.
+struct SurfaceLook {
+    Vec3 base_color{0.8, 0.8, 0.8};
+    double metallic = 0, roughness = 0.6;
+    double opacity = 1;  // below 1: what is behind shows through
+};
+
+struct SceneObject {
+    const SceneMesh* mesh = nullptr;
+    Pose room_from_object;
+    SurfaceLook look;
+};
+
+// One line of text. Its frame: x along the line, y down, z away from who reads it; the origin is at
+// the left end of the base line.
+struct SceneText {
+    std::string utf8;
+    Pose room_from_text;
+    double height_m = 0.05;  // of a capital letter, about
+    Rgb color{255, 255, 255};
+};
+
+// The clouds are drawn the same in all of them.
+enum class SceneQuality { low, high };
+
+struct SceneFrame {
+    std::vector<SceneObject> objects;
+    std::vector<SceneText> texts;
+    Vec3 to_light{0.3, 1, 0.2};  // a direction
+    double light = 2.2;          // of white light, beside the surroundings' 1
+    // What casts shadows lies in this ball.
+    Vec3 shadow_middle{0, 1, 0};
+    double shadow_radius_m = 2.5;
+    SceneQuality quality = SceneQuality::high;
+};
+
+}  // namespace theatron::render

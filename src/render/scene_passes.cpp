@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/scene_passes.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "render/environment.h"
+#include "render/matrix.h"
+#include "render/scene_mesh.h"
+#include "render/text_pass.h"
+
+namespace theatron::render {
+namespace {
+
+constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2;
+
+void set_matrix(GLint uniform, const Mat4& matrix) {
+    float values[16];
+    for (std::size_t i = 0; i < 16; ++i)
+        values[i] = float(matrix.m[i]);
+    glUniformMatrix4fv(uniform, 1, GL_FALSE, values);
+}
+
+void set_vector(GLint uniform, Vec3 v) {
+    glUniform3f(uniform, float(v.x), float(v.y), float(v.z));
+}
+
+// The light as an eye that sees the ball of what casts shadows, without perspective.
+struct LightView {
+    Mat4 clip_from_room;
+    explicit LightView(const SceneFrame& frame) {
+        const Vec3 along = normalized(frame.to_light);
+        const Vec3 up = std::abs(along.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+        const double r = frame.shadow_radius_m;
+        const Pose room_from_light =
+            look_at(frame.shadow_middle + along * r, frame.shadow_middle, up);
+        const Mat4 flat{{1 / r, 0, 0, 0, 0, -1 / r, 0, 0, 0, 0, 1 / r, 0, 0, 0, -1, 1}};
+        clip_from_room = flat * matrix(inverse(room_from_light));
+    }
+};
+
+bool is_translucent(const SceneObject& object) {
+    return object.look.opacity < 1;
+}
+
+}  // namespace
+
+struct ScenePasses::Parts {
+    Program lit{{"scene.vert"}, {"output.glsl", "scene.frag"}};
+    Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
+    Texture environment;
+    Texture shadow_map;
+    int shadow_side = 0;
+    Framebuffer shadow_target;
+    Texture scene_depth;
+    Size scene_depth_size;
+    Framebuffer scene_depth_target;
+    std::optional<TextPass> text;
+
+    explicit Parts(const FontAtlas* atlas) {
+        glActiveTexture(GL_TEXTURE0 + environment_unit);
+        environment = make_environment();
+        lit.set_sampler("environment", environment_unit);
+        lit.set_sampler("shadow_map", shadow_unit);
+        lit.set_sampler("scene_depth", scene_depth_unit);
+        if (atlas)
+            text.emplace(*atlas);
+    }
+
+    void make_scene_depth(Size size) {
+        if (size == scene_depth_size)
+            return;
+        scene_depth_size = size;
+        scene_depth = Texture();
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, scene_depth.name());
+        glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT24, size.width, size.height);
+        set_sampling(GL_TEXTURE_2D, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, scene_depth_target.name());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                               scene_depth.name(), 0);
+        const GLenum none = GL_NONE;
+        glDrawBuffers(1, &none);
+        glReadBuffer(GL_NONE);
+    }
+
+    // Draws the opaque objects' depth alone; for shadows and for ambient occlusion.
+    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room) {
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_BLEND);
+        glDisable(GL_CULL_FACE);
+        const float farthest = 1;
+        glClearBufferfv(GL_DEPTH, 0, &farthest);
+        shadow.use();
+        for (const SceneObject& object : frame.objects) {
+            // What is half transparent would hide light as something solid does.
+            if (is_translucent(object))
+                continue;
+            set_matrix(shadow.uniform("clip_from_object"),
+                       clip_from_room * matrix(object.room_from_object));
+            object.mesh->buffers().draw();
+        }
+        glBindVertexArray(0);
+    }
+
+    void make_shadow_map(int side) {
+        if (side == shadow_side)
+            return;
+        shadow_side = side;
+        shadow_map = Texture();
+        glActiveTexture(GL_TEXTURE0 + shadow_unit);
+        glBindTexture(GL_TEXTURE_2D, shadow_map.name());
+        glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT24, side, side);
+        set_sampling(GL_TEXTURE_2D, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+        glBindFramebuffer(GL_FRAMEBUFFER, shadow_target.name());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                               shadow_map.name(), 0);
+        const GLenum none = GL_NONE;
+        glDrawBuffers(1, &none);
+        glReadBuffer(GL_NONE);
+    }
+
+    void begin_lit(const SceneFrame& frame, const CameraView& view, const DrawTarget& target) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+        glViewport(target.x, target.y, target.size.width, target.size.height);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glActiveTexture(GL_TEXTURE0 + shadow_unit);
+        glBindTexture(GL_TEXTURE_2D, shadow_map.name());
+        glActiveTexture(GL_TEXTURE0 + environment_unit);
+        glBindTexture(GL_TEXTURE_CUBE_MAP, environment.name());
+        lit.use();
+        set_matrix(lit.uniform("clip_from_room"),
+                   projection(view) * matrix(inverse(view.room_from_eye)));
+        set_matrix(lit.uniform("light_from_room"), LightView(frame).clip_from_room);
+        set_vector(lit.uniform("eye"), view.room_from_eye.translation);
+        set_vector(lit.uniform("to_light"), normalized(frame.to_light));
+        glUniform1f(lit.uniform("light"), float(frame.light));
+        glUniform1f(lit.uniform("shadow_texel"), 1.0f / float(shadow_side));
+        glUniform1i(lit.uniform("shadow_taps"), frame.quality == SceneQuality::high ? 1 : 0);
+    }
+
+    void draw(const SceneObject& object) const {
+        set_matrix(lit.uniform("room_from_object"), matrix(object.room_from_object));
+        set_vector(lit.uniform("base_color"), object.look.base_color);
+        glUniform4f(lit.uniform("look"), float(object.look.metallic),
+                    float(std::clamp(object.look.roughness, 0.05, 1.0)), float(object.look.opacity),
+                    0);
+        object.mesh->buffers().draw();
+    }
+};
+
+ScenePasses::ScenePasses(const FontAtlas* atlas) : parts_(std::make_unique<Parts>(atlas)) {}
+ScenePasses::~ScenePasses() = default;
+ScenePasses::ScenePasses(ScenePasses&&) noexcept = default;
+ScenePasses& ScenePasses::operator=(ScenePasses&&) noexcept = default;
+
+void ScenePasses::prepare(const SceneFrame& frame) {
+    Parts& p = *parts_;
+    p.make_shadow_map(frame.quality == SceneQuality::high ? 2048 : 1024);
+    glActiveTexture(GL_TEXTURE0 + shadow_unit);
+    glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+    glBindFramebuffer(GL_FRAMEBUFFER, p.shadow_target.name());
+    glViewport(0, 0, p.shadow_side, p.shadow_side);
+    p.draw_depth(frame, LightView(frame).clip_from_room);
+}
+
+void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
+                              const DrawTarget& target) {
+    Parts& p = *parts_;
+    const bool occludes = frame.quality == SceneQuality::high;
+    if (occludes) {
+        p.make_scene_depth(target.size);
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+        glBindFramebuffer(GL_FRAMEBUFFER, p.scene_depth_target.name());
+        glViewport(0, 0, target.size.width, target.size.height);
+        p.draw_depth(frame, projection(view) * matrix(inverse(view.room_from_eye)));
+        glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
+        glBindTexture(GL_TEXTURE_2D, p.scene_depth.name());
+    }
+    p.begin_lit(frame, view, target);
+    glUniform1i(p.lit.uniform("occludes"), occludes);
+    const double n = view.near_m, f = view.far_m;
+    glUniform2f(p.lit.uniform("depth_from_w"), float(f / (f - n)), float(-f * n / (f - n)));
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    for (const SceneObject& object : frame.objects)
+        if (!is_translucent(object))
+            p.draw(object);
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+}
+
+void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& view,
+                                   const DrawTarget& target) {
+    Parts& p = *parts_;
+    std::vector<const SceneObject*> sorted;
+    for (const SceneObject& object : frame.objects)
+        if (is_translucent(object))
+            sorted.push_back(&object);
+    const auto distance = [&](const SceneObject* object) {
+        return length(object->room_from_object.translation - view.room_from_eye.translation);
+    };
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const SceneObject* a, const SceneObject* b) {
+        return distance(a) > distance(b);
+    });
+    p.begin_lit(frame, view, target);
+    glUniform1i(p.lit.uniform("occludes"), 0);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_CULL_FACE);
+    for (const SceneObject* object : sorted)
+        for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+            glCullFace(hidden);
+            p.draw(*object);
+        }
+    glDisable(GL_CULL_FACE);
+    if (p.text)
+        p.text->draw(frame.texts, view);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glBindVertexArray(0);
+}
+
+}  // namespace theatron::render

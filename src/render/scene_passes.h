@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a SceneFrame: shadows, lit opaque surfaces, texts, and what is translucent.
+//
+// A picture with clouds is drawn in this order: draw_opaque, CloudScene::draw,
+// draw_translucent. For a stereo pair both are called once for each eye; shadows are drawn
+// with the first, see prepare().
+//
+// All functions need the GL context current in which the object was made.
+#pragma once
+
+#include <memory>
+
+#include "render/cloud_scene.h"
+#include "render/font_atlas.h"
+#include "render/scene_frame.h"
+
+namespace theatron::render {
+
+class ScenePasses {
+public:
+    // Texts are left out without an atlas.
+    explicit ScenePasses(const FontAtlas* atlas = nullptr);
+    ~ScenePasses();
+    ScenePasses(ScenePasses&&) noexcept;
+    ScenePasses& operator=(ScenePasses&&) noexcept;
+
+    // What is the same for both eyes. Changes framebuffer and viewport.
+    void prepare(const SceneFrame& frame);
+    void draw_opaque(const SceneFrame& frame, const CameraView& view, const DrawTarget& target);
+    // From back to front, each object's inside before its outside: right for objects that
+    // do not pass through each other.
+    void draw_translucent(const SceneFrame& frame, const CameraView& view,
+                          const DrawTarget& target);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::render

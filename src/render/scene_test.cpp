@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/scene_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "render/render_target.h"
+#include "render/test_context.h"
+
+namespace theatron::render {
+namespace {
+
+const char* const font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+// A floor with a pillar on it, a metal and a plastic ball, and a translucent one.
+class SceneTest : public ::testing::Test {
+protected:
+    SceneTest() {
+        test_context();
+        floor.emplace(make_box_mesh({-2, -0.1, -2}, {2, 0, 2}));
+        pillar.emplace(make_box_mesh({-0.1, 0, -0.1}, {0.1, 0.8, 0.1}));
+        ball.emplace(make_sphere_mesh(0.25, 24));
+        frame.objects = {{&*floor, {}, {{0.5, 0.55, 0.55}, 0, 0.5}},
+                         {&*pillar, {Quat{}, {-0.6, 0, 0}}, {{0.7, 0.3, 0.2}, 0, 0.7}},
+                         {&*ball, {Quat{}, {0, 0.25, 0}}, {{0.95, 0.8, 0.5}, 1, 0.25}},
+                         {&*ball, {Quat{}, {0.6, 0.25, 0}}, {{0.2, 0.4, 0.8}, 0, 0.3}},
+                         {&*ball, {Quat{}, {0.3, 0.25, 0.5}}, {{0.8, 0.15, 0.15}, 0, 0.3, 0.4}}};
+        frame.to_light = {1, 1.5, 0.3};
+        frame.shadow_middle = {0, 0.4, 0};
+        frame.shadow_radius_m = 1.5;
+    }
+    ~SceneTest() override {
+        EXPECT_EQ(test_context().errors(), errors_before) << test_context().first_error();
+    }
+
+    Picture draw(Size size, const FontAtlas* atlas = nullptr) {
+        ScenePasses passes(atlas);
+        const RenderTarget target(size);
+        target.clear({20, 22, 26});
+        const CameraView view = view_towards({0.2, 1.1, 2.2}, {0, 0.3, 0}, 45, size);
+        passes.prepare(frame);
+        passes.draw_opaque(frame, view, target.target());
+        passes.draw_translucent(frame, view, target.target());
+        return target.read();
+    }
+    // The colour at a place of the room.
+    Rgb at(const Picture& picture, Vec3 place) {
+        const Size size = picture.color.size;
+        const CameraView view = view_towards({0.2, 1.1, 2.2}, {0, 0.3, 0}, 45, size);
+        const Vec3 p = inverse(view.room_from_eye) * place;
+        const int x = int((p.x / p.z - view.left) / (view.right - view.left) * size.width);
+        const int y = int((p.y / p.z - view.top) / (view.bottom - view.top) * size.height);
+        return picture.color.view().row(y)[x];
+    }
+
+    const int errors_before = test_context().errors();
+    std::optional<SceneMesh> floor, pillar, ball;
+    SceneFrame frame;
+};
+
+TEST_F(SceneTest, ShadowsFallAwayFromTheLight) {
+    const Picture picture = draw({320, 240});
+    const Rgb shadow = at(picture, {-0.85, 0, -0.08}), lit = at(picture, {-0.85, 0, 0.5});
+    EXPECT_LT(shadow.g + 25, lit.g);
+}
+
+TEST_F(SceneTest, TranslucentThingsShowWhatIsBehindThem) {
+    const Vec3 through{0.3, 0.25, 0.75};
+    const Rgb over = at(draw({320, 240}), through);
+    frame.objects.pop_back();
+    const Rgb without = at(draw({320, 240}), through);
+    EXPECT_GT(over.r - over.b, without.r - without.b + 20) << "it is red";
+    EXPECT_NE(over, without);
+    EXPECT_GT(over.g, 30) << "and not solid";
+}
+
+TEST_F(SceneTest, MetalReflectsItsSurroundings) {
+    const Picture picture = draw({320, 240});
+    const Rgb top = at(picture, {0, 0.47, 0.11}), below = at(picture, {-0.02, 0.1, 0.2});
+    EXPECT_GT(top.g, below.g + 20);
+}
+
+TEST_F(SceneTest, LowQualityHasShadowsToo) {
+    frame.quality = SceneQuality::low;
+    const Picture picture = draw({320, 240});
+    EXPECT_LT(at(picture, {-0.85, 0, -0.08}).g + 25, at(picture, {-0.85, 0, 0.5}).g);
+}
+
+TEST_F(SceneTest, InCornersLessLightArrivesInHighQuality) {
+    const auto brightness = [&](Vec3 place) {
+        const Picture picture = draw({320, 240});
+        double sum = 0;
+        for (int i = 0; i < 8; ++i)
+            sum += at(picture, {place.x + 0.01 * i, place.y, place.z}).g / 8.0;
+        return sum;
+    };
+    // Beside the blue ball where it stands, and in the open.
+    const Vec3 corner{0.68, 0, 0.08}, open{-0.6, 0, 0.8};
+    const double corner_high = brightness(corner), open_high = brightness(open);
+    frame.quality = SceneQuality::low;
+    EXPECT_LT(corner_high, brightness(corner) - 8);
+    EXPECT_NEAR(open_high, brightness(open), 3);
+}
+
+TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
+    if (!std::filesystem::exists(font))
+        GTEST_SKIP() << "fonts-dejavu-core is not installed";
+    const FontAtlas atlas = load_font_atlas(font);
+    // Faces who stands before it: x to their right, y down.
+    frame.texts = {{"Leber ÄÖ 42", {Quat{0, 1, 0, 0}, {-0.35, 0.9, 0.1}}, 0.1, {255, 255, 0}}};
+    const Picture picture = draw({640, 480}, &atlas);
+    if (const char* file = std::getenv("THEATRON_WRITE_SCENE")) {
+        std::ofstream out(file, std::ios::binary);
+        out << "P6\n640 480\n255\n";
+        out.write(reinterpret_cast<const char*>(picture.color.pixels.data()),
+                  std::streamsize(picture.color.pixels.size() * 3));
+    }
+    // The stem of the L, and the free space above its foot.
+    EXPECT_GT(at(picture, {-0.33, 0.95, 0.1}).r, 200);
+    EXPECT_LT(at(picture, {-0.29, 0.95, 0.1}).r, 100);
+}
+
+}  // namespace
+}  // namespace theatron::render

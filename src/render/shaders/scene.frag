@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Metal-rough surfaces under one lamp and the light from all around. GGX with Smith's shadowing
+// (Walter et al. 2007) and Schlick's Fresnel term; for the surroundings Karis' fit of the
+// environment term (2014).
+
+precision highp samplerCube;
+precision highp sampler2DShadow;
+
+uniform samplerCube environment;  // level: roughness; the last one is diffuse
+uniform sampler2DShadow shadow_map;
+uniform mat4 light_from_room;
+uniform vec3 eye, to_light, base_color;
+uniform vec4 look;  // metallic, roughness, opacity
+uniform float light;
+uniform float shadow_texel;
+uniform int shadow_taps;  // to each side
+
+// Ambient occlusion, by what the opaque objects' depth shows around a place.
+uniform bool occludes;
+uniform sampler2D scene_depth;
+uniform mat4 clip_from_room;
+uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
+
+in vec3 v_place;
+in vec3 v_normal;
+
+const float last_level = 4.0;
+
+float lit_share(vec3 normal) {
+    vec4 place = light_from_room * vec4(v_place + 0.008 * normal, 1.0);
+    vec3 seen = place.xyz * 0.5 + 0.5;
+    if (any(lessThan(seen, vec3(0.0))) || any(greaterThan(seen, vec3(1.0))))
+        return 1.0;
+    seen.z -= 0.001;
+    float sum = 0.0, count = 0.0;
+    for (int y = -shadow_taps; y <= shadow_taps; ++y)
+        for (int x = -shadow_taps; x <= shadow_taps; ++x) {
+            sum += texture(shadow_map, vec3(seen.xy + vec2(x, y) * shadow_texel, seen.z));
+            count += 1.0;
+        }
+    return sum / count;
+}
+
+vec3 from_lamp(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
+    vec3 h = normalize(v + to_light);
+    float nl = max(dot(n, to_light), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0);
+    float a2 = roughness * roughness * roughness * roughness;
+    float d = nh * nh * (a2 - 1.0) + 1.0;
+    float spread = a2 / (3.14159 * d * d);
+    float hidden = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1e-5);
+    vec3 fresnel = mirror + (1.0 - mirror) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    return (diffuse / 3.14159 + fresnel * spread * hidden) * nl * light;
+}
+
+vec3 from_surroundings(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
+    float nv = max(dot(n, v), 0.0);
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+    vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
+    vec3 reflected = textureLod(environment, reflect(-v, n), roughness * (last_level - 1.0)).rgb;
+    return diffuse * textureLod(environment, n, last_level).rgb +
+           reflected * (mirror * fit.x + fit.y);
+}
+
+// From light to sRGB, bright parts compressed.
+vec3 shown(vec3 c) {
+    c = c * (1.0 + c / 6.0) / (1.0 + c);
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+
+// The share of the light from all around that reaches the place.
+float open_share(vec3 n) {
+    if (!occludes)
+        return 1.0;
+    const int count = 12;
+    const float reach = 0.25;  // metres
+    vec3 side = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
+    vec3 other = cross(n, side);
+    // Each pixel turns its samples by another angle.
+    float turn = 6.2832 * fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    float hidden = 0.0;
+    for (int i = 0; i < count; ++i) {
+        float a = (float(i) + 0.5) / float(count), angle = turn + 2.39996 * float(i);
+        vec3 d = n * sqrt(1.0 - a) + (side * cos(angle) + other * sin(angle)) * sqrt(a);
+        vec3 p = v_place + 0.01 * n + d * reach * (0.1 + 0.9 * fract(0.618 * float(i)));
+        vec4 clip = clip_from_room * vec4(p, 1.0);
+        float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
+        float before = clip.w - depth_from_w.y / (seen - depth_from_w.x);
+        hidden += float(before > 0.01 && before < 2.0 * reach);
+    }
+    return 1.0 - hidden / float(count);
+}
+
+void main() {
+    vec3 v = normalize(eye - v_place);
+    vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
+    vec3 diffuse = base_color * (1.0 - look.x);
+    vec3 mirror = mix(vec3(0.04), base_color, look.x);
+    vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
+                 from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
+    write_surface(shown(color), 1.0 / gl_FragCoord.w);
+    // A thin wall seen along itself lets less light through.
+    out_color.a = look.z < 1.0 ? 1.0 - pow(1.0 - look.z, 1.0 / max(dot(n, v), 0.2)) : 1.0;
+}
