@@ -134,11 +134,13 @@ void read_step(const json& object, Reader& reader) {
     const std::string& kind = name->get_ref<const std::string&>();
     const bool there = with_step(kind, [&](auto params) {
         using Params = decltype(params);
-        for (const auto& [key, value] : object.items()) {
+        for (auto item = object.begin(); item != object.end(); ++item) {
+            const std::string& key = item.key();
+            const json& value = item.value();
             if (key == "filter")
                 continue;
             if (std::is_same_v<Params, BackgroundParams> && key == "file" && value.is_string()) {
-                reader.set_background_file(value.template get<std::string>());
+                reader.set_background_file(value.get<std::string>());
                 continue;
             }
             const auto& fields = StepFields<Params>::fields;
@@ -153,7 +155,7 @@ void read_step(const json& object, Reader& reader) {
                 return reader.note("The filter " + kind + " takes " + field->name +
                                    " as a whole number from " + std::to_string(field->min) +
                                    " to " + std::to_string(field->max) + ".");
-            params.*field->value = value.template get<int>();
+            params.*field->value = value.get<int>();
         }
         reader.add(params);
     });
