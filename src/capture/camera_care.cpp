@@ -54,7 +54,7 @@ bool CameraCare::on_frame(TimePoint captured, TimePoint delivered, PictureMark m
         on_time(delivered);
         return false;
     }
-    any_frame_ = true;
+    any_frame_ = ever_good_ = true;
     last_captured_ = captured;
     last_mark_ = mark;
     last_good_ = delivered;
@@ -105,7 +105,7 @@ bool CameraCare::wants_reopen(TimePoint now) const {
         return false;
     if (!open_)
         return now >= next_attempt_;
-    return now - last_good_ >= (any_frame_ ? reopen_after : reopen_new_after);
+    return ever_good_ && now - last_good_ >= (any_frame_ ? reopen_after : reopen_new_after);
 }
 
 }  // namespace theatron::capture

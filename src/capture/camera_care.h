@@ -36,8 +36,9 @@ public:
 
     // Not a good picture for this long: stale. Longer for cameras that are slow by themselves.
     static constexpr Duration stale_after = 150ms;
-    // A stale camera that still answers is opened again after this time, one that
-    // has not given its first picture after the second.
+    // A stale camera that still answers is opened again after this time, one that was
+    // opened again and gave no picture yet after the second. One that never gave any
+    // is left alone: it may wait for another camera that sets its pace.
     static constexpr Duration reopen_after = 1500ms, reopen_new_after = 10s;
     // Between attempts to open: twice as long after each failure.
     static constexpr Duration first_wait = 250ms, longest_wait = 5s;
@@ -80,7 +81,8 @@ private:
     std::string problem_;
     bool open_ = true;
     bool any_frame_ = false;  // since it was opened
-    TimePoint last_good_;     // or when it was opened
+    bool ever_good_ = false;
+    TimePoint last_good_;  // or when it was opened
     TimePoint last_captured_;
     PictureMark last_mark_;
     Duration wait_ = first_wait;

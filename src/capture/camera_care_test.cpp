@@ -64,6 +64,15 @@ TEST_F(Care, ASilentCameraIsStaleWithin200MsAndOpenedAgain) {
     EXPECT_EQ(care.figures().troubles[int(Trouble::silent)], 1u);
 }
 
+TEST_F(Care, ACameraThatWaitsForItsMasterIsLeftAlone) {
+    now += 1h;
+    care.on_time(now);
+    EXPECT_TRUE(care.stale());
+    EXPECT_FALSE(care.wants_reopen(now));
+    EXPECT_TRUE(good_frame());
+    EXPECT_FALSE(care.stale());
+}
+
 TEST_F(Care, AStallThatEndsNeedsNoReopening) {
     good_frames(3);
     now += 700ms;
