@@ -41,7 +41,7 @@ bool is_person(Material material) {
 
 bool is_patterned(Material material) {
     return material == Material::paper || material == Material::screen ||
-           material == Material::tissue || material == Material::gauze;
+           material == Material::brick;
 }
 
 struct Eye {
@@ -66,12 +66,12 @@ std::vector<Eye> held_places() {
     return eyes;
 }
 
-// Towards the table from near by, so that a pixel of the picture is less than one of the
-// cameras'.
+// Towards the papers on the table from near by, so that a pixel of the picture is less than one of
+// the cameras'.
 std::vector<Eye> close_places() {
     std::vector<Eye> eyes;
-    for (const double degrees : {-30.0, 35.0, 150.0, -120.0})
-        eyes.push_back({on_circle(degrees, 1.3, 1.9), {0.0, 1.05, 0.0}, 26});
+    for (const double degrees : {-35.0, -10.0, 15.0, 40.0})
+        eyes.push_back({on_circle(degrees, 1.3, 1.9), {0.35, 0.98, 0.0}, 26});
     return eyes;
 }
 
@@ -272,9 +272,13 @@ DepthSizedColor depth_sized_color(const Calibration& calibration, DepthView dept
     DepthSizedColor result{calibration, ColorImage(size)};
     result.calibration.color = calibration.depth;
     result.calibration.color_from_depth = {};
-    for (int y = 0; y < size.height; ++y)
+    for (int y = 0; y < size.height; ++y) {
+        // Where nothing was measured renderers may close the gap: its colour is that of a surface
+        // at the last distance.
+        double z = 0;
         for (int x = 0; x < size.width; ++x) {
-            const double z = depth.row(y)[x] * calibration.depth_unit_mm / 1000;
+            if (depth.row(y)[x] > 0)
+                z = depth.row(y)[x] * calibration.depth_unit_mm / 1000;
             const Ray ray = rays.view().row(y)[x];
             if (z == 0 || ray.x == no_ray)
                 continue;
@@ -293,6 +297,7 @@ DepthSizedColor depth_sized_color(const Calibration& calibration, DepthView dept
             };
             result.color.view().row(y)[x] = {mix(&Rgb::r), mix(&Rgb::g), mix(&Rgb::b)};
         }
+    }
     return result;
 }
 

@@ -11,6 +11,23 @@ namespace {
 
 constexpr int layer_colors_unit = 5, layer_depths_unit = 6;
 
+// For a number of layers.
+struct BlendProgram {
+    std::string definition;  // read by the compiler alone, but must live as long as its call
+    Program program;
+    GLint depth_from_w = program.uniform("depth_from_w");
+    GLint picture_corner = program.uniform("picture_corner");
+    GLint presence = program.uniform("presence");
+
+    explicit BlendProgram(int layers)
+        : definition("#define LAYERS " + std::to_string(layers)),
+          program(make_cloud_program({"full_picture.vert"},
+                                     {"output.glsl", definition, "blend.frag"})) {
+        program.set_sampler("layer_colors", layer_colors_unit);
+        program.set_sampler("layer_depths", layer_depths_unit);
+    }
+};
+
 class BlendPass final : public CloudPass {
 public:
     BlendPass()
@@ -18,16 +35,8 @@ public:
               {"cloud.glsl", "surface_read.glsl", "alignment.glsl", "shown.glsl", "set_back.glsl",
                "mesh.vert"},
               {"cloud.glsl", "color.glsl", "torn.glsl", "fade.glsl", "blend_layer.frag"})),
-          blend_program_(make_cloud_program({"full_picture.vert"}, {"output.glsl", "blend.frag"})),
           columns_(layer_program_.uniform("columns")),
-          first_camera_(layer_program_.uniform("first_camera")),
-          layer_count_(blend_program_.uniform("layer_count")),
-          depth_from_w_(blend_program_.uniform("depth_from_w")),
-          picture_corner_(blend_program_.uniform("picture_corner")),
-          presence_(blend_program_.uniform("presence")) {
-        blend_program_.set_sampler("layer_colors", layer_colors_unit);
-        blend_program_.set_sampler("layer_depths", layer_depths_unit);
-    }
+          first_camera_(layer_program_.uniform("first_camera")) {}
 
     void prepare(const CloudFrame& frame) override { surfaces_.update(frame.textures); }
 
@@ -42,6 +51,8 @@ private:
         if (colors_ && size == size_ && count == count_)
             return;
         size_ = size;
+        if (count != count_)
+            blend_program_.emplace(count);
         count_ = count;
         glActiveTexture(GL_TEXTURE0 + layer_colors_unit);  // the others are in use
         colors_ = make_texture_array(GL_RGBA8, size, count, GL_NEAREST);
@@ -80,11 +91,11 @@ private:
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glViewport(target.x, target.y, target.size.width, target.size.height);
         bind_layers(colors_->name(), depths_->name());
-        blend_program_.use();
-        glUniform1i(layer_count_, count_);
-        set_depth_from_w(frame.view, depth_from_w_);
-        glUniform2i(picture_corner_, target.x, target.y);
-        glUniform1fv(presence_, GLsizei(presence.size()), presence.data());
+        const BlendProgram& p = *blend_program_;
+        p.program.use();
+        set_depth_from_w(frame.view, p.depth_from_w);
+        glUniform2i(p.picture_corner, target.x, target.y);
+        glUniform1fv(p.presence, GLsizei(presence.size()), presence.data());
         if (!all_present) {
             glEnable(GL_BLEND);
             glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
@@ -102,9 +113,9 @@ private:
         glActiveTexture(GL_TEXTURE0);
     }
 
-    Program layer_program_, blend_program_;
+    Program layer_program_;
+    std::optional<BlendProgram> blend_program_;
     GLint columns_, first_camera_;
-    GLint layer_count_, depth_from_w_, picture_corner_, presence_;
     SurfaceMaps surfaces_{SurfaceMaps::Kind::refined};
     Framebuffer framebuffer_;
     std::optional<Texture> colors_, depths_;

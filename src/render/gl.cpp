@@ -12,6 +12,8 @@ namespace theatron::render {
 namespace {
 
 ShaderPart find_part(std::string_view name) {
+    if (name.starts_with("#define "))
+        return {"definition", name};
     for (const ShaderFile& file : embedded_shaders())
         if (file.name == name)
             return {file.name, file.text};

@@ -85,7 +85,8 @@ using Buffer = GlObject<BufferKind>;
 using VertexArray = GlObject<VertexArrayKind>;
 using Framebuffer = GlObject<FramebufferKind>;
 
-// One shader made of several files, each seen by the compiler after the other.
+// One shader made of several files, each seen by the compiler after the other. Instead of a
+// file's name a line "#define ..." may stand.
 using ShaderFiles = std::initializer_list<std::string_view>;
 
 // A linked program. Uniform blocks and samplers are bound by the caller.

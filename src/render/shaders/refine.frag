@@ -8,8 +8,8 @@ uniform bool has_before;
 
 layout(location = 0) out uint out_depth;
 
-const int reach = 8;           // pixels, to either side of a gap
-const float widest_gap = 9.0;  // pixels, from side to side
+const int reach = 6;           // pixels, to either side of a gap
+const float widest_gap = 10.0;  // pixels, from side to side
 
 // The nearest depth that was measured along `direction`, and how many pixels away; 0, 0: none.
 vec2 nearest_along(ivec2 pixel, ivec2 direction) {
@@ -21,25 +21,25 @@ vec2 nearest_along(ivec2 pixel, ivec2 direction) {
     return vec2(0.0);
 }
 
-// Between the two sides of a gap along `axis`: depth, and the gap's width.
+// Between the two sides of a gap along `axis`: depth, and the gap's width; 0 if there is none.
 vec2 across(ivec2 pixel, ivec2 axis) {
-    vec2 after = nearest_along(pixel, axis), before = nearest_along(pixel, -axis);
-    float width = (after.y + before.y) * length(vec2(axis));
+    const vec2 none = vec2(0.0, 1e6);
+    vec2 after = nearest_along(pixel, axis);
+    if (after.x == 0.0)
+        return none;
+    vec2 before = nearest_along(pixel, -axis);
+    float steps = after.y + before.y;
+    if (before.x == 0.0 || steps > widest_gap + 1.0)
+        return none;
     float limit = largest_step(footprint_m(camera, max(after.x, before.x)));
-    if (after.x == 0.0 || before.x == 0.0 || after.y + before.y > widest_gap + 1.0 ||
-        abs(after.x - before.x) > limit * (1.0 + 0.25 * width))
-        return vec2(0.0, 1e6);
-    return vec2(mix(before.x, after.x, before.y / (before.y + after.y)), width);
+    if (abs(after.x - before.x) > limit * (1.0 + 0.25 * steps))
+        return none;
+    return vec2(mix(before.x, after.x, before.y / steps), steps);
 }
 
 float filled(ivec2 pixel) {
-    vec2 best = vec2(0.0, 1e6);
-    for (int i = 0; i < 4; ++i) {
-        vec2 line = across(pixel, ivec2[4](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1))[i]);
-        if (line.y < best.y)
-            best = line;
-    }
-    return best.x;
+    vec2 along_row = across(pixel, ivec2(1, 0)), along_column = across(pixel, ivec2(0, 1));
+    return along_row.y < along_column.y ? along_row.x : along_column.x;
 }
 
 // Light of two surfaces in one pixel pulls the rim of the nearer one back: there the surface is
