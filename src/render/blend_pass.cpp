@@ -3,6 +3,10 @@
 // last pass averages the layers where they show the same surface. After the idea of
 // BlendPCR (Mühlenbrock, Weller, Zachmann 2024): blend in screen space, by quality and by
 // closeness to an edge, instead of building a common mesh.
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "render/cloud_passes.h"
 #include "render/color_visibility.h"
 
