@@ -8,8 +8,8 @@ uniform bool has_before;
 
 layout(location = 0) out uint out_depth;
 
-const int reach = 6;           // pixels, to either side of a gap
-const float widest_gap = 10.0;  // pixels, from side to side
+const int reach = 8;           // pixels, to either side of a gap
+const float widest_gap = 9.0;  // pixels, from side to side
 
 // The nearest depth that was measured along `direction`, and how many pixels away; 0, 0: none.
 vec2 nearest_along(ivec2 pixel, ivec2 direction) {
@@ -31,15 +31,21 @@ vec2 across(ivec2 pixel, ivec2 axis) {
     float steps = after.y + before.y;
     if (before.x == 0.0 || steps > widest_gap + 1.0)
         return none;
+    float width = steps * length(vec2(axis));
     float limit = largest_step(footprint_m(camera, max(after.x, before.x)));
-    if (abs(after.x - before.x) > limit * (1.0 + 0.25 * steps))
+    if (abs(after.x - before.x) > limit * (1.0 + 0.25 * width))
         return none;
-    return vec2(mix(before.x, after.x, before.y / steps), steps);
+    return vec2(mix(before.x, after.x, before.y / steps), width);
 }
 
 float filled(ivec2 pixel) {
-    vec2 along_row = across(pixel, ivec2(1, 0)), along_column = across(pixel, ivec2(0, 1));
-    return along_row.y < along_column.y ? along_row.x : along_column.x;
+    vec2 best = vec2(0.0, 1e6);
+    for (int i = 0; i < 4; ++i) {
+        vec2 line = across(pixel, ivec2[4](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1))[i]);
+        if (line.y < best.y)
+            best = line;
+    }
+    return best.x;
 }
 
 // Light of two surfaces in one pixel pulls the rim of the nearer one back: there the surface is
