@@ -279,7 +279,7 @@ void add_view(CLI::App& bench) {
     struct Flags {
         ViewBenchOptions scene;
         std::vector<std::string> renderers;
-        std::string pictures, json;
+        std::string filter = "default", pictures, json;
     };
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = bench.add_subcommand(
@@ -295,6 +295,8 @@ void add_view(CLI::App& bench) {
                      "How far the cameras' exposures differ, in stops")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--filter", flags->filter, "Of all cameras: off, paper, default or a line")
+        ->capture_default_str();
     command->add_option("--detail", flags->scene.detail, "Of the generated room, 0.3 to 1")
         ->capture_default_str()
         ->check(CLI::Range(0.3, 1.0));
@@ -304,14 +306,22 @@ void add_view(CLI::App& bench) {
     command->callback([flags] {
         for (const std::string& renderer : flags->renderers)
             render::check_renderer_name(renderer);
+        const filter::ParsedChain filter = filter::parse_chain(flags->filter);
+        if (!filter.problem.empty())
+            throw Error(filter.problem);
+        if (filter.settings.needs_background())
+            throw Error("The generated room has no recorded background; leave out 'background'.");
+        flags->scene.filter = filter.settings;
         const capture::Progress progress = show_progress();
         const ViewBenchScene scene = make_view_bench_scene(flags->scene, progress);
         nlohmann::json r = bench_view(scene, flags->renderers, flags->pictures, progress);
         r["exposure_stops"] = flags->scene.exposure_stops;
+        r["filter"] = flags->filter;
         report(r, flags->json, [&] {
-            std::printf("%s, %dx%d, %d camera(s), %d views\n",
+            std::printf("%s, %dx%d, %d camera(s), %d views, filters: %s\n",
                         r["gl_renderer"].get<std::string>().c_str(), r["width"].get<int>(),
-                        r["height"].get<int>(), r["cameras"].get<int>(), r["views"].get<int>());
+                        r["height"].get<int>(), r["cameras"].get<int>(), r["views"].get<int>(),
+                        flags->filter.c_str());
             std::printf("  %-8s %8s %10s %6s %8s %11s %9s %13s %12s\n", "renderer", "PSNR dB",
                         "in overlap", "SSIM", "holes %", "outline px", "flicker", "patterned dB",
                         "depth-sized");

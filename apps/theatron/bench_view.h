@@ -10,7 +10,7 @@
 
 namespace theatron::app {
 
-// Draws the scene's noisy, coded images from its places, with each renderer (none: all
+// Draws the scene's noisy, filtered, coded images from its places, with each renderer (none: all
 // there are), and compares with the exact pictures. Returns {gl_renderer, cameras, views, width,
 // height, renderers: [{name, psnr_db, psnr_overlap_db, ssim, holes_percent, silhouette_px,
 // flicker_overlap, psnr_patterned_db, psnr_patterned_depth_sized_db}]}.

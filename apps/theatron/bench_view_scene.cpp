@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "codec/depth_codec.h"
+#include "filter/chain.h"
 #include "geometry/ray_table.h"
 #include "synthetic/operating_room.h"
 #include "synthetic/sensor_model.h"
@@ -88,30 +89,29 @@ void for_each_of(std::size_t count, const Work& work) {
     other.join();
 }
 
-// Depth and colour as the sensors give them, then through the codecs that are used by default.
+// So many frames the filters have seen before the first that counts: a running host's
+// filters are settled.
+constexpr unsigned settling_frames = 20, first_settling_frame = 1000;
+
+// Depth and colour as the sensors give them, then through the filters and the codecs that are
+// used by default.
 class SensorAndCodecs {
 public:
     SensorAndCodecs(const ViewBenchOptions& options, const Calibration& calibration, unsigned seed)
         : options_(options),
           seed_(seed),
           depth_(synthetic::nfov_unbinned(), calibration.depth.size, seed),
+          filters_(options.filter,
+                   {.size = calibration.depth.size, .depth_unit_mm = calibration.depth_unit_mm}),
           rays_(make_ray_table(calibration.depth)) {}
 
+    // For frames in their order.
     DepthImage depth(const GroundTruth& truth, unsigned frame) {
-        const Size size = truth.depth_m.size;
-        Image<float> cosine(size), reflectivity(size), specular(size);
-        for (std::size_t i = 0; i < rays_.pixels.size(); ++i) {
-            const synthetic::SurfaceSample& s = truth.surface.pixels[i];
-            const Ray r = rays_.pixels[i];
-            const float along = -(s.nx * r.x + s.ny * r.y + s.nz);
-            cosine.pixels[i] = std::max(along / std::sqrt(r.x * r.x + r.y * r.y + 1), 0.0f);
-            reflectivity.pixels[i] = s.infrared;
-            specular.pixels[i] = s.specular;
-        }
-        DepthImage measured(size);
-        depth_.capture({truth.depth_m.view(), reflectivity.view(), cosine.view(), specular.view()},
-                       frame, measured.view());
-        return transported(measured);
+        if (!settled_ && !filters_.off())
+            for (unsigned before = 0; before < settling_frames; ++before)
+                filtered(measured(truth, first_settling_frame + before));
+        settled_ = true;
+        return transported(filtered(measured(truth, frame)));
     }
 
     ColorImage color(const GroundTruth& truth, unsigned frame) const {
@@ -132,6 +132,29 @@ public:
     }
 
 private:
+    DepthImage measured(const GroundTruth& truth, unsigned frame) {
+        const Size size = truth.depth_m.size;
+        Image<float> cosine(size), reflectivity(size), specular(size);
+        for (std::size_t i = 0; i < rays_.pixels.size(); ++i) {
+            const synthetic::SurfaceSample& s = truth.surface.pixels[i];
+            const Ray r = rays_.pixels[i];
+            const float along = -(s.nx * r.x + s.ny * r.y + s.nz);
+            cosine.pixels[i] = std::max(along / std::sqrt(r.x * r.x + r.y * r.y + 1), 0.0f);
+            reflectivity.pixels[i] = s.infrared;
+            specular.pixels[i] = s.specular;
+        }
+        DepthImage depth(size);
+        depth_.capture({truth.depth_m.view(), reflectivity.view(), cosine.view(), specular.view()},
+                       frame, depth.view());
+        return depth;
+    }
+
+    DepthImage filtered(const DepthImage& depth) {
+        DepthImage clean(depth.size);
+        filters_.apply(depth.view(), clean.view(), std::chrono::microseconds(33333));
+        return clean;
+    }
+
     static DepthImage transported(const DepthImage& depth) {
         const auto codec = codec::make_depth_codec(codec::parse_depth_setting("strata").setting);
         Bytes bytes(codec->max_encoded_size(depth.size));
@@ -145,6 +168,8 @@ private:
     const ViewBenchOptions& options_;
     unsigned seed_;
     synthetic::DepthSensor depth_;
+    filter::Chain filters_;
+    bool settled_ = false;
     Image<Ray> rays_;
 };
 

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "capture/camera.h"
+#include "filter/chain_settings.h"
 #include "geometry/calibration.h"
 #include "image/image.h"
 #include "render/camera_view.h"
 
 namespace theatron::app {
 
-// One camera's calibration and what a viewer has of it after sensor noise and codecs.
+// One camera's calibration and what a viewer has of it after sensor noise, filters and codecs.
 struct ViewBenchCamera {
     Calibration calibration;
     Image<float> exact_depth_m;
@@ -40,6 +41,7 @@ struct ViewBenchOptions {
     double exposure_stops = 0.12;  // standard deviation between cameras
     double detail = 1;             // of the generated room
     double seconds = 3;            // the moment
+    filter::ChainSettings filter;  // of the hosts' depth; without background
 };
 
 struct ViewBenchScene {

@@ -17,6 +17,7 @@ struct Flags {
     std::string ply, png, k4a;
     std::optional<int> camera;
     bool merged = false;
+    bool undistort = false;
     bool json = false;
 };
 
@@ -41,6 +42,8 @@ void run(const Flags& flags) {
         throw Error("Say into what to export: --ply DIR, --png DIR or --k4a FILE.mkv.");
     if (flags.merged && flags.ply.empty())
         throw Error("Only points can be merged; --merged goes with --ply.");
+    if (flags.undistort && flags.png.empty())
+        throw Error("Only pictures can be undistorted; --undistort goes with --png.");
     const auto report = [&](const char* what, std::size_t count, const std::string& place) {
         if (flags.json)
             std::cout << nlohmann::json{{"format", what}, {"count", count}, {"path", place}}.dump()
@@ -55,7 +58,7 @@ void run(const Flags& flags) {
     }
     if (!flags.png.empty()) {
         ExportSource source = open_source(flags);
-        report("png", export_png(source, flags.png), flags.png);
+        report("png", export_png(source, flags.png, flags.undistort), flags.png);
     }
     if (!flags.k4a.empty()) {
         ExportSource source = open_source(flags);
@@ -74,6 +77,7 @@ void add_export_command(CLI::App& app) {
         "\nExamples:\n"
         "  theatron export operation.mkv --ply points --merged\n"
         "  theatron export operation.mkv --png pictures --camera 1\n"
+        "  theatron export operation.mkv --png for_others --undistort\n"
         "  theatron host --camera folder:pictures,loop=1\n"
         "  theatron export operation.mkv --camera 0 --k4a kinect.mkv");
     command->add_option("file", flags->file, "The recording")->required();
@@ -83,6 +87,9 @@ void add_export_command(CLI::App& app) {
     command->add_option("--png", flags->png,
                         "Write depth and colour pictures into this folder, as folder:DIR reads "
                         "them");
+    command->add_flag("--undistort", flags->undistort,
+                      "With --png: pictures as lenses without distortion would give them, for "
+                      "programs that know no other; each depth pixel is the nearest one");
     command->add_option("--k4a", flags->k4a,
                         "Write a file like an Azure Kinect's, as mkv:FILE reads it");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")

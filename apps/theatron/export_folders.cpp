@@ -3,12 +3,14 @@
 #include <cstdio>
 #include <deque>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "capture/folder_calibration.h"
 #include "export_formats.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
+#include "filter/undistort.h"
 #include "geometry/ply.h"
 #include "video/jpeg_native.h"
 
@@ -58,6 +60,47 @@ private:
     Image<Ray> rays_;
     video::JpegDecompressor jpeg_;
     ColorImage color_;
+};
+
+// One camera's pictures without the distortion of its lenses.
+class Straightener {
+public:
+    explicit Straightener(const Calibration& calibration)
+        : straight_(without_distortion(calibration)),
+          depth_lens_(calibration.depth, straight_.depth),
+          color_lens_(calibration.color, straight_.color),
+          depth_(calibration.depth.size),
+          color_(calibration.color.size) {}
+
+    const Calibration& calibration() const { return straight_; }
+
+    // Valid until the next call.
+    DepthView depth(const Frame& frame) {
+        depth_lens_.apply(frame.depth.view(), depth_.view());
+        return std::as_const(depth_).view();
+    }
+    ColorView color(const Frame& frame) {
+        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
+            throw Error("A colour picture of the recording is damaged.");
+        const ColorImage& from = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
+        if (from.size != color_.size)
+            throw Error("The recording's colour changes its size, so it cannot be undistorted.");
+        color_lens_.apply(from.view(), color_.view());
+        return std::as_const(color_).view();
+    }
+
+private:
+    static Calibration without_distortion(Calibration calibration) {
+        calibration.depth = filter::without_distortion(calibration.depth);
+        calibration.color = filter::without_distortion(calibration.color);
+        return calibration;
+    }
+
+    Calibration straight_;
+    filter::Undistortion depth_lens_, color_lens_;
+    video::JpegDecompressor jpeg_;
+    DepthImage depth_;
+    ColorImage color_, decoded_;
 };
 
 class ProgressOfAll {
@@ -135,7 +178,7 @@ std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged
     return files;
 }
 
-std::size_t export_png(ExportSource& source, const fs::path& folder) {
+std::size_t export_png(ExportSource& source, const fs::path& folder, bool undistort) {
     ProgressOfAll progress(source);
     Frame frame;
     std::size_t frames = 0;
@@ -146,12 +189,19 @@ std::size_t export_png(ExportSource& source, const fs::path& folder) {
         const Calibration& calibration = camera.info().calibration;
         const bool has_color = calibration.color.size != Size{};
         const fs::path color = has_color ? make_folder(own / "color") : fs::path();
+        std::optional<Straightener> straight;
+        if (undistort)
+            straight.emplace(calibration);
         files::write_file(own / "calibration.json",
-                          as_bytes(capture::write_folder_calibration(calibration)));
+                          as_bytes(capture::write_folder_calibration(
+                              straight ? straight->calibration() : calibration)));
         for (std::size_t n = 0; camera.offset(); ++n, ++frames) {
             camera.read(frame);
-            files::write_png(depth / numbered(n, ".png"), frame.depth.view());
-            if (frame.color.is_jpeg())
+            files::write_png(depth / numbered(n, ".png"),
+                             straight ? straight->depth(frame) : frame.depth.view());
+            if (straight && !frame.color.empty())
+                files::write_png(color / numbered(n, ".png"), straight->color(frame));
+            else if (frame.color.is_jpeg())
                 files::write_file(color / numbered(n, ".jpg"), frame.color.jpeg);
             else if (!frame.color.empty())
                 files::write_png(color / numbered(n, ".png"), frame.color.pixels.view());

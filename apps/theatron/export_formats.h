@@ -21,8 +21,9 @@ struct ExportSource {
 // DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply; `merged`: one file for each
 // moment with the points of all cameras, in the room.
 std::size_t export_ply(ExportSource& source, const std::filesystem::path& folder, bool merged);
-// The layout of folder:DIR, for several cameras in DIR/camera-0 and so on.
-std::size_t export_png(ExportSource& source, const std::filesystem::path& folder);
+// The layout of folder:DIR, for several cameras in DIR/camera-0 and so on; `undistort`:
+// pictures and calibration of lenses without distortion.
+std::size_t export_png(ExportSource& source, const std::filesystem::path& folder, bool undistort);
 // An Azure Kinect's recording, of one camera.
 std::size_t export_k4a(ExportSource& source, const std::filesystem::path& file);
 

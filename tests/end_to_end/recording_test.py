@@ -55,6 +55,10 @@ class Recording(unittest.TestCase):
                               self.folder / "kinect.mkv", "--ply", self.folder / "ply")
         self.assertEqual(code, 0, errors)
         self.assert_same_depth(self.folder / "png")
+        # The source's lens has no distortion, so nothing moves.
+        code, _, errors = run("export", self.folder / "a.mkv", "--png", self.folder / "straight", "--undistort")
+        self.assertEqual(code, 0, errors)
+        self.assert_same_depth(self.folder / "straight")
         code, _, errors = run("record", "--camera", f"folder:{self.source}", self.folder / "a.mkv")
         self.assertEqual(code, 1)
         self.assertIn("exists already", errors)
