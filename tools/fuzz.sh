@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs every fuzz target for SECONDS, starting from tests/corpus/TARGET.
+# Runs every fuzz target for SECONDS, starting from tests/corpus/TARGET (chosen by hand) and
+# tests/corpus/TARGET.tar.gz (what longer runs found, minimised).
 # Usage: fuzz.sh [SECONDS [TARGET...]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,6 +17,7 @@ for target in "${targets[@]}"; do
     binary=$(find build/fuzz -type f -name "$target" -perm -u+x | head -n 1)
     found=build/fuzz/corpus/$target
     mkdir -p "$found"
+    [ -f "tests/corpus/$target.tar.gz" ] && tar -xzf "tests/corpus/$target.tar.gz" -C "$found"
     seeds=()
     [ -d "tests/corpus/$target" ] && seeds=("tests/corpus/$target")
     printf '%-28s' "$target"
