@@ -21,8 +21,9 @@ struct Figures {
     double frames_per_second = 0;
     std::uint64_t bytes = 0;
     std::uint64_t key_frames = 0;
-    std::uint64_t missing = 0;  // frames that were made but not recorded
-    std::uint64_t gaps = 0;     // pauses of more than one and a half periods
+    std::uint64_t filtered = 0;  // frames that went through filters before they were encoded
+    std::uint64_t missing = 0;   // frames that were made but not recorded
+    std::uint64_t gaps = 0;      // pauses of more than one and a half periods
     double longest_gap_ms = 0;
 };
 
@@ -32,6 +33,7 @@ Figures figures_of(const record::StreamContent& stream, double nominal_fps) {
         const wire::MediaHeader& header = stream.frames[i].header;
         f.bytes += header.payload_size;
         f.key_frames += header.key;
+        f.filtered += header.filtered != TimePoint{};
         if (i == 0)
             continue;
         const wire::MediaHeader& before = stream.frames[i - 1].header;
@@ -57,6 +59,7 @@ Json describe(const record::StreamContent& stream, double nominal_fps) {
             {"height", stream.height},
             {"frames", stream.frames.size()},
             {"key_frames", f.key_frames},
+            {"filtered", f.filtered},
             {"bytes", f.bytes},
             {"seconds", f.seconds},
             {"fps", f.frames_per_second},
@@ -126,6 +129,13 @@ void print_stream(const char* what, const Json& stream) {
               double(stream["longest_gap_ms"]));
 }
 
+// Lossless coding of what was filtered before is not what the sensor gave.
+void print_filtering(const Json& depth) {
+    if (depth["filtered"] > 0)
+        print("          %llu of them went through the host's filters\n",
+              (unsigned long long)depth["filtered"]);
+}
+
 void print_calibration(const Json& calibration) {
     if (calibration.contains("problem")) {
         print("  calibration is %s\n", std::string(calibration["problem"]).c_str());
@@ -156,6 +166,7 @@ void run(const std::string& file, bool as_json) {
     for (const Json& camera : json["cameras"]) {
         print("camera %d: %s\n", int(camera["camera"]), std::string(camera["name"]).c_str());
         print_stream("depth", camera["depth"]);
+        print_filtering(camera["depth"]);
         if (camera.contains("color"))
             print_stream("colour", camera["color"]);
         print_calibration(camera["calibration"]);

@@ -75,7 +75,7 @@ class Recording(unittest.TestCase):
 
     def test_a_session_is_recorded_as_it_comes(self):
         with host(self.folder / "state", f"folder:{self.source},loop=1", f"folder:{self.source},loop=1",
-                  options=("--filter", "off")) as h:
+                  options=("--filter", "off", "--filter", "0=kalman")) as h:
             code, out, errors = run("record", h.greeting["link"], self.folder / "session.mkv", "--seconds", 1,
                                     "--json", "--depth-codec", "trvl")
             self.assertEqual(code, 0, errors)
@@ -83,6 +83,7 @@ class Recording(unittest.TestCase):
         self.assertTrue(seen["complete"])
         self.assertEqual([c["depth"]["codec"] for c in seen["cameras"]], ["trvl", "trvl"])
         self.assertGreater(min(c["depth"]["frames"] for c in seen["cameras"]), 5)
+        self.assertEqual([c["depth"]["filtered"] for c in seen["cameras"]], [seen["cameras"][0]["depth"]["frames"], 0])
         code, _, errors = run("export", self.folder / "session.mkv", "--camera", 1, "--png", self.folder / "png")
         self.assertEqual(code, 0, errors)
         originals = [read_png(self.source / "depth" / f"{n:05}.png") for n in range(FRAMES)]
