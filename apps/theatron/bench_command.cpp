@@ -13,6 +13,7 @@
 #include "bench_pipeline.h"
 #include "bench_plot.h"
 #include "bench_render.h"
+#include "bench_report.h"
 #include "bench_sequence.h"
 #include "bench_view.h"
 #include "camera_option.h"
@@ -27,22 +28,6 @@
 
 namespace theatron::app {
 namespace {
-
-// Prints a result as a table, and writes it to `file` or, for "-", as JSON.
-void report(const nlohmann::json& result, const std::string& file,
-            const std::function<void()>& print_table) {
-    if (file == "-") {
-        std::cout << result.dump(2) << std::endl;
-        return;
-    }
-    print_table();
-    if (file.empty())
-        return;
-    std::ofstream out(file);
-    out << result.dump(2) << "\n";
-    if (!out.flush())
-        throw Error("Cannot write " + file + ".");
-}
 
 // How far a lossy codec's result is from its input.
 std::string likeness(const nlohmann::json& codec) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/statistics.h"
 #include "bench_filter_yardstick.h"
 #include "filter/chain.h"
 #include "filter/stage_rules.h"
@@ -17,12 +18,6 @@ namespace theatron::app {
 namespace {
 
 using filter::DepthPlane;
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 template <class Work>
 double elapsed_ms(Work work) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron bench filter
 #include <cstdio>
-#include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/error.h"
 #include "bench_filter.h"
+#include "bench_report.h"
 #include "bench_sequence.h"
 #include "progress.h"
 
@@ -22,15 +21,6 @@ struct Flags {
     bool room = false;
     std::vector<std::string> filters;
 };
-
-void write(const nlohmann::json& result, const std::string& file) {
-    if (file.empty())
-        return;
-    std::ofstream out(file);
-    out << result.dump(2) << "\n";
-    if (!out.flush())
-        throw Error("Cannot write " + file + ".");
-}
 
 void print_times(const nlohmann::json& result) {
     std::printf("%dx%d, one thread\n", result["width"].get<int>(), result["height"].get<int>());
@@ -95,24 +85,14 @@ nlohmann::json quality_of(const Flags& flags) {
 void run(const Flags& flags) {
     if (flags.quality) {
         const nlohmann::json chains = quality_of(flags);
-        if (flags.json == "-")
-            std::cout << chains.dump(2) << std::endl;
-        else
-            print_quality(chains);
-        if (flags.json != "-")
-            write(chains, flags.json);
+        report(chains, flags.json, [&] { print_quality(chains); });
         return;
     }
     const std::vector<DepthImage> frames =
         flags.folder.empty() ? rocking_person(flags.frames).measured
                              : load_sequence(flags.folder, false, flags.frames).depth;
     const nlohmann::json result = bench_filter(frames);
-    if (flags.json == "-")
-        std::cout << result.dump(2) << std::endl;
-    else
-        print_times(result);
-    if (flags.json != "-")
-        write(result, flags.json);
+    report(result, flags.json, [&] { print_times(result); });
 }
 
 }  // namespace

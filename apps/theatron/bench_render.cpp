@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/statistics.h"
 #include "geometry/camera_model.h"
 #include "render/ball_scene.h"
 #include "render/cloud_scene.h"
@@ -22,12 +23,6 @@ using render::CloudScene;
 using render::Picture;
 
 constexpr Rgb black{};
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // Milliseconds until the GPU has done what `work` asks for.
 template <class Work>

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/targets.h>
 #include <algorithm>
 #include <random>
 #include <string>
@@ -13,6 +12,7 @@
 #include "codec/strata_reference.h"
 #include "codec/strata_values.h"
 #include "codec/test_images.h"
+#include "testing/every_target.h"
 
 namespace theatron::codec {
 namespace {
@@ -116,7 +116,7 @@ TEST(Strata, RoundTripsAnyImageOfAnySize) {
     const Size sizes[] = {{1, 1},    {1, 7},    {7, 1},   {31, 33},
                           {129, 32}, {200, 70}, {640, 3}, {3, 300}};
     for (const Size size : sizes) {
-        SCOPED_TRACE(testing::Message() << size.width << " x " << size.height);
+        SCOPED_TRACE(::testing::Message() << size.width << " x " << size.height);
         Chain chain;
         for (unsigned frame = 0; frame < 3; ++frame) {
             for (const DepthImage& image :
@@ -336,20 +336,9 @@ struct Planes {
     TokenCounts counts;
 };
 
-// Runs `test` once per instruction set of this machine.
-template <class Test>
-void on_every_target(Test test) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        SCOPED_TRACE(hwy::TargetName(target));
-        test();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-}
-
 TEST(StrataKernel, EveryTargetEqualsTheReference) {
     const Weights weights = {9000, -3000, 4000, -2000, 1000, 500, 12000, -4000, -3000, 2000, 1500};
-    on_every_target([&] {
+    testing::on_every_target([&] {
         for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}}) {
             for (const bool blend : {false, true}) {
                 Planes first(size), second(size);
@@ -383,7 +372,7 @@ TEST(StrataKernel, EveryTargetEqualsTheReference) {
 }
 
 TEST(StrataKernel, EveryTargetCountsTheTokensAndMarksFurtherBits) {
-    on_every_target([&] {
+    testing::on_every_target([&] {
         for (const Size size : {Size{1, 1}, Size{160, 70}}) {
             Planes planes(size);
             planes.encode(scene(size, 3), nullptr, {}, true);
@@ -409,7 +398,7 @@ TEST(StrataKernel, EveryTargetCountsTheTokensAndMarksFurtherBits) {
 TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
     std::vector<Bytes> encoded;
     const DepthImage images[] = {scene({170, 66}, 0), scene({170, 66}, 1), noise({170, 66}, 2)};
-    on_every_target([&] {
+    testing::on_every_target([&] {
         Chain lossless, lossy({6, 1});
         lossy.encoder->set_region({box(20, 10, 60, 50)});
         std::vector<Bytes> now;
@@ -423,7 +412,7 @@ TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
             encoded = now;
     });
     // What one target wrote, the others read.
-    on_every_target([&] {
+    testing::on_every_target([&] {
         const auto decoder = make_strata({});
         Reference reference, next;
         for (std::size_t i = 0; i < encoded.size(); ++i) {

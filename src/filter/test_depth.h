@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: depth images like those of a sensor, and loops over instruction sets.
+// For tests: depth images like those of a sensor.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <hwy/targets.h>
 #include <random>
 
 #include "filter/depth_plane.h"
 #include "image/image.h"
+#include "testing/every_target.h"
 
 namespace theatron {
 
@@ -21,16 +21,7 @@ inline void PrintTo(const Image<std::uint16_t>& image, std::ostream* out) {
 
 namespace filter {
 
-// Runs `test` once per instruction set of this machine.
-template <class Test>
-void on_every_target(Test test) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        SCOPED_TRACE(hwy::TargetName(target));
-        test();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-}
+using testing::on_every_target;
 
 inline DepthPlane plane_of(const DepthImage& image) {
     DepthPlane plane(image.size);

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/ssim_window.h"
+
 namespace theatron::render {
 namespace {
-
-double luma(Rgb p) {
-    return 0.299 * p.r + 0.587 * p.g + 0.114 * p.b;
-}
 
 bool lies_behind(int mm, int other_mm, int jump_mm) {
     return other_mm == 0 || other_mm > mm + jump_mm;
@@ -49,7 +47,6 @@ double SquaredError::psnr_db() const {
 
 void Similarity::add(ColorView drawn, ColorView exact, MaskView mask) {
     constexpr int side = 8, step = 2;
-    constexpr double c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255;
     const auto [width, height] = exact.size;
     Image<float> a(exact.size), b(exact.size);
     for (int y = 0; y < height; ++y)
@@ -60,25 +57,15 @@ void Similarity::add(ColorView drawn, ColorView exact, MaskView mask) {
     for (int y0 = 0; y0 + side <= height; y0 += step)
         for (int x0 = 0; x0 + side <= width; x0 += step) {
             int inside = 0;
-            double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+            SsimWindow window;
             for (int y = y0; y < y0 + side; ++y)
                 for (int x = x0; x < x0 + side; ++x) {
                     inside += mask.row(y)[x] != 0;
-                    const double va = a.view().row(y)[x], vb = b.view().row(y)[x];
-                    sa += va;
-                    sb += vb;
-                    saa += va * va;
-                    sbb += vb * vb;
-                    sab += va * vb;
+                    window.add(a.view().row(y)[x], b.view().row(y)[x]);
                 }
             if (inside < side * side / 2)
                 continue;
-            constexpr double n = side * side;
-            const double ma = sa / n, mb = sb / n;
-            const double vara = saa / n - ma * ma, varb = sbb / n - mb * mb;
-            const double covariance = sab / n - ma * mb;
-            sum_ += (2 * ma * mb + c1) * (2 * covariance + c2) /
-                    ((ma * ma + mb * mb + c1) * (vara + varb + c2));
+            sum_ += window.ssim();
             ++count_;
         }
 }

@@ -7,6 +7,7 @@
 #include "video/avc_stream.h"
 #include "video/color_codec.h"
 #include "video/h264_header.h"
+#include "video/test_psnr.h"
 
 namespace theatron::video {
 namespace {
@@ -25,15 +26,6 @@ ColorImage scene(Size size, int time) {
                                       std::uint8_t(value * 0.6)};
         }
     return image;
-}
-
-double psnr(const ColorImage& a, const ColorImage& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        for (const int d : {a.pixels[i].r - b.pixels[i].r, a.pixels[i].g - b.pixels[i].g,
-                            a.pixels[i].b - b.pixels[i].b})
-            sum += d * d;
-    return 10 * std::log10(255.0 * 255 * 3 * double(a.pixels.size()) / sum);
 }
 
 class H264 : public ::testing::Test {

@@ -10,6 +10,7 @@
 #include "video/color_raw.h"
 #include "video/jpeg_header.h"
 #include "video/jpeg_native.h"
+#include "video/test_psnr.h"
 
 namespace theatron::video {
 namespace {
@@ -56,15 +57,6 @@ ColorImage scene(Size size) {
                                       std::uint8_t(90 + wave / 3 + grain)};
         }
     return image;
-}
-
-double psnr(const ColorImage& a, const ColorImage& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        for (const int d : {a.pixels[i].r - b.pixels[i].r, a.pixels[i].g - b.pixels[i].g,
-                            a.pixels[i].b - b.pixels[i].b})
-            sum += d * d;
-    return 10 * std::log10(255.0 * 255 * 3 * double(a.pixels.size()) / sum);
 }
 
 ColorData pixels(ColorImage image) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_report.h"
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace theatron::app {
+
+void report(const nlohmann::json& result, const std::string& file,
+            const std::function<void()>& print_table) {
+    if (file == "-") {
+        std::cout << result.dump(2) << std::endl;
+        return;
+    }
+    print_table();
+    if (file.empty())
+        return;
+    std::ofstream out(file);
+    out << result.dump(2) << "\n";
+    if (!out.flush())
+        throw Error("Cannot write " + file + ".");
+}
+
+}  // namespace theatron::app
