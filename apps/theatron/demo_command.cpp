@@ -24,6 +24,7 @@ namespace theatron::app {
 namespace {
 
 struct Flags {
+    std::string program;  // as it was called, for commands to copy
     std::vector<std::string> cameras = {"synthetic:camera=0,cameras=2",
                                         "synthetic:camera=1,cameras=2"};
     std::string out = "demo";
@@ -67,7 +68,7 @@ void run(const Flags& flags) {
                           {"as_splats.png", "splat", {CameraId{0}, -45, 5}}};
 
     std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
-              << "  theatron join '" << host.link() << "'\n\n"
+              << "  " << flags.program << " join '" << host.link() << "'\n\n"
               << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
@@ -95,8 +96,8 @@ void run(const Flags& flags) {
         }
     }
     std::cout << "\nThe demo has ended. Next, try your own camera:\n"
-                 "  theatron host --camera mkv:RECORDING.mkv,loop=1\n"
-                 "  theatron host --help\n";
+              << "  " << flags.program << " host --camera mkv:RECORDING.mkv,loop=1\n"
+              << "  " << flags.program << " host --help\n";
     if (!announced)
         throw Error("The demo ended before the first picture; give it more time with --seconds.");
 }
@@ -114,7 +115,10 @@ void add_demo_command(CLI::App& app) {
     command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
         ->capture_default_str();
     command->add_option("--seconds", flags->seconds, "End by itself after this time");
-    command->callback([flags] { run(*flags); });
+    command->callback([flags, &app] {
+        flags->program = app.get_name();
+        run(*flags);
+    });
 }
 
 }  // namespace theatron::app
