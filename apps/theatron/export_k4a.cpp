@@ -6,7 +6,7 @@
 #include "capture/azure_calibration.h"
 #include "export_formats.h"
 #include "record/matroska_writer.h"
-#include "video/jpeg_native.h"
+#include "video/jpeg_encoder_native.h"
 
 namespace theatron::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "files/png_file.h"
 #include "testing/shared_data.h"
 #include "testing/temporary_folder.h"
-#include "video/jpeg_native.h"
+#include "video/jpeg_encoder_native.h"
 
 namespace theatron::capture {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/steady_clock.h"
 #include "record/recorder.h"
 #include "testing/temporary_folder.h"
-#include "video/jpeg_native.h"
+#include "video/jpeg_encoder_native.h"
 
 namespace theatron::capture {
 namespace {

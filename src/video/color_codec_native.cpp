@@ -8,7 +8,7 @@
 #include "video/color_raw.h"
 #include "video/color_setting.h"
 #include "video/h264_native.h"
-#include "video/jpeg_native.h"
+#include "video/jpeg_encoder_native.h"
 #include "video/raw_codec.h"
 
 namespace theatron::video {

@@ -48,34 +48,4 @@ Status JpegDecompressor::decompress(ByteView jpeg, ColorImage& out) {
     return Status::ok;
 }
 
-struct JpegCompressor::Library {
-    tjhandle handle = tjInitCompress();
-    ~Library() { tjDestroy(handle); }
-};
-
-JpegCompressor::JpegCompressor(int quality, bool halve_chroma)
-    : library_(std::make_unique<Library>()), quality_(quality), halve_chroma_(halve_chroma) {
-    if (!library_->handle)
-        throw Error("libjpeg-turbo gives no encoder; is memory exhausted?");
-}
-
-JpegCompressor::~JpegCompressor() = default;
-
-ByteView JpegCompressor::compress(ColorView image) & {
-    const int subsampling = halve_chroma_ ? TJSAMP_420 : TJSAMP_444;
-    const auto [width, height] = image.size;
-    const std::size_t enough = tjBufSize(width, height, subsampling);
-    if (bytes_.size() < enough)
-        bytes_.resize(enough);
-    auto* to = reinterpret_cast<unsigned char*>(bytes_.data());
-    unsigned long used = static_cast<unsigned long>(bytes_.size());
-    const int failed =
-        tjCompress2(library_->handle, reinterpret_cast<const unsigned char*>(image.pixels), width,
-                    int(image.stride) * int(sizeof(Rgb)), height, TJPF_RGB, &to, &used, subsampling,
-                    quality_, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
-    // Valid pixels and a buffer of tjBufSize leave nothing that could fail.
-    assert(!failed);
-    return ByteView(bytes_).first(failed ? 0 : used);
-}
-
 }  // namespace theatron::video

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG pictures to pixels and back, with libjpeg-turbo. Native builds only.
+// JPEG pictures to pixels, with libjpeg-turbo. Native builds only.
 #pragma once
 
 #include <memory>
@@ -25,24 +25,6 @@ public:
 private:
     struct Library;
     std::unique_ptr<Library> library_;
-};
-
-// Encodes pictures one after the other. Not thread safe.
-class JpegCompressor {
-public:
-    // `quality`: 1 to 100. `halve_chroma`: 4:2:0 rather than 4:4:4.
-    JpegCompressor(int quality, bool halve_chroma);
-    ~JpegCompressor();
-
-    // The picture's bytes, valid until the next call.
-    ByteView compress(ColorView image) &;
-
-private:
-    struct Library;
-    std::unique_ptr<Library> library_;
-    int quality_;
-    bool halve_chroma_;
-    Bytes bytes_;
 };
 
 }  // namespace theatron::video
