@@ -215,15 +215,15 @@ std::uint8_t* encode_scan(ColorView image, bool halve_chroma, const ScanTables& 
                                    to.values[2 * i % 8], to.values[2 * i % 8 + 1], cb.values[i],
                                    cr.values[i]);
                 }
-                transform_row(y1, tile_width, factor[0], scale[0]);
+                transform_row<true>(y1, tile_width, factor[0], scale[0]);
             } else {
                 for (int i = 0; i < 8; ++i)
                     convert(rows.get(x, y + i, 0), y0.values[i], cb.values[i], cr.values[i]);
             }
-            transform_row(y0, tile_width, factor[0], scale[0]);
+            transform_row<true>(y0, tile_width, factor[0], scale[0]);
             const int chroma_width = halve_chroma ? tile_width / 2 : tile_width;
-            transform_row(cb, chroma_width, factor[1], scale[1]);
-            transform_row(cr, chroma_width, factor[1], scale[1]);
+            transform_row<false>(cb, chroma_width, factor[1], scale[1]);
+            transform_row<false>(cr, chroma_width, factor[1], scale[1]);
 
             const int units = (std::min(width - x, tile_width) + unit - 1) / unit;
             for (int i = 0; i < units; ++i) {

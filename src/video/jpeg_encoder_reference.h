@@ -62,8 +62,7 @@ private:
         transform_block(block);
         const int kind = component > 0;
         for (int i = 0; i < 64; ++i) {
-            const Divisor by = divisor_of(step_at(standard_steps[kind][i], quality_));
-            block[i] = mul15(mul15(block[i], by.factor), by.scale);
+            block[i] = divided(block[i], divisor_of(step_at(standard_steps[kind][i], quality_)));
         }
 
         const HuffmanCodes dc = codes_of(dc_tables[kind]), ac = codes_of(ac_tables[kind]);

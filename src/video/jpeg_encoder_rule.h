@@ -2,10 +2,14 @@
 // The arithmetic of our JPEG encoder, shared by its kernels and their reference:
 // numbers of 16 bits throughout, products rounded as the vector instructions do.
 //
-// Samples and coefficients carry fractions. A sample is 4 times its value. The
-// first pass of the transform keeps that scale, times the square root of 8; so
-// does the second, after which a coefficient is 32 times its value and still
-// fits: nothing in here ever overflows, whatever the picture.
+// Samples and coefficients carry fractions. A sample is 4 times its value. Each
+// pass of the transform keeps that scale, times the square root of 8; in the end
+// a coefficient is 32 times its value and still fits: nothing in here ever
+// overflows, whatever the picture.
+//
+// Luma, and chroma before it is averaged, are nevertheless rounded to whole
+// numbers first. Cameras' pictures have mostly been in that form before, and get
+// back exactly there, so that this removes more error than it makes.
 #pragma once
 
 #include <cassert>
@@ -31,17 +35,16 @@ constexpr std::int16_t halved(int n) {
     return std::int16_t(1 << (15 - n));
 }
 
-// Luma from channels of 256 times their value, in units of 2^-16; the sum is 1.
+// Luma from channels of 256 times their value, in units of 2^-16. Each product is
+// cut off, which the rounding makes up for.
 constexpr std::uint16_t luma_r = 19595, luma_g = 38470, luma_b = 7471;
-static_assert(luma_r + luma_g + luma_b == 65536);
-// The sum is cut off by less than 3, and is to be rounded by 2^6.
-constexpr unsigned luma_rounding = 33;
-constexpr int luma_middle = 128 * 4;
+static_assert(luma_r + luma_g + luma_b == 1 << 16);
+constexpr std::uint16_t luma_rounding = 128 + 1;
 
-// Chroma from channels of 128 times their value, or from four such pixels added
-// up, of 32 times theirs; the largest factor of each is one half.
-constexpr std::int16_t cb_r = 5529, cb_g = 10855, cr_g = 13720, cr_b = 2664;
-static_assert(cb_r + cb_g == 1 << 14 && cr_g + cr_b == 1 << 14);
+// Chroma likewise; the largest factor of each is one half.
+constexpr std::uint16_t cb_r = 11058, cb_g = 21710, cr_g = 27439, cr_b = 5329;
+static_assert(cb_r + cb_g == 1 << 15 && cr_g + cr_b == 1 << 15);
+constexpr std::uint16_t chroma_rounding = 128 - 1;
 
 // cos(k pi / 16) / sqrt(2) for odd k and k = 2, 6.
 constexpr std::int16_t c1 = in_q15(0.6935199226610737), c3 = in_q15(0.5879378012096793),
@@ -54,22 +57,22 @@ constexpr std::int16_t twice_c2_less_1 = in_q15(0.3065629648763766),
 constexpr int luma_of(Rgb p) {
     const unsigned sum =
         (p.r * 256u * luma_r >> 16) + (p.g * 256u * luma_g >> 16) + (p.b * 256u * luma_b >> 16);
-    return int((sum + luma_rounding) >> 6) - luma_middle;
+    return (int((sum + luma_rounding) >> 8) - 128) * 4;
 }
 
 struct ChromaSample {
     int cb, cr;
 };
 
-// Of one pixel, or of four.
 constexpr ChromaSample chroma_of(std::initializer_list<Rgb> pixels) {
-    int r = 0, g = 0, b = 0;
-    for (const Rgb p : pixels)
-        r += p.r, g += p.g, b += p.b;
-    const int scale = 128 / int(pixels.size());
-    r *= scale, g *= scale, b *= scale;
-    return {mul15((b >> 1) - mul15(r, cb_r) - mul15(g, cb_g), halved(5)),
-            mul15((r >> 1) - mul15(g, cr_g) - mul15(b, cr_b), halved(5))};
+    ChromaSample sum{};
+    for (const Rgb p : pixels) {
+        const int r = p.r * 256, g = p.g * 256, b = p.b * 256;
+        sum.cb += (b / 2 + chroma_rounding - (r * cb_r >> 16) - (g * cb_g >> 16)) >> 8;
+        sum.cr += (r / 2 + chroma_rounding - (g * cr_g >> 16) - (b * cr_b >> 16)) >> 8;
+    }
+    const int scale = 4 / int(pixels.size());
+    return {sum.cb * scale, sum.cr * scale};
 }
 
 // Eight values, `stride` apart, become their cosine transform.
@@ -131,5 +134,11 @@ constexpr Divisor divisor_of(int step) {
     return {std::int16_t(factor), halved(4 + digits)};
 }
 static_assert(divisor_of(1).factor == 1 << 14 && divisor_of(255).factor == 8224);
+
+// Rounded to the nearest, halves away from 0.
+constexpr int divided(int coefficient, Divisor by) {
+    const int fine = mul15(coefficient, by.factor);
+    return mul15(fine < 0 ? fine - 1 : fine, by.scale);
+}
 
 }  // namespace theatron::video::jpeg

@@ -52,8 +52,9 @@ inline void convert(const std::uint8_t* row, std::int16_t* y, std::int16_t* cb, 
     }
 }
 
-inline void transform_row(BlockRow& row, int width, const std::int16_t* factor,
-                          const std::int16_t* scale) {
+template <bool is_luma>
+void transform_row(BlockRow& row, int width, const std::int16_t* factor,
+                   const std::int16_t* scale) {
     for (int x = 0; x < width; x += 8) {
         int block[64];
         for (int i = 0; i < 64; ++i)
@@ -63,7 +64,7 @@ inline void transform_row(BlockRow& row, int width, const std::int16_t* factor,
             unsigned nonzero = 0;
             for (int y = 0; y < 8; ++y) {
                 const int at = 8 * column + y;
-                const int value = mul15(mul15(block[8 * y + column], factor[at]), scale[at]);
+                const int value = divided(block[8 * y + column], {factor[at], scale[at]});
                 row.values[column][x + y] = std::int16_t(value);
                 nonzero |= unsigned(value != 0) << y;
             }
@@ -80,123 +81,105 @@ using Pixels = hn::CappedTag<std::uint8_t, tile_width>;
 using Words = hn::Repartition<std::uint16_t, Pixels>;
 using Samples = hn::Repartition<std::int16_t, Pixels>;
 
-// From pixels to samples.
+// From pixels to samples. Luma is left as it is, from 0 to 255: that it is to be
+// centred and multiplied by 4 is cheaper to do in the transform.
 //
-// Vectors of bytes are widened by interleaving them with zeros, which is done per
-// 128 bits. Blocks are as wide, so only their order changes: first the even ones
-// of a vector, then the odd ones.
+// Even and odd pixels are treated apart, as the bytes of words. Interleaving them
+// again is done per 128 bits. Blocks are as wide, so only their order changes:
+// first the even ones of a vector of bytes, then the odd ones.
 
 HWY_INLINE int widened_block(int block) {
     const int count = int(hn::Lanes(Pixels())) / 8;
-    if (count < 2)
-        return block;
     const int in_vector = block % count;
     return block - in_vector + in_vector / 2 + in_vector % 2 * (count / 2);
 }
 
-template <class V>
-HWY_INLINE hn::Vec<Samples> luma(V r, V g, V b) {
+// Channels of every second pixel, times 256.
+struct Channels {
+    hn::Vec<Words> r, g, b;
+};
+
+HWY_INLINE void load_pixels(const std::uint8_t* from, Channels& even, Channels& odd) {
     const Words d;
-    const auto sum = hn::Add(hn::Add(hn::MulHigh(r, hn::Set(d, luma_r)),  //
-                                     hn::MulHigh(g, hn::Set(d, luma_g))),
-                             hn::Add(hn::MulHigh(b, hn::Set(d, luma_b)),  //
-                                     hn::Set(d, std::uint16_t(luma_rounding))));
-    return hn::Sub(hn::BitCast(Samples(), hn::ShiftRight<6>(sum)),
-                   hn::Set(Samples(), std::int16_t(luma_middle)));
+    hn::Vec<Pixels> r, g, b;
+    hn::LoadInterleaved3(Pixels(), from, r, g, b);
+    const auto first = [&](hn::Vec<Pixels> v)
+                           HWY_ATTR { return hn::ShiftLeft<8>(hn::BitCast(d, v)); };
+    const auto second = [&](hn::Vec<Pixels> v)
+                            HWY_ATTR { return hn::And(hn::BitCast(d, v), hn::Set(d, 0xff00)); };
+    even = {first(r), first(g), first(b)};
+    odd = {second(r), second(g), second(b)};
+}
+
+HWY_INLINE hn::Vec<Samples> luma(const Channels& from) {
+    const Words d;
+    const auto sum = hn::Add(
+        hn::Add(hn::MulHigh(from.r, hn::Set(d, luma_r)), hn::MulHigh(from.g, hn::Set(d, luma_g))),
+        hn::Add(hn::MulHigh(from.b, hn::Set(d, luma_b)), hn::Set(d, luma_rounding)));
+    return hn::BitCast(Samples(), hn::ShiftRight<8>(sum));
 }
 
 template <class V>
-HWY_INLINE V chroma(V whole, V less, std::int16_t less_factor, V lesser,
-                    std::int16_t lesser_factor) {
+HWY_INLINE hn::Vec<Samples> chroma(V whole, V less, std::uint16_t less_factor, V lesser,
+                                   std::uint16_t lesser_factor) {
+    const Words d;
+    const auto sum = hn::Sub(hn::Sub(hn::Add(hn::ShiftRight<1>(whole), hn::Set(d, chroma_rounding)),
+                                     hn::MulHigh(less, hn::Set(d, less_factor))),
+                             hn::MulHigh(lesser, hn::Set(d, lesser_factor)));
+    return hn::ShiftRight<8>(hn::BitCast(Samples(), sum));
+}
+
+HWY_INLINE hn::Vec<Samples> cb_of(const Channels& from) {
+    return chroma(from.b, from.r, cb_r, from.g, cb_g);
+}
+HWY_INLINE hn::Vec<Samples> cr_of(const Channels& from) {
+    return chroma(from.r, from.g, cr_g, from.b, cr_b);
+}
+
+HWY_INLINE void put_interleaved(hn::Vec<Samples> even, hn::Vec<Samples> odd, std::int16_t* to) {
     const Samples d;
-    const auto value = hn::Sub(
-        hn::Sub(hn::ShiftRight<1>(whole), hn::MulFixedPoint15(less, hn::Set(d, less_factor))),
-        hn::MulFixedPoint15(lesser, hn::Set(d, lesser_factor)));
-    return hn::MulFixedPoint15(value, hn::Set(d, halved(5)));
-}
-
-template <class V>
-HWY_INLINE void put_chroma(V r, V g, V b, std::int16_t* cb, std::int16_t* cr) {
-    hn::Store(chroma(b, r, cb_r, g, cb_g), Samples(), cb);
-    hn::Store(chroma(r, g, cr_g, b, cr_b), Samples(), cr);
-}
-
-// 256 times the even and the odd blocks' bytes.
-template <class V>
-HWY_INLINE void widen(V bytes, hn::Vec<Words>& even, hn::Vec<Words>& odd) {
-    const Pixels d;
-    even = hn::BitCast(Words(), hn::InterleaveLower(d, hn::Zero(d), bytes));
-    odd = hn::BitCast(Words(), hn::InterleaveUpper(d, hn::Zero(d), bytes));
-}
-
-// Sums of neighbours in two rows.
-template <class V>
-HWY_INLINE hn::Vec<Words> sums_of_four(V above, V below) {
-    const Words d;
-    const auto low = hn::Set(d, 0xff);
-    const auto a = hn::BitCast(d, above), b = hn::BitCast(d, below);
-    return hn::Add(hn::Add(hn::And(a, low), hn::ShiftRight<8>(a)),
-                   hn::Add(hn::And(b, low), hn::ShiftRight<8>(b)));
-}
-
-template <class V>
-HWY_INLINE void put_luma(V r, V g, V b, std::int16_t* to) {
-    hn::Vec<Words> r0, r1, g0, g1, b0, b1;
-    widen(r, r0, r1);
-    widen(g, g0, g1);
-    widen(b, b0, b1);
-    hn::Store(luma(r0, g0, b0), Samples(), to);
-    hn::Store(luma(r1, g1, b1), Samples(), to + hn::Lanes(Samples()));
+    hn::Store(hn::InterleaveLower(d, even, odd), d, to);
+    hn::Store(hn::InterleaveUpper(d, even, odd), d, to + hn::Lanes(d));
 }
 
 // Two rows of a tile, with chroma of half their size.
 HWY_INLINE void convert_halved(const std::uint8_t* above, const std::uint8_t* below,
                                std::int16_t* luma_above, std::int16_t* luma_below, std::int16_t* cb,
                                std::int16_t* cr) {
-    const Pixels d;
-    for (std::size_t x = 0; x < tile_width; x += hn::Lanes(d)) {
-        hn::Vec<Pixels> r0, g0, b0, r1, g1, b1;
-        hn::LoadInterleaved3(d, above + 3 * x, r0, g0, b0);
-        hn::LoadInterleaved3(d, below + 3 * x, r1, g1, b1);
-        put_luma(r0, g0, b0, luma_above + x);
-        put_luma(r1, g1, b1, luma_below + x);
-        const auto scaled = [](auto sums)
-                                HWY_ATTR { return hn::BitCast(Samples(), hn::ShiftLeft<5>(sums)); };
-        put_chroma(scaled(sums_of_four(r0, r1)), scaled(sums_of_four(g0, g1)),
-                   scaled(sums_of_four(b0, b1)), cb + x / 2, cr + x / 2);
+    for (std::size_t x = 0; x < tile_width; x += hn::Lanes(Pixels())) {
+        Channels p, q;
+        load_pixels(above + 3 * x, p, q);
+        put_interleaved(luma(p), luma(q), luma_above + x);
+        const auto cb_above = hn::Add(cb_of(p), cb_of(q)), cr_above = hn::Add(cr_of(p), cr_of(q));
+        load_pixels(below + 3 * x, p, q);
+        put_interleaved(luma(p), luma(q), luma_below + x);
+        const auto cb_below = hn::Add(cb_of(p), cb_of(q)), cr_below = hn::Add(cr_of(p), cr_of(q));
+        hn::Store(hn::Add(cb_above, cb_below), Samples(), cb + x / 2);
+        hn::Store(hn::Add(cr_above, cr_below), Samples(), cr + x / 2);
     }
 }
 
 // A row of a tile, with chroma of its own size.
 HWY_INLINE void convert(const std::uint8_t* row, std::int16_t* y, std::int16_t* cb,
                         std::int16_t* cr) {
-    const Pixels d;
-    for (std::size_t x = 0; x < tile_width; x += hn::Lanes(d)) {
-        hn::Vec<Pixels> r, g, b;
-        hn::LoadInterleaved3(d, row + 3 * x, r, g, b);
-        hn::Vec<Words> r0, r1, g0, g1, b0, b1;
-        widen(r, r0, r1);
-        widen(g, g0, g1);
-        widen(b, b0, b1);
-        const std::size_t half = hn::Lanes(Samples());
-        hn::Store(luma(r0, g0, b0), Samples(), y + x);
-        hn::Store(luma(r1, g1, b1), Samples(), y + x + half);
-        const auto scaled = [](auto words) HWY_ATTR {
-            return hn::BitCast(Samples(), hn::ShiftRight<1>(words));
-        };
-        put_chroma(scaled(r0), scaled(g0), scaled(b0), cb + x, cr + x);
-        put_chroma(scaled(r1), scaled(g1), scaled(b1), cb + x + half, cr + x + half);
+    for (std::size_t x = 0; x < tile_width; x += hn::Lanes(Pixels())) {
+        Channels p, q;
+        load_pixels(row + 3 * x, p, q);
+        put_interleaved(luma(p), luma(q), y + x);
+        put_interleaved(hn::ShiftLeft<2>(cb_of(p)), hn::ShiftLeft<2>(cb_of(q)), cb + x);
+        put_interleaved(hn::ShiftLeft<2>(cr_of(p)), hn::ShiftLeft<2>(cr_of(q)), cr + x);
     }
 }
 
 // From samples to coefficients.
 
-template <bool first_pass, class V>
+// `raised` binary digits, of luma, are still missing in the samples.
+template <bool first_pass, int raised, class V>
 HWY_INLINE void transform(V& x0, V& x1, V& x2, V& x3, V& x4, V& x5, V& x6, V& x7) {
     const Samples d;
     const auto times = [&](V v, std::int16_t factor)
                            HWY_ATTR { return hn::MulFixedPoint15(v, hn::Set(d, factor)); };
-    constexpr int odd_shift = first_pass ? 4 : 1;
+    constexpr int odd_shift = (first_pass ? 4 : 1) + raised;
     const V o0 = hn::ShiftLeft<odd_shift>(hn::Sub(x0, x7));
     const V o1 = hn::ShiftLeft<odd_shift>(hn::Sub(x1, x6));
     const V o2 = hn::ShiftLeft<odd_shift>(hn::Sub(x2, x5));
@@ -205,11 +188,11 @@ HWY_INLINE void transform(V& x0, V& x1, V& x2, V& x3, V& x4, V& x5, V& x6, V& x7
     const V e2 = hn::Add(x2, x5), e3 = hn::Add(x3, x4);
     const V outer = hn::Add(e0, e3), inner = hn::Add(e1, e2);
     V a = hn::Sub(e0, e3), b = hn::Sub(e1, e2);
-    x0 = hn::Add(outer, inner);
-    x4 = hn::Sub(outer, inner);
+    x0 = hn::ShiftLeft<raised>(hn::Add(outer, inner));
+    x4 = hn::ShiftLeft<raised>(hn::Sub(outer, inner));
     if constexpr (first_pass) {
-        a = hn::ShiftLeft<3>(a);
-        b = hn::ShiftLeft<3>(b);
+        a = hn::ShiftLeft<3 + raised>(a);
+        b = hn::ShiftLeft<3 + raised>(b);
         x2 = times(hn::Add(times(a, c2), times(b, c6)), halved(2));
         x6 = times(hn::Sub(times(a, c6), times(b, c2)), halved(2));
     } else {
@@ -262,6 +245,7 @@ HWY_INLINE void transpose(V& x0, V& x1, V& x2, V& x3, V& x4, V& x5, V& x6, V& x7
     x6 = column6;
 }
 
+template <bool is_luma>
 HWY_INLINE void transform_row(BlockRow& row, int width, const std::int16_t* factor,
                               const std::int16_t* scale) {
     const Samples d;
@@ -269,11 +253,15 @@ HWY_INLINE void transform_row(BlockRow& row, int width, const std::int16_t* fact
         const auto load = [&](int i) HWY_ATTR { return hn::Load(d, row.values[i] + x); };
         auto x0 = load(0), x1 = load(1), x2 = load(2), x3 = load(3);
         auto x4 = load(4), x5 = load(5), x6 = load(6), x7 = load(7);
-        transform<true>(x0, x1, x2, x3, x4, x5, x6, x7);
+        transform<true, is_luma ? 2 : 0>(x0, x1, x2, x3, x4, x5, x6, x7);
+        if constexpr (is_luma)
+            x0 = hn::Sub(x0, hn::Set(d, 8 * 4 * 128));
         transpose(x0, x1, x2, x3, x4, x5, x6, x7);
-        transform<false>(x0, x1, x2, x3, x4, x5, x6, x7);
+        transform<false, 0>(x0, x1, x2, x3, x4, x5, x6, x7);
         const auto put = [&](int column, hn::Vec<Samples> v) HWY_ATTR {
             v = hn::MulFixedPoint15(v, hn::LoadDup128(d, factor + 8 * column));
+            // Halves are rounded away from 0.
+            v = hn::Add(v, hn::BroadcastSignBit(v));
             v = hn::MulFixedPoint15(v, hn::LoadDup128(d, scale + 8 * column));
             hn::Store(v, d, row.values[column] + x);
             hn::StoreMaskBits(d, hn::Ne(v, hn::Zero(d)), row.nonzero[column] + x / 8);
