@@ -40,17 +40,18 @@ constexpr auto in_zigzag = [] {
     return sets;
 }();
 
+// How many bits a value's magnitude has. Doubled, so that 0 is no special case.
 constexpr int size_of(int value) {
-    return int(std::bit_width(unsigned(value < 0 ? -value : value)));
+    return std::bit_width(2 * unsigned(value < 0 ? -value : value) + 1) - 1;
 }
 
 constexpr Code code_of(const HuffmanCodes& codes, int symbol, int size) {
-    return Code(codes.bits[symbol]) << (size + 5) | Code(codes.length[symbol] + size);
+    return Code(codes.bits[symbol]) << (size + 6) | Code(codes.length[symbol] + size);
 }
 
 // Negative values are written less 1, in as many bits as their magnitude has.
 constexpr Code with_value(Code code, int value, int size) {
-    return code | (unsigned(value < 0 ? value - 1 : value) & ((1u << size) - 1)) << 5;
+    return code | (unsigned(value + (value >> 31)) & ((1u << size) - 1)) << 6;
 }
 
 constexpr CodeTables make_codes(int kind) {
@@ -58,13 +59,16 @@ constexpr CodeTables make_codes(int kind) {
     CodeTables tables{};
     for (int size = 0; size < 12; ++size)
         tables.dc[size] = code_of(dc, size, size);
+    const auto small = [](const Code* by_size, Code* by_value) {
+        for (int value = -CodeTables::small; value < CodeTables::small; ++value)
+            by_value[value + CodeTables::small] =
+                with_value(by_size[size_of(value)], value, size_of(value));
+    };
+    small(tables.dc, tables.small_dc);
     for (int zeros = 0; zeros < 16; ++zeros) {
         for (int size = 1; size < 11; ++size)
             tables.ac[zeros][size] = code_of(ac, zeros << 4 | size, size);
-        for (int value = -CodeTables::small; value < CodeTables::small; ++value)
-            if (value != 0)
-                tables.small_ac[zeros][value + CodeTables::small] =
-                    with_value(tables.ac[zeros][size_of(value)], value, size_of(value));
+        small(tables.ac[zeros], tables.small_ac[zeros]);
     }
     tables.end_of_block = code_of(ac, end_of_block, 0);
     tables.sixteen_zeros = code_of(ac, sixteen_zeros, 0);
@@ -85,17 +89,16 @@ class BitWriter {
 public:
     explicit BitWriter(std::uint8_t* out) : out_(out) {}
 
-    // At most 57 bits between flushes.
+    // At most 56 bits between flushes.
     HWY_INLINE void put(Code code) {
-        const unsigned length = code & 31;
-        bits_ = bits_ << length | code >> 5;
-        count_ += length;
+        bits_ = bits_ << (code & 63) | code >> 6;
+        count_ += code;
     }
     HWY_INLINE void flush() {
-        const std::uint64_t bytes = __builtin_bswap64(bits_ << (64 - count_));
+        const std::uint64_t bytes = __builtin_bswap64(bits_ << (-count_ & 63));
         std::memcpy(out_, &bytes, sizeof(bytes));
-        out_ += count_ / 8;
-        count_ %= 8;
+        out_ += count_ / 8 & 7;
+        count_ &= 7;
     }
     unsigned count() const { return count_; }
     std::uint8_t* out() const { return out_; }
@@ -103,47 +106,65 @@ public:
 
 private:
     std::uint8_t* out_;
-    std::uint64_t bits_ = 0;  // the lowest `count_` are still to be written
-    unsigned count_ = 0;
+    std::uint64_t bits_ = 0;  // the lowest are still to be written
+    unsigned count_ = 0;      // how many of them, modulo 64
 };
 
-HWY_INLINE void code_block(const BlockRow& row, int block, const CodeTables& tables, int& previous,
-                           BitWriter& out) {
+// A block's place in a tile.
+struct Block {
+    const std::int16_t* values;
+    const std::uint8_t* nonzero;
+    const CodeTables* codes;
+    int* previous;  // the DC coefficient of the block before it
+};
+
+HWY_INLINE Code code_of_value(const Code* by_value, const Code* by_size, std::ptrdiff_t value) {
+    constexpr std::ptrdiff_t small = CodeTables::small;
+    if (std::size_t(value + small) < 2 * small) [[likely]]
+        return by_value[value + small];
+    const int size = size_of(int(value));
+    return with_value(by_size[size], int(value), size);
+}
+
+HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
+    BitWriter out = writer;
+    const CodeTables& codes = *block.codes;
     std::uint64_t coded = 0;
     for (std::size_t column = 0; column < 8; ++column)
-        coded |= in_zigzag[column][row.nonzero[column][block]];
-    const std::int16_t* const values = row.values[0] + 8 * block;
+        coded |= in_zigzag[column][block.nonzero[column * tile_blocks]];
 
-    const int change = values[0] - previous;
-    previous = values[0];
-    const int size = size_of(change);
-    out.put(with_value(tables.dc[size], change, size));
+    const std::ptrdiff_t dc = block.values[0];
+    out.put(code_of_value(codes.small_dc, codes.dc, dc - *block.previous));
     out.flush();
+    *block.previous = int(dc);
 
     const bool ends_early = coded >> 63 == 0;
-    int last = 0;
-    for (coded &= ~std::uint64_t(1); coded != 0; coded &= coded - 1) {
-        const int k = std::countr_zero(coded);
-        int zeros = k - last - 1;
+    std::size_t last = 0;
+    const auto put_next = [&]() HWY_ATTR {
+        const auto k = std::size_t(std::countr_zero(coded));
+        coded &= coded - 1;
+        std::size_t zeros = k - last - 1;
         last = k;
-        for (; zeros > 15; zeros -= 16) {
-            out.put(tables.sixteen_zeros);
-            out.flush();
-        }
-        const int value = values[place_of[std::size_t(k)]];
-        const unsigned index = unsigned(value + CodeTables::small);
-        if (index < 2 * CodeTables::small) {
-            out.put(tables.small_ac[zeros][index]);
-        } else {
-            const int bits = size_of(value);
-            out.put(with_value(tables.ac[zeros][bits], value, bits));
-        }
+        while (zeros > 15)
+            [[unlikely]] {
+                out.put(codes.sixteen_zeros);
+                out.flush();
+                zeros -= 16;
+            }
+        out.put(code_of_value(codes.small_ac[zeros], codes.ac[zeros], block.values[place_of[k]]));
+    };
+    coded &= ~std::uint64_t(1);
+    while (coded != 0) {
+        put_next();
+        if (coded == 0)
+            break;
+        put_next();
         out.flush();
     }
-    if (ends_early) {
-        out.put(tables.end_of_block);
-        out.flush();
-    }
+    if (ends_early)
+        out.put(codes.end_of_block);
+    out.flush();
+    writer = out;
 }
 
 // Copies [from, end) with a zero after each 0xff, which otherwise begins a marker.
@@ -196,57 +217,83 @@ private:
     Rgb copies_[2][tile_width];
 };
 
+// A tile's samples, then coefficients, and the order in which its blocks are coded.
+class Tile {
+public:
+    explicit Tile(bool halve_chroma) : halve_chroma_(halve_chroma) {
+        Block* next = order_;
+        const auto add = [&](const BlockRow& row, int index, int component) {
+            *next++ = {row.values[0] + 8 * index, row.nonzero[0] + index, &codes[component > 0],
+                       &previous_[component]};
+        };
+        for (int unit = 0; unit < tile_width / unit_size(); ++unit) {
+            const int small = halve_chroma ? unit : widened_block(unit);
+            if (halve_chroma)
+                for (const BlockRow& row : luma_)
+                    for (const int index : {2 * unit, 2 * unit + 1})
+                        add(row, widened_block(index), 0);
+            else
+                add(luma_[0], small, 0);
+            add(cb_, small, 1);
+            add(cr_, small, 2);
+        }
+    }
+    Tile(const Tile&) = delete;
+
+    int unit_size() const { return halve_chroma_ ? 16 : 8; }
+
+    HWY_INLINE void convert_pixels(TileRows& rows, int x, int y) {
+        for (int i = 0; i < 8; ++i) {
+            if (halve_chroma_) {
+                BlockRow& to = luma_[i / 4];
+                const int row = 2 * i % 8;
+                convert_halved(rows.get(x, y + 2 * i, 0), rows.get(x, y + 2 * i + 1, 1),
+                               to.values[row], to.values[row + 1], cb_.values[i], cr_.values[i]);
+            } else {
+                convert(rows.get(x, y + i, 0), luma_[0].values[i], cb_.values[i], cr_.values[i]);
+            }
+        }
+    }
+
+    HWY_INLINE void transform_samples(const ScanTables& tables) {
+        for (int i = 0; i < unit_size() / 8; ++i)
+            transform_row<true>(luma_[i], tile_width, tables.factor[0], tables.scale[0]);
+        for (BlockRow* row : {&cb_, &cr_})
+            transform_row<false>(*row, halve_chroma_ ? tile_width / 2 : tile_width,
+                                 tables.factor[1], tables.scale[1]);
+    }
+
+    // Only the units that begin in the first `width` columns.
+    HWY_INLINE void code_units(int width, BitWriter& out) {
+        const int units = (std::min(width, tile_width) + unit_size() - 1) / unit_size();
+        const Block* const end = order_ + units * (halve_chroma_ ? 6 : 3);
+        for (const Block* block = order_; block != end; ++block)
+            code_block(*block, out);
+    }
+
+private:
+    bool halve_chroma_;
+    BlockRow luma_[2], cb_, cr_;
+    int previous_[3] = {};
+    Block order_[3 * tile_blocks];
+};
+
 std::uint8_t* encode_scan(ColorView image, bool halve_chroma, const ScanTables& tables,
                           std::uint8_t* row_buffer, std::uint8_t* out) {
     const auto [width, height] = image.size;
-    const int unit = halve_chroma ? 16 : 8;
-    const auto& factor = tables.factor;
-    const auto& scale = tables.scale;
     TileRows rows(image);
-    BlockRow y0, y1, cb, cr;
-    int previous_y = 0, previous_cb = 0, previous_cr = 0;
+    Tile tile(halve_chroma);
     BitWriter bits(row_buffer);
-    for (int y = 0; y < height; y += unit) {
+    for (int y = 0; y < height; y += tile.unit_size()) {
         for (int x = 0; x < width; x += tile_width) {
-            if (halve_chroma) {
-                for (int i = 0; i < 8; ++i) {
-                    BlockRow& to = i < 4 ? y0 : y1;
-                    convert_halved(rows.get(x, y + 2 * i, 0), rows.get(x, y + 2 * i + 1, 1),
-                                   to.values[2 * i % 8], to.values[2 * i % 8 + 1], cb.values[i],
-                                   cr.values[i]);
-                }
-                transform_row<true>(y1, tile_width, factor[0], scale[0]);
-            } else {
-                for (int i = 0; i < 8; ++i)
-                    convert(rows.get(x, y + i, 0), y0.values[i], cb.values[i], cr.values[i]);
-            }
-            transform_row<true>(y0, tile_width, factor[0], scale[0]);
-            const int chroma_width = halve_chroma ? tile_width / 2 : tile_width;
-            transform_row<false>(cb, chroma_width, factor[1], scale[1]);
-            transform_row<false>(cr, chroma_width, factor[1], scale[1]);
-
-            const int units = (std::min(width - x, tile_width) + unit - 1) / unit;
-            for (int i = 0; i < units; ++i) {
-                if (halve_chroma) {
-                    const int left = widened_block(2 * i), right = widened_block(2 * i + 1);
-                    code_block(y0, left, codes[0], previous_y, bits);
-                    code_block(y0, right, codes[0], previous_y, bits);
-                    code_block(y1, left, codes[0], previous_y, bits);
-                    code_block(y1, right, codes[0], previous_y, bits);
-                    code_block(cb, i, codes[1], previous_cb, bits);
-                    code_block(cr, i, codes[1], previous_cr, bits);
-                } else {
-                    const int block = widened_block(i);
-                    code_block(y0, block, codes[0], previous_y, bits);
-                    code_block(cb, block, codes[1], previous_cb, bits);
-                    code_block(cr, block, codes[1], previous_cr, bits);
-                }
-            }
+            tile.convert_pixels(rows, x, y);
+            tile.transform_samples(tables);
+            tile.code_units(width - x, bits);
         }
-        if (y + unit >= height && bits.count() > 0) {
+        if (y + tile.unit_size() >= height && bits.count() > 0) {
             // The last byte is filled up with ones.
             const unsigned missing = 8 - bits.count();
-            bits.put(((1u << missing) - 1) << 5 | missing);
+            bits.put(((1u << missing) - 1) << 6 | missing);
             bits.flush();
         }
         out = stuff(row_buffer, bits.out(), out);

@@ -11,18 +11,19 @@
 
 namespace theatron::video::jpeg {
 
-// Bits to write and, in the lowest five, how many: a Huffman code and the bits
-// of a value after it are at most 26.
+// Bits to write and, in the lowest six, how many: a Huffman code and the bits of
+// a value after it are at most 26.
 using Code = std::uint32_t;
 
 // The codes of luma or of chroma.
 struct CodeTables {
-    // Small coefficients, which nearly all are: by the zeros before, then by value.
-    static constexpr int small = 32;
+    // Small values, which nearly all are: coefficients by the zeros before.
+    static constexpr int small = 128;
+    Code small_dc[2 * small];
     Code small_ac[16][2 * small];
-    // Others by the zeros before, then by size; the value's bits are still zero.
-    Code ac[16][11];
+    // Others by their size; the value's bits are still zero.
     Code dc[12];
+    Code ac[16][11];
     Code end_of_block, sixteen_zeros;
 };
 
