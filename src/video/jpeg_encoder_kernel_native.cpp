@@ -110,12 +110,13 @@ private:
     unsigned count_ = 0;      // how many of them, modulo 64
 };
 
-// A block's place in a tile.
+// A block's place in a tile. Luma has it in pixels, too.
 struct Block {
     const std::int16_t* values;
     const std::uint8_t* nonzero;
     const CodeTables* codes;
     int* previous;  // the DC coefficient of the block before it
+    int x, y;
 };
 
 HWY_INLINE Code code_of_value(const Code* by_value, const Code* by_size, std::ptrdiff_t value) {
@@ -165,6 +166,13 @@ HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
         out.put(codes.end_of_block);
     out.flush();
     writer = out;
+}
+
+// A block that nobody sees is like the one before.
+HWY_INLINE void skip_block(const Block& block, BitWriter& out) {
+    out.put(block.codes->dc[0]);
+    out.put(block.codes->end_of_block);
+    out.flush();
 }
 
 // Copies [from, end) with a zero after each 0xff, which otherwise begins a marker.
@@ -222,20 +230,22 @@ class Tile {
 public:
     explicit Tile(bool halve_chroma) : halve_chroma_(halve_chroma) {
         Block* next = order_;
-        const auto add = [&](const BlockRow& row, int index, int component) {
-            *next++ = {row.values[0] + 8 * index, row.nonzero[0] + index, &codes[component > 0],
-                       &previous_[component]};
+        const auto add = [&](const BlockRow& row, int index, int component, int x, int y) {
+            *next++ = {row.values[0] + 8 * index,
+                       row.nonzero[0] + index,
+                       &codes[component > 0],
+                       &previous_[component],
+                       x,
+                       y};
         };
         for (int unit = 0; unit < tile_width / unit_size(); ++unit) {
+            const int x = unit * unit_size();
+            for (int y = 0; y < unit_size(); y += 8)
+                for (int dx = 0; dx < unit_size(); dx += 8)
+                    add(luma_[y / 8], widened_block((x + dx) / 8), 0, x + dx, y);
             const int small = halve_chroma ? unit : widened_block(unit);
-            if (halve_chroma)
-                for (const BlockRow& row : luma_)
-                    for (const int index : {2 * unit, 2 * unit + 1})
-                        add(row, widened_block(index), 0);
-            else
-                add(luma_[0], small, 0);
-            add(cb_, small, 1);
-            add(cr_, small, 2);
+            add(cb_, small, 1, x, 0);
+            add(cr_, small, 2, x, 0);
         }
     }
     Tile(const Tile&) = delete;
@@ -263,12 +273,16 @@ public:
                                  tables.factor[1], tables.scale[1]);
     }
 
-    // Only the units that begin in the first `width` columns.
-    HWY_INLINE void code_units(int width, BitWriter& out) {
+    // Of the tile, this much lies in the picture.
+    HWY_INLINE void code_units(int width, int height, BitWriter& out) {
         const int units = (std::min(width, tile_width) + unit_size() - 1) / unit_size();
         const Block* const end = order_ + units * (halve_chroma_ ? 6 : 3);
-        for (const Block* block = order_; block != end; ++block)
-            code_block(*block, out);
+        for (const Block* block = order_; block != end; ++block) {
+            if (block->x < width && block->y < height) [[likely]]
+                code_block(*block, out);
+            else
+                skip_block(*block, out);
+        }
     }
 
 private:
@@ -288,7 +302,7 @@ std::uint8_t* encode_scan(ColorView image, bool halve_chroma, const ScanTables& 
         for (int x = 0; x < width; x += tile_width) {
             tile.convert_pixels(rows, x, y);
             tile.transform_samples(tables);
-            tile.code_units(width - x, bits);
+            tile.code_units(width - x, height - y, bits);
         }
         if (y + tile.unit_size() >= height && bits.count() > 0) {
             // The last byte is filled up with ones.

@@ -26,9 +26,14 @@ public:
         for (int y = 0; y < image_.size.height; y += unit)
             for (int x = 0; x < image_.size.width; x += unit) {
                 for (int row = y; row < y + unit; row += 8)
-                    for (int column = x; column < x + unit; column += 8)
-                        code(0,
-                             [&](int dx, int dy) { return luma_of(pixel(column + dx, row + dy)); });
+                    for (int column = x; column < x + unit; column += 8) {
+                        if (column < image_.size.width && row < image_.size.height)
+                            code(0, [&](int dx, int dy) {
+                                return luma_of(pixel(column + dx, row + dy));
+                            });
+                        else
+                            skip();
+                    }
                 const int step = unit / 8;
                 for (const int component : {1, 2})
                     code(component, [&](int dx, int dy) {
@@ -82,6 +87,12 @@ private:
         }
         if (zeros > 0)
             put_symbol(ac, end_of_block);
+    }
+
+    // A block of luma that nobody sees is like the one before.
+    void skip() {
+        put_value(codes_of(dc_tables[0]), 0, 0);
+        put_symbol(codes_of(ac_tables[0]), end_of_block);
     }
 
     void put_symbol(const HuffmanCodes& codes, int symbol) {
