@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "bench_libjpeg.h"
 #include "bench_ssim.h"
 #include "video/color_codec.h"
 
@@ -69,14 +70,20 @@ nlohmann::json row(const std::string& name, const Measured& m,
     return result;
 }
 
-Measured measure(const video::ColorSetting& setting, const std::vector<ColorImage>& frames) {
+struct Coder {
+    std::string name;
+    std::function<std::unique_ptr<video::ColorEncoder>()> make_encoder;
+    std::function<std::unique_ptr<video::ColorDecoder>()> make_decoder;
+};
+
+Measured measure(const Coder& coder, const std::vector<ColorImage>& frames) {
     Measured m;
     m.bytes.resize(frames.size());
     m.encode_ms.assign(frames.size(), 1e9);
     m.decode_ms.assign(frames.size(), 1e9);
     for (int pass = 0; pass < passes; ++pass) {
-        const auto encoder = video::make_color_encoder(setting);
-        const auto decoder = video::make_color_decoder(setting.id);
+        const auto encoder = coder.make_encoder();
+        const auto decoder = coder.make_decoder();
         m.squared_error = m.ssim = 0;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             ColorData color;
@@ -86,7 +93,7 @@ Measured measure(const video::ColorSetting& setting, const std::vector<ColorImag
             const double encode_ms = timed_ms([&] { result = encoder->encode(color, i == 0); });
             if (!result)
                 throw Error("Frame " + std::to_string(i) + " is " +
-                            std::string(to_text(result.error())) + " for " + setting.text + ".");
+                            std::string(to_text(result.error())) + " for " + coder.name + ".");
             const ByteView encoded = result->bytes;
             std::optional<video::ColorDecoder::Decoded> decoded;
             const double decode_ms = timed_ms([&] {
@@ -94,8 +101,8 @@ Measured measure(const video::ColorSetting& setting, const std::vector<ColorImag
                     decoded = decoder->poll();
             });
             if (!decoded || decoded->image.size != frames[i].size)
-                throw Error("Frame " + std::to_string(i) + " did not come back from " +
-                            setting.text + ".");
+                throw Error("Frame " + std::to_string(i) + " did not come back from " + coder.name +
+                            ".");
             m.bytes[i] = double(encoded.size());
             m.encode_ms[i] = std::min(m.encode_ms[i], encode_ms);
             m.decode_ms[i] = std::min(m.decode_ms[i], decode_ms);
@@ -146,7 +153,15 @@ nlohmann::json bench_color_sequence(const std::string& sequence_name,
         const auto parsed = video::parse_color_setting(codec);
         if (!parsed.problem.empty())
             throw Error(parsed.problem);
-        rows.push_back(row(codec, measure(parsed.setting, frames), frames));
+        const video::ColorSetting setting = parsed.setting;
+        const auto add = [&](const Coder& coder) {
+            rows.push_back(row(coder.name, measure(coder, frames), frames));
+        };
+        add({codec, [&] { return video::make_color_encoder(setting); },
+             [&] { return video::make_color_decoder(setting.id); }});
+        if (has_libjpeg_yardstick(setting))
+            add({libjpeg_name(codec), [&] { return make_libjpeg_encoder(setting); },
+                 make_libjpeg_decoder});
     }
     rows.push_back(row("zstd1_raw", measure_zstd(frames), frames));
     return {{"sequence", sequence_name},

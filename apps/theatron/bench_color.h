@@ -12,7 +12,8 @@ namespace theatron::app {
 
 // As bench_depth_sequence, for colour: {sequence,width,height,frames,codecs:[{name,lossless,
 // psnr_db,bytes_first,bytes_mean,ratio,encode_ms,decode_ms}]}. psnr_db is null where nothing
-// was lost. The yardstick zstd1_raw packs the raw pixels with zstd level 1. Throws Error.
+// was lost. Yardsticks: zstd1_raw packs the raw pixels with zstd level 1; each codec of JPEG has
+// a row libjpeg_turbo with the same parameters. Throws Error.
 nlohmann::json bench_color_sequence(const std::string& sequence_name,
                                     const std::vector<ColorImage>& frames,
                                     const std::vector<std::string>& codecs);

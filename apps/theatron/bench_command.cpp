@@ -18,6 +18,7 @@
 #include "bench_view.h"
 #include "camera_option.h"
 #include "capture/crop.h"
+#include "capture/tiled_recording.h"
 #include "codec/depth_codec.h"
 #include "codec/rows.h"
 #include "commands.h"
@@ -66,6 +67,7 @@ struct CodecFlags {
     std::string json;
     std::string plot;
     std::string crop;
+    std::string tile;
 };
 
 CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, CodecFlags& flags) {
@@ -138,6 +140,18 @@ void add_depth(CLI::App& bench) {
     });
 }
 
+void tile_color(BenchSequence& sequence, const std::string& text) {
+    if (text.empty())
+        return;
+    Size size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+        !is_valid(size))
+        throw Error("--tile " + text + " is not WIDTHxHEIGHT, for example --tile 640x576.");
+    for (ColorImage& picture : sequence.color)
+        picture = capture::tiled(picture, size);
+}
+
 // The same for colour.
 std::vector<std::string> color_codecs_here() {
     std::vector<std::string> names;
@@ -151,12 +165,14 @@ void add_color(CLI::App& bench) {
     const auto flags = std::make_shared<CodecFlags>();
     CLI::App* command = add_codec_bench(
         bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
+    command->add_option("--tile", flags->tile, "Pictures repeated in space to this WIDTHxHEIGHT");
     command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
     command->callback([flags] {
         const auto codecs = flags->codecs.empty() ? color_codecs_here() : flags->codecs;
         nlohmann::json sequences = nlohmann::json::array();
         for (const std::string& folder : flags->folders) {
-            const BenchSequence s = load_sequence(folder, true, flags->frames);
+            BenchSequence s = load_sequence(folder, true, flags->frames);
+            tile_color(s, flags->tile);
             sequences.push_back(bench_color_sequence(s.name, s.color, codecs));
         }
         const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;

@@ -46,6 +46,12 @@ void TiledRecording::read(Frame& out) {
     tile(frame_.color.pixels, out.color.pixels);
 }
 
+ColorImage tiled(const ColorImage& picture, Size size) {
+    ColorImage out(size);
+    tile(picture, out);
+    return out;
+}
+
 CameraModel tiled(CameraModel camera, Size size) {
     if (camera.size == Size{})
         return camera;

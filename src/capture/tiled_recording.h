@@ -28,7 +28,8 @@ private:
     std::unique_ptr<video::ColorDecoder> decoder_;
 };
 
-// The same change to a camera's model.
+// The same change to a picture, and to a camera's model.
+ColorImage tiled(const ColorImage& picture, Size size);
 CameraModel tiled(CameraModel camera, Size size);
 
 }  // namespace theatron::capture
