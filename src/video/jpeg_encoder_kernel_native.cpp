@@ -57,18 +57,14 @@ constexpr Code with_value(Code code, int value, int size) {
 constexpr CodeTables make_codes(int kind) {
     const HuffmanCodes dc = codes_of(dc_tables[kind]), ac = codes_of(ac_tables[kind]);
     CodeTables tables{};
-    for (int size = 0; size < 12; ++size)
-        tables.dc[size] = code_of(dc, size, size);
-    const auto small = [](const Code* by_size, Code* by_value) {
+    for (int distance = 0; distance <= 16; ++distance) {
+        Code* const by_size = tables.by_size[distance];
+        for (int size = 0; size < 12; ++size)
+            by_size[size] = distance == 0 ? code_of(dc, size, size)
+                                          : code_of(ac, (distance - 1) << 4 | size, size);
         for (int value = -CodeTables::small; value < CodeTables::small; ++value)
-            by_value[value + CodeTables::small] =
+            tables.by_value[distance][value + CodeTables::small] =
                 with_value(by_size[size_of(value)], value, size_of(value));
-    };
-    small(tables.dc, tables.small_dc);
-    for (int zeros = 0; zeros < 16; ++zeros) {
-        for (int size = 1; size < 11; ++size)
-            tables.ac[zeros][size] = code_of(ac, zeros << 4 | size, size);
-        small(tables.ac[zeros], tables.small_ac[zeros]);
     }
     tables.end_of_block = code_of(ac, end_of_block, 0);
     tables.sixteen_zeros = code_of(ac, sixteen_zeros, 0);
@@ -119,12 +115,12 @@ struct Block {
     int x, y;
 };
 
-HWY_INLINE Code code_of_value(const Code* by_value, const Code* by_size, std::ptrdiff_t value) {
+HWY_INLINE Code code_of_value(const CodeTables& codes, std::size_t distance, std::ptrdiff_t value) {
     constexpr std::ptrdiff_t small = CodeTables::small;
     if (std::size_t(value + small) < 2 * small) [[likely]]
-        return by_value[value + small];
+        return codes.by_value[distance][value + small];
     const int size = size_of(int(value));
-    return with_value(by_size[size], int(value), size);
+    return with_value(codes.by_size[distance][size], int(value), size);
 }
 
 HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
@@ -133,34 +129,33 @@ HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
     std::uint64_t coded = 0;
     for (std::size_t column = 0; column < 8; ++column)
         coded |= in_zigzag[column][block.nonzero[column * tile_blocks]];
-
-    const std::ptrdiff_t dc = block.values[0];
-    out.put(code_of_value(codes.small_dc, codes.dc, dc - *block.previous));
-    out.flush();
-    *block.previous = int(dc);
-
     const bool ends_early = coded >> 63 == 0;
+    coded &= ~std::uint64_t(1);
+
     std::size_t last = 0;
     const auto put_next = [&]() HWY_ATTR {
         const auto k = std::size_t(std::countr_zero(coded));
         coded &= coded - 1;
-        std::size_t zeros = k - last - 1;
+        std::size_t distance = k - last;
         last = k;
-        while (zeros > 15)
+        while (distance > 16)
             [[unlikely]] {
                 out.put(codes.sixteen_zeros);
                 out.flush();
-                zeros -= 16;
+                distance -= 16;
             }
-        out.put(code_of_value(codes.small_ac[zeros], codes.ac[zeros], block.values[place_of[k]]));
+        out.put(code_of_value(codes, distance, block.values[place_of[k]]));
     };
-    coded &= ~std::uint64_t(1);
+    const std::ptrdiff_t dc = block.values[0];
+    out.put(code_of_value(codes, 0, dc - *block.previous));
+    *block.previous = int(dc);
+    // There is room for two between flushes.
     while (coded != 0) {
         put_next();
+        out.flush();
         if (coded == 0)
             break;
         put_next();
-        out.flush();
     }
     if (ends_early)
         out.put(codes.end_of_block);
@@ -170,7 +165,7 @@ HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
 
 // A block that nobody sees is like the one before.
 HWY_INLINE void skip_block(const Block& block, BitWriter& out) {
-    out.put(block.codes->dc[0]);
+    out.put(code_of_value(*block.codes, 0, 0));
     out.put(block.codes->end_of_block);
     out.flush();
 }

@@ -15,15 +15,14 @@ namespace theatron::video::jpeg {
 // a value after it are at most 26.
 using Code = std::uint32_t;
 
-// The codes of luma or of chroma.
+// The codes of luma or of chroma. Rows are for the distance, in zigzag order, from
+// the last coefficient that was coded; row 0 is for DC.
 struct CodeTables {
-    // Small values, which nearly all are: coefficients by the zeros before.
+    // Of small values, which nearly all are.
     static constexpr int small = 128;
-    Code small_dc[2 * small];
-    Code small_ac[16][2 * small];
-    // Others by their size; the value's bits are still zero.
-    Code dc[12];
-    Code ac[16][11];
+    Code by_value[17][2 * small];
+    // Of others by their size; the value's bits are still zero.
+    Code by_size[17][12];
     Code end_of_block, sixteen_zeros;
 };
 
