@@ -272,12 +272,12 @@ public:
     HWY_INLINE void code_units(int width, int height, BitWriter& out) {
         const int units = (std::min(width, tile_width) + unit_size() - 1) / unit_size();
         const Block* const end = order_ + units * (halve_chroma_ ? 6 : 3);
-        for (const Block* block = order_; block != end; ++block) {
-            if (block->x < width && block->y < height) [[likely]]
+        const bool whole = width >= tile_width && height >= unit_size();
+        for (const Block* block = order_; block != end; ++block)
+            if (whole || (block->x < width && block->y < height)) [[likely]]
                 code_block(*block, out);
             else
                 skip_block(*block, out);
-        }
     }
 
 private:

@@ -70,7 +70,7 @@ private:
             block[i] = divided(block[i], divisor_of(step_at(standard_steps[kind][i], quality_)));
         }
 
-        const HuffmanCodes dc = codes_of(dc_tables[kind]), ac = codes_of(ac_tables[kind]);
+        const HuffmanCodes &dc = dc_codes_[kind], &ac = ac_codes_[kind];
         put_value(dc, 0, block[0] - std::exchange(previous_[component], block[0]));
         int zeros = 0;
         for (int k = 1; k < 64; ++k) {
@@ -91,8 +91,8 @@ private:
 
     // A block of luma that nobody sees is like the one before.
     void skip() {
-        put_value(codes_of(dc_tables[0]), 0, 0);
-        put_symbol(codes_of(ac_tables[0]), end_of_block);
+        put_value(dc_codes_[0], 0, 0);
+        put_symbol(ac_codes_[0], end_of_block);
     }
 
     void put_symbol(const HuffmanCodes& codes, int symbol) {
@@ -124,6 +124,8 @@ private:
     ColorView image_;
     int quality_;
     bool halve_chroma_;
+    const HuffmanCodes dc_codes_[2] = {codes_of(dc_tables[0]), codes_of(dc_tables[1])};
+    const HuffmanCodes ac_codes_[2] = {codes_of(ac_tables[0]), codes_of(ac_tables[1])};
     int previous_[3] = {};
     Bytes out_;
     int byte_ = 0, bit_count_ = 0;
