@@ -2,13 +2,11 @@
 #include "video/jpeg_encoder_kernel_native.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 
+#include "video/jpeg_encoder_codes.h"
 #include "video/jpeg_encoder_tile.h"
-#include "video/jpeg_zigzag.h"
 
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -18,67 +16,8 @@
 
 #include "video/jpeg_encoder_transform-inl.h"
 
-#ifndef THEATRON_JPEG_ENCODER_KERNEL_SHARED
-#define THEATRON_JPEG_ENCODER_KERNEL_SHARED
-namespace theatron::video::jpeg {
-
-// Where the k-th coefficient of a block lies.
-constexpr auto place_of = [] {
-    std::array<std::uint16_t, 64> place{};
-    for (std::size_t k = 0; k < 64; ++k)
-        place[k] = std::uint16_t(jpeg_zigzag[k] % 8 * tile_width + jpeg_zigzag[k] / 8);
-    return place;
-}();
-
-// The bytes of BlockRow::nonzero as sets of k.
-constexpr auto in_zigzag = [] {
-    std::array<std::array<std::uint64_t, 256>, 8> sets{};
-    for (std::size_t k = 0; k < 64; ++k)
-        for (unsigned byte = 0; byte < 256; ++byte)
-            if (byte >> (jpeg_zigzag[k] / 8) & 1)
-                sets[jpeg_zigzag[k] % 8][byte] |= std::uint64_t(1) << k;
-    return sets;
-}();
-
-// How many bits a value's magnitude has. Doubled, so that 0 is no special case.
-constexpr int size_of(int value) {
-    return std::bit_width(2 * unsigned(value < 0 ? -value : value) + 1) - 1;
-}
-
-constexpr Code code_of(const HuffmanCodes& codes, int symbol, int size) {
-    return Code(codes.bits[symbol]) << (size + 6) | Code(codes.length[symbol] + size);
-}
-
-// Negative values are written less 1, in as many bits as their magnitude has.
-constexpr Code with_value(Code code, int value, int size) {
-    return code | (unsigned(value + (value >> 31)) & ((1u << size) - 1)) << 6;
-}
-
-constexpr CodeTables make_codes(int kind) {
-    const HuffmanCodes dc = codes_of(dc_tables[kind]), ac = codes_of(ac_tables[kind]);
-    CodeTables tables{};
-    for (int distance = 0; distance <= 16; ++distance) {
-        Code* const by_size = tables.by_size[distance];
-        for (int size = 0; size < 12; ++size)
-            by_size[size] = distance == 0 ? code_of(dc, size, size)
-                                          : code_of(ac, (distance - 1) << 4 | size, size);
-        for (int value = -CodeTables::small; value < CodeTables::small; ++value)
-            tables.by_value[distance][value + CodeTables::small] =
-                with_value(by_size[size_of(value)], value, size_of(value));
-    }
-    tables.end_of_block = code_of(ac, end_of_block, 0);
-    tables.sixteen_zeros = code_of(ac, sixteen_zeros, 0);
-    return tables;
-}
-
-constexpr CodeTables codes[2] = {make_codes(0), make_codes(1)};
-
-}  // namespace theatron::video::jpeg
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace theatron::video::jpeg::HWY_NAMESPACE {
-// From coefficients to bits.
 
 // Writes eight bytes at a time, of which only the full ones count.
 class BitWriter {

@@ -11,23 +11,8 @@
 
 namespace theatron::video::jpeg {
 
-// Bits to write and, in the lowest six, how many: a Huffman code and the bits of
-// a value after it are at most 26.
-using Code = std::uint32_t;
-
-// The codes of luma or of chroma. Rows are for the distance, in zigzag order, from
-// the last coefficient that was coded; row 0 is for DC.
-struct CodeTables {
-    // Of small values, which nearly all are.
-    static constexpr int small = 128;
-    Code by_value[17][2 * small];
-    // Of others by their size; the value's bits are still zero.
-    Code by_size[17][12];
-    Code end_of_block, sixteen_zeros;
-};
-
-// Per component kind, luma and chroma, and place of a coefficient in a
-// transformed block, which is stored column by column.
+// The divisors of luma's and chroma's coefficients, column by column as they lie
+// in a block.
 struct ScanTables {
     alignas(64) std::int16_t factor[2][64];
     alignas(64) std::int16_t scale[2][64];
