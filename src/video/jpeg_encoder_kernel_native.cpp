@@ -77,12 +77,10 @@ HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
         coded &= coded - 1;
         std::size_t distance = k - last;
         last = k;
-        while (distance > 16)
-            [[unlikely]] {
-                out.put(codes.sixteen_zeros);
-                out.flush();
-                distance -= 16;
-            }
+        for (; distance > 16; distance -= 16) {
+            out.put(codes.sixteen_zeros);
+            out.flush();
+        }
         out.put(code_of_value(codes, distance, block.values[place_of[k]]));
     };
     const std::ptrdiff_t dc = block.values[0];
