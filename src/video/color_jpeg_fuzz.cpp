@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes end in a status or in an image of the size in their header.
+// Any bytes end in a status or in an image of the size in their header, and the
+// fast decoder agrees with its reference about status and every pixel.
 #include <cstdlib>
 
 #include "video/color_codec.h"
+#include "video/jpeg_decoder_native.h"
 #include "video/jpeg_header.h"
+#include "video/jpeg_reference_native.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
@@ -22,5 +25,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             std::abort();
         decoder->recycle(std::move(decoded->image));
     }
+
+    static video::BaselineJpegDecoder fast;
+    static ColorImage image, expected;
+    const Status fast_status = fast.decode(input, image);
+    if (fast_status != video::decode_jpeg_reference(input, expected) ||
+        (fast_status == Status::ok && image != expected))
+        std::abort();
     return 0;
 }

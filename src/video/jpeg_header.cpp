@@ -4,17 +4,7 @@
 namespace theatron::video {
 namespace {
 
-// Marker codes of ITU-T T.81, table B.1.
-constexpr std::uint8_t start_of_image = 0xd8, end_of_image = 0xd9, start_of_scan = 0xda;
-constexpr std::uint8_t huffman_tables = 0xc4, jpeg_extension = 0xc8, arithmetic_tables = 0xcc;
-constexpr std::uint8_t baseline = 0xc0, extended_sequential = 0xc1;
-constexpr std::uint8_t temporary = 0x01, first_restart = 0xd0;
-
-// T.81 fields are big-endian; the reader's are not.
-std::uint16_t get_be16(ByteReader& in) {
-    const auto high = in.get<std::uint8_t>();
-    return std::uint16_t(high << 8 | in.get<std::uint8_t>());
-}
+using namespace jpeg_marker;
 
 bool is_start_of_frame(std::uint8_t marker) {
     return marker >= 0xc0 && marker <= 0xcf && marker != huffman_tables &&
@@ -59,6 +49,21 @@ Result<FrameHeader> read_frame_header(ByteReader in, std::size_t jpeg_bytes) {
 
 }  // namespace
 
+Result<JpegSegment> next_jpeg_segment(ByteReader& in) {
+    const std::uint8_t marker = next_marker(in);
+    if (!in.ok())
+        return Status::truncated;
+    if (marker == 0 || marker == temporary || (marker >= first_restart && marker <= end_of_image))
+        return Status::malformed;
+    const std::uint16_t length = get_be16(in);
+    if (in.ok() && length < 2)
+        return Status::malformed;
+    const ByteView content = in.get_bytes(length - 2u);
+    if (!in.ok())
+        return Status::truncated;
+    return JpegSegment{marker, content};
+}
+
 Result<Size> read_jpeg_size(ByteView jpeg) {
     ByteReader in(jpeg);
     const std::uint8_t first = next_marker(in);
@@ -69,24 +74,15 @@ Result<Size> read_jpeg_size(ByteView jpeg) {
 
     FrameHeader frame;
     while (true) {
-        const std::uint8_t marker = next_marker(in);
-        if (!in.ok())
-            return Status::truncated;
-        if (marker == 0 || marker == temporary ||
-            (marker >= first_restart && marker <= end_of_image))
-            return Status::malformed;
-
-        const std::uint16_t length = get_be16(in);
-        if (in.ok() && length < 2)
-            return Status::malformed;
-        ByteReader segment(in.get_bytes(length - 2u));
-        if (!in.ok())
-            return Status::truncated;
+        const Result<JpegSegment> segment = next_jpeg_segment(in);
+        if (!segment)
+            return segment.error();
+        const auto [marker, content] = *segment;
 
         if (marker == baseline || marker == extended_sequential) {
             if (frame.components > 0)
                 return Status::malformed;
-            const Result<FrameHeader> found = read_frame_header(segment, jpeg.size());
+            const Result<FrameHeader> found = read_frame_header(ByteReader(content), jpeg.size());
             if (!found)
                 return found.error();
             frame = *found;
@@ -95,7 +91,7 @@ Result<Size> read_jpeg_size(ByteView jpeg) {
         } else if (marker == start_of_scan) {
             if (frame.components == 0)
                 return Status::malformed;
-            const int components = segment.get<std::uint8_t>();
+            const int components = ByteReader(content).get<std::uint8_t>();
             if (components != frame.components)
                 return Status::unsupported;
             return frame.size;

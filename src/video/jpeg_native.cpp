@@ -31,6 +31,8 @@ JpegDecompressor::JpegDecompressor() : library_(std::make_unique<Library>()) {
 JpegDecompressor::~JpegDecompressor() = default;
 
 Status JpegDecompressor::decompress(ByteView jpeg, ColorImage& out) {
+    if (const Status status = own_.decode(jpeg, out); status != Status::unsupported)
+        return status;
     const Result<Size> size = read_jpeg_size(jpeg);
     if (!size)
         return size.error();

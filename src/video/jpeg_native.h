@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG pictures to pixels, with libjpeg-turbo. Native builds only.
+// JPEG pictures to pixels. Native builds only.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,13 @@
 #include "base/bytes.h"
 #include "base/status.h"
 #include "image/image.h"
+#include "video/jpeg_decoder_native.h"
 
 namespace theatron::video {
 
-// Decodes pictures one after the other. Not thread safe. Prints nothing.
+// Decodes pictures one after the other: with our own decoder those that it takes,
+// with libjpeg-turbo grey ones and others that few cameras give. Not thread safe.
+// Prints nothing.
 class JpegDecompressor {
 public:
     JpegDecompressor();
@@ -24,6 +27,7 @@ public:
 
 private:
     struct Library;
+    BaselineJpegDecoder own_;
     std::unique_ptr<Library> library_;
 };
 
