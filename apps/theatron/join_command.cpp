@@ -15,6 +15,8 @@
 #include "input_lines.h"
 #include "participant.h"
 #include "participant_figures.h"
+#include "renderer_text.h"
+#include "session/renderer_choice.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -30,7 +32,7 @@ struct Flags {
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     std::string offscreen, depth_file;
-    std::string renderer = "mesh";
+    std::string renderer = automatic;
     std::string size = "1280x720";
     std::string view = "camera:0";
     double seconds = 0;
@@ -71,14 +73,31 @@ double parse_render_scale(const std::string& text) {
 // Draws what came, from one viewpoint, into files.
 struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
-        : size(parse_size(flags.size)), view(parse_view(flags.view)) {
-        render::check_renderer_name(flags.renderer);
+        : size(parse_size(flags.size)), view(parse_view(flags.view)), renderer(flags.renderer) {
+        check_renderer_choice(flags.renderer);
     }
+
+    // What is new, also what the host said about drawing.
+    void take(Participant& participant) {
+        scene.take(participant);
+        try {
+            if (const auto word = participant.take_renderer_word()) {
+                if (!word->renderer.empty())
+                    check_renderer_choice(word->renderer);
+                renderer.follow(*word);
+            }
+        } catch (const Error& error) {
+            std::fprintf(stderr, "The host wants another way of drawing. %s\n", error.what());
+        }
+        participant.tell_renderer(drawn_with());
+    }
+
+    std::string drawn_with() const { return renderer_for(renderer.renderer(), scene.cameras()); }
 
     void write(const Flags& flags) {
         if (!scene.has_picture())
             throw Error("No picture came from the host, so none was written.");
-        const render::Picture picture = scene.render(view, size, flags.renderer);
+        const render::Picture picture = scene.render(view, size, drawn_with());
         if (!flags.offscreen.empty())
             files::write_png(flags.offscreen, picture.color.view());
         if (!flags.depth_file.empty())
@@ -87,6 +106,7 @@ struct OffscreenPicture {
 
     Size size;
     ViewChoice view;
+    session::RendererChoice renderer;
     ViewerScene scene;
 };
 
@@ -149,7 +169,7 @@ void run(const Flags& flags) {
     options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 
     if (flags.window()) {
-        render::check_renderer_name(flags.renderer);
+        check_renderer_choice(flags.renderer);
         WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
                              flags.renderer, parse_render_scale(flags.render_scale),
                              flags.seconds});
@@ -177,7 +197,7 @@ void run(const Flags& flags) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
             first_frame = steady_now();
         if (picture)
-            picture->scene.take(participant);
+            picture->take(participant);
         else
             (void)participant.take_frames();
 
@@ -250,7 +270,10 @@ void add_join_command(CLI::App& app) {
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,
                         "Write that picture's depth, in millimetres, into this 16-bit PNG file");
-    command->add_option("--renderer", flags->renderer, join_names(render::renderer_names()))
+    command
+        ->add_option("--renderer", flags->renderer,
+                     join_names(renderer_choices()) +
+                         "; auto is blend for two cameras and more. The host may set another")
         ->capture_default_str();
     command->add_option("--size", flags->size, "Size of the window or of the picture")
         ->capture_default_str();

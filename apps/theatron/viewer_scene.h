@@ -17,6 +17,7 @@ public:
     void take(Participant& participant) { (void)scene_.take(participant); }
 
     bool has_picture() const { return scene_.has_picture(); }
+    std::size_t cameras() const { return scene_.calibrations().size(); }
 
     // Throws Error if that camera gave nothing, or if the driver reported an error.
     render::Picture render(const ViewChoice& view, Size size, const std::string& renderer);
