@@ -32,9 +32,6 @@ protected:
         frame.shadow_middle = {0, 0.4, 0};
         frame.shadow_radius_m = 1.5;
     }
-    ~SceneTest() override {
-        EXPECT_EQ(test_context().errors(), errors_before) << test_context().first_error();
-    }
 
     Picture draw(Size size, const FontAtlas* atlas = nullptr) {
         ScenePasses passes(atlas);
@@ -56,7 +53,6 @@ protected:
         return picture.color.view().row(y)[x];
     }
 
-    const int errors_before = test_context().errors();
     std::optional<SceneMesh> floor, pillar, ball;
     SceneFrame frame;
 };

@@ -3,9 +3,6 @@
 // (Walter et al. 2007) and Schlick's Fresnel term; for the surroundings Karis' fit of the
 // environment term (2014).
 
-precision highp samplerCube;
-precision highp sampler2DShadow;
-
 uniform samplerCube environment;  // level: roughness; the last one is diffuse
 uniform sampler2DShadow shadow_map;
 uniform mat4 light_from_room;
