@@ -101,6 +101,22 @@ TEST_F(SceneTest, InCornersLessLightArrivesInHighQuality) {
     EXPECT_NEAR(open_high, brightness(open), 3);
 }
 
+TEST_F(SceneTest, TheFloorBeforeABoxIsDarkerToo) {
+    // The mean over a strip along the pillar's front, which has no lamp's shadow.
+    const auto brightness = [&](double z) {
+        const Picture picture = draw({640, 480});
+        double sum = 0;
+        for (int i = 0; i < 14; ++i)
+            for (int j = 0; j < 4; ++j)
+                sum += at(picture, {-0.665 + 0.01 * i, 0, z + 0.01 * j}).g / 56.0;
+        return sum;
+    };
+    const double before_high = brightness(0.12), open_high = brightness(0.9);
+    frame.quality = SceneQuality::low;
+    EXPECT_LT(before_high, brightness(0.12) - 10);
+    EXPECT_NEAR(open_high, brightness(0.9), 1);
+}
+
 TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
     if (!std::filesystem::exists(font))
         GTEST_SKIP() << "fonts-dejavu-core is not installed";

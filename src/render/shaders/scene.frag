@@ -65,27 +65,37 @@ vec3 shown(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
-// The share of the light from all around that reaches the place.
+// Whether a place lies behind what is seen in its direction, but not far behind: that would
+// be another thing, before it only as the eye sees it.
+bool is_hidden(vec3 place, float reach) {
+    vec4 clip = clip_from_room * vec4(place, 1.0);
+    float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
+    float behind = clip.w - depth_from_w.y / (seen - depth_from_w.x);
+    return behind > 0.01 && behind < 2.0 * reach;
+}
+
+// The share of the light from all around that reaches the place. Along each direction two places
+// are looked at: one alone passes through walls that stand near.
 float open_share(vec3 n) {
     if (!occludes)
         return 1.0;
-    const int count = 12;
-    const float reach = 0.25;  // metres
+    const int count = 16;
+    const float reach = 0.4;  // metres
     vec3 side = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
     vec3 other = cross(n, side);
     // Each pixel turns its samples by another angle.
-    float turn = 6.2832 * fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
     float hidden = 0.0;
     for (int i = 0; i < count; ++i) {
-        float a = (float(i) + 0.5) / float(count), angle = turn + 2.39996 * float(i);
+        float a = (float(i) + 0.5) / float(count), angle = 6.2832 * noise + 2.39996 * float(i);
         vec3 d = n * sqrt(1.0 - a) + (side * cos(angle) + other * sin(angle)) * sqrt(a);
-        vec3 p = v_place + 0.01 * n + d * reach * (0.1 + 0.9 * fract(0.618 * float(i)));
-        vec4 clip = clip_from_room * vec4(p, 1.0);
-        float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
-        float before = clip.w - depth_from_w.y / (seen - depth_from_w.x);
-        hidden += float(before > 0.01 && before < 2.0 * reach);
+        // Not in step with the angle.
+        float far = reach * (0.5 + 0.5 * fract(0.7549 * float(i) + 7.0 * noise));
+        vec3 from = v_place + 0.01 * n;
+        hidden += float(is_hidden(from + 0.3 * far * d, reach) || is_hidden(from + far * d, reach));
     }
-    return 1.0 - hidden / float(count);
+    // A little stronger than geometry says: what hides the light is dark itself.
+    return pow(1.0 - hidden / float(count), 1.6);
 }
 
 void main() {
