@@ -35,6 +35,8 @@ struct Flags {
     std::string renderer = automatic;
     std::string size = "1280x720";
     std::string view = "camera:0";
+    std::string room = "on", quality = "auto";
+    bool stereo = false;
     double seconds = 0;
     double warmup = 0;
     double every = 0;
@@ -59,6 +61,18 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
+// Of grown-ups, on average.
+constexpr double eye_distance_m = 0.063;
+
+RoomChoice parse_room(const Flags& flags) {
+    RoomChoice choice;
+    choice.shown = flags.room == "on";
+    if (flags.quality != "auto")
+        choice.quality =
+            flags.quality == "high" ? render::SceneQuality::high : render::SceneQuality::low;
+    return choice;
+}
+
 // 0 for "auto".
 double parse_render_scale(const std::string& text) {
     if (text == "auto")
@@ -73,7 +87,10 @@ double parse_render_scale(const std::string& text) {
 // Draws what came, from one viewpoint, into files.
 struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
-        : size(parse_size(flags.size)), view(parse_view(flags.view)), renderer(flags.renderer) {
+        : size(parse_size(flags.size)),
+          view(parse_view(flags.view)),
+          renderer(flags.renderer),
+          scene(parse_room(flags)) {
         check_renderer_choice(flags.renderer);
     }
 
@@ -97,11 +114,13 @@ struct OffscreenPicture {
     void write(const Flags& flags) {
         if (!scene.has_picture())
             throw Error("No picture came from the host, so none was written.");
-        const render::Picture picture = scene.render(view, size, drawn_with());
+        ViewerScene::Wish wish{view, size, drawn_with(), {}};
+        if (flags.stereo)
+            wish.eye_distance_m = eye_distance_m;
         if (!flags.offscreen.empty())
-            files::write_png(flags.offscreen, picture.color.view());
+            files::write_png(flags.offscreen, scene.picture(wish).view());
         if (!flags.depth_file.empty())
-            files::write_png(flags.depth_file, picture.depth_mm.view());
+            files::write_png(flags.depth_file, scene.distances(wish).view());
     }
 
     Size size;
@@ -171,8 +190,8 @@ void run(const Flags& flags) {
     if (flags.window()) {
         check_renderer_choice(flags.renderer);
         WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
-                             flags.renderer, parse_render_scale(flags.render_scale),
-                             flags.seconds});
+                             parse_room(flags), flags.renderer,
+                             parse_render_scale(flags.render_scale), flags.seconds});
         catch_stop_signals();
         viewer.run();
         return;
@@ -269,7 +288,8 @@ void add_join_command(CLI::App& app) {
     command->add_option("--offscreen", flags->offscreen,
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,
-                        "Write that picture's depth, in millimetres, into this 16-bit PNG file");
+                        "Write the clouds' depth in that picture, in millimetres, into this 16-bit "
+                        "PNG file");
     command
         ->add_option("--renderer", flags->renderer,
                      join_names(renderer_choices()) +
@@ -281,6 +301,21 @@ void add_join_command(CLI::App& app) {
         ->add_option("--view", flags->view,
                      "camera:N, or camera:N,yaw=DEGREES,pitch=DEGREES to look from beside it")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--room", flags->room,
+            "on: floor, walls and the cameras' names around the clouds, where the cameras' "
+            "places in the room are known; off: the clouds alone")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
+    command
+        ->add_option("--quality", flags->quality,
+                     "How carefully that room is lit: low, high, or auto, which is low where no "
+                     "graphics card draws. The clouds are the same in both")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "low", "high"}));
+    command->add_flag("--stereo", flags->stereo,
+                      "With --offscreen: what the left and the right eye see, beside each other");
     command->add_option("--seconds", flags->seconds,
                         "End this long after the first picture (default with --offscreen: 3)");
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");

@@ -32,6 +32,7 @@ std::string next_name(const std::vector<std::string>& names, const std::string& 
 WindowViewer::WindowViewer(Options options)
     : options_(std::move(options)),
       window_("Theatron", options_.size),
+      scene_(options_.room),
       choice_(options_.renderer),
       participant_(with_callbacks(options_.join)) {}
 
@@ -315,7 +316,7 @@ void WindowViewer::draw_scene() {
     const render::DrawTarget target = picture_.begin(window_.pixels(), scale);
     const std::string wanted = renderer();
     try {
-        scene_.clouds().draw(view(), target, wanted);
+        scene_.draw(view(), target, wanted);
         working_renderer_ = wanted;
     } catch (const Error& e) {
         // A driver that cannot do one way of drawing must not end the session.

