@@ -70,10 +70,9 @@ struct ScenePasses::Parts {
         const bool high = quality == SceneQuality::high;
         std::optional<Program>& program = high ? lit_high : lit_low;
         if (!program) {
-            program.emplace(
-                ShaderFiles{"scene.vert"},
-                ShaderFiles{"output.glsl", high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
-                            "scene.frag"});
+            const std::string_view define = high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY";
+            program.emplace(ShaderFiles{define, "scene.vert"},
+                            ShaderFiles{"output.glsl", define, "scene.frag"});
             program->set_sampler("environment", environment_unit);
             program->set_sampler("shadow_map", shadow_unit);
             program->set_sampler("scene_depth", scene_depth_unit);

@@ -21,6 +21,10 @@ uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
 
 in vec3 v_place;
 in vec3 v_normal;
+#ifdef LOW_QUALITY
+in vec3 v_around;
+in float v_lamp;
+#endif
 
 const float last_level = 4.0;
 
@@ -124,8 +128,7 @@ void main() {
     vec3 surface = base_color * (1.0 - 0.25 * line_share(n));
     vec3 v = normalize(eye - v_place);
 #ifdef LOW_QUALITY
-    vec3 color = surface * (max(dot(n, to_light), 0.0) * lit_share(n) * light / 3.14159 +
-                            textureLod(environment, n, last_level).rgb);
+    vec3 color = surface * (v_lamp * lit_share(n) + v_around);
 #else
     vec3 diffuse = surface * (1.0 - look.x);
     vec3 mirror = mix(vec3(0.04), surface, look.x);
