@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """How participants draw, set by the host while they watch."""
+import json
 import pathlib
 import shutil
 import signal
@@ -78,6 +79,43 @@ class Renderer(unittest.TestCase):
             self.assertTrue(own["splat"] != own["disc"])
             h.say("renderer disc")
             self.assertTrue(picture(link, "told", "--renderer", "splat") == own["disc"])
+
+    def test_the_room_goes_on_where_nothing_was_measured(self):
+        # A camera whose place is known: 1.6 m above the floor, looking level along -z.
+        room = self.folder / "registered"
+        shutil.copytree(self.folder / "box", room)
+        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.6, 0]}
+        (room / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+
+        with host(self.folder / "state", f"folder:{room},loop=1,preload=1") as h:
+            def pictures(name, *options):
+                color, depth = self.folder / f"{name}.png", self.folder / f"{name}_depth.png"
+                code, _, errors = run("join", h.greeting["link"], "--offscreen", color, "--depth", depth, "--size",
+                                      "160x120", "--view", "camera:0,yaw=40", "--renderer", "splat", "--seconds", 0.5,
+                                      *options)
+                self.assertEqual(code, 0, errors)
+                return read_png(color), read_png(depth)
+
+            (_, _, _, alone), (_, _, _, distances) = pictures("alone", "--room", "off")
+            measured = [[d != 0 for d in row] for row in distances]
+
+            def compare(rows, where):
+                """Share of the pixels that are as without the room."""
+                same = [alone[y][3 * x:3 * x + 3] == rows[y][3 * x:3 * x + 3]
+                        for y in range(120) for x in range(160) if measured[y][x] == where]
+                return sum(same) / len(same)
+
+            for quality in ("low", "high"):
+                with self.subTest(quality=quality):
+                    (_, _, _, rows), (_, _, _, with_room) = pictures(quality, "--quality", quality)
+                    self.assertTrue(with_room == distances, "the depth file is of the clouds alone")
+                    self.assertEqual(compare(rows, True), 1, "the clouds are untouched")
+                    self.assertLess(compare(rows, False), 0.5)
+            with self.subTest("the two eyes' pictures lie beside each other"):
+                (width, _, _, pair), _ = pictures("pair", "--stereo")
+                self.assertEqual(width, 320)
+                self.assertTrue([row[:480] for row in pair] != [row[480:] for row in pair])
 
 
 if __name__ == "__main__":
