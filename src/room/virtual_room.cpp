@@ -20,6 +20,8 @@ constexpr double label_height_m = 0.065, label_below_m = 0.14;
 constexpr double letter_width = 0.8;  // of a capital's height, about
 // Who looks from a camera's place is not to look into its mark.
 constexpr double free_around_eye_m = 0.35;
+// Nearer labels would fill the picture.
+constexpr double label_from_m = 1.2;
 
 const render::SurfaceLook floor_look{{0.105, 0.125, 0.135}, 0, 0.55, 1, 1};
 const render::SurfaceLook wall_look{{0.16, 0.19, 0.20}, 0, 0.9, 1, 0};
@@ -135,9 +137,12 @@ const render::SceneFrame* VirtualRoom::frame_for(const render::CameraView& view)
     const Vec3 eye = view.room_from_eye.translation;
     for (const RoomCamera& camera : cameras_) {
         const Pose& pose = camera.calibration.room_from_camera;
-        if (!camera.calibration.registered || length(pose.translation - eye) < free_around_eye_m)
+        const double distance = length(pose.translation - eye);
+        if (!camera.calibration.registered || distance < free_around_eye_m)
             continue;
         frame_.objects.push_back({&*mark_, pose, mark_look});
+        if (distance < label_from_m)
+            continue;
         // Cameras hang high.
         Pose place = facing(pose.translation - Vec3{0, label_below_m, 0}, eye);
         const double half_width = 0.5 * label_height_m * letter_width * double(camera.label.size());

@@ -60,6 +60,12 @@ TEST(VirtualRoom, WhoLooksFromACamerasPlaceDoesNotSeeItsMark) {
     const render::SceneFrame* frame = room.frame_for(view);
     ASSERT_EQ(frame->texts.size(), 1u);
     EXPECT_EQ(frame->texts[0].utf8, "right");
+    EXPECT_EQ(frame->objects.size(), 3u) << "floor, walls and one mark";
+    // Labels right before the eye would fill the picture.
+    view.room_from_eye.translation.x += 0.8;
+    frame = room.frame_for(view);
+    EXPECT_EQ(frame->objects.size(), 4u);
+    EXPECT_EQ(frame->texts.size(), 1u);
 }
 
 TEST(VirtualRoom, FloorAndWallsAreSeenFromInsideAndLabelsCanBeRead) {
