@@ -100,6 +100,21 @@ protected:
             (p.x / p.z - v.left) / (v.right - v.left) * picture_size.width)];
     }
 
+    void expect_each_alone(const std::vector<CameraView>& eyes) {
+        const Picture pair = draw(eyes);
+        ASSERT_EQ(pair.color.size, (Size{2 * picture_size.width, picture_size.height}));
+        for (int eye = 0; eye < 2; ++eye) {
+            const Picture alone = draw({eyes[std::size_t(eye)]});
+            for (int y = 0; y < picture_size.height; ++y)
+                for (int x = 0; x < picture_size.width; ++x) {
+                    const int there = eye * picture_size.width + x;
+                    ASSERT_EQ(pair.color.view().row(y)[there], alone.color.view().row(y)[x])
+                        << "eye " << eye << " at " << x << ", " << y;
+                    ASSERT_EQ(pair.depth_mm.view().row(y)[there], alone.depth_mm.view().row(y)[x]);
+                }
+        }
+    }
+
     std::optional<CloudScene> clouds;
     std::optional<ScenePasses> passes;
     std::optional<SceneMesh> box, wide;
@@ -172,18 +187,12 @@ TEST_P(RoomPictureTest, EachEyeOfAPairSeesWhatItWouldSeeAlone) {
     add_box(seen_at(-0.15, -0.2, 0.9));
     add_box(seen_at(0.15, 0.2, 0.9), 0.5);
     const auto eyes = stereo_pair(own_view(), eye_distance_m);
-    const Picture pair = draw({eyes[0], eyes[1]});
-    ASSERT_EQ(pair.color.size, (Size{2 * picture_size.width, picture_size.height}));
-    for (int eye = 0; eye < 2; ++eye) {
-        const Picture alone = draw({eyes[std::size_t(eye)]});
-        for (int y = 0; y < picture_size.height; ++y)
-            for (int x = 0; x < picture_size.width; ++x) {
-                const int there = eye * picture_size.width + x;
-                ASSERT_EQ(pair.color.view().row(y)[there], alone.color.view().row(y)[x])
-                    << "eye " << eye << " at " << x << ", " << y;
-                ASSERT_EQ(pair.depth_mm.view().row(y)[there], alone.depth_mm.view().row(y)[x]);
-            }
-    }
+    const CameraView& first = eyes[0];
+    CameraView second = eyes[1];
+    expect_each_alone({first, second});
+    // Here the first picture is full at its right edge, and the second is empty at its left.
+    second.room_from_eye.translation.x -= 1;
+    expect_each_alone({first, second});
 }
 
 TEST_P(RoomPictureTest, NearThingsLieFurtherApartInTheTwoEyesThanFarOnes) {
