@@ -8,6 +8,7 @@ namespace theatron::session {
 namespace {
 
 constexpr std::size_t max_name_length = 100, max_renderer_length = 40;
+constexpr Duration renderer_interval = std::chrono::seconds(1);
 constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
 // Names come from strangers and are shown to people: no control characters.
@@ -62,7 +63,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     } else if (const auto* ping = std::get_if<wire::Ping>(&*message)) {
         send(id, wire::Pong{ping->sent, now, now});
     } else if (const auto* report = std::get_if<wire::Report>(&*message)) {
-        note_report(id, *report);
+        note_report(id, *report, now);
     } else if (const auto* received = std::get_if<wire::Received>(&*message)) {
         actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, received->media_bytes});
     } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&*message)) {
@@ -104,12 +105,16 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
     apply_settings();
 }
 
-void HostSession::note_report(ParticipantId id, const wire::Report& report) {
+void HostSession::note_report(ParticipantId id, const wire::Report& report, TimePoint now) {
     Participant& participant = participants_[id];
     participant.report = report.streams;
-    const std::string renderer = shown_text(report.renderer, max_renderer_length);
-    if (std::exchange(participant.renderer, renderer) != renderer)
-        actions_.push_back({Action::Kind::drawing, id, {}, renderer, {}, 0});
+    std::string renderer = shown_text(report.renderer, max_renderer_length);
+    // Reports repeat it; who changes it all the time must not fill the log.
+    if (renderer == participant.renderer || now - participant.renderer_noted < renderer_interval)
+        return;
+    participant.renderer_noted = now;
+    participant.renderer = renderer;
+    actions_.push_back({Action::Kind::drawing, id, {}, std::move(renderer), {}, 0});
 }
 
 // Says what holds for this one, if anything was ever said.

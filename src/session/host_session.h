@@ -105,6 +105,7 @@ public:
         SettingId depth_setting{}, color_setting{};
         std::vector<wire::StreamReport> report;          // the newest
         std::string renderer;                            // how it draws, as it says; may be empty
+        TimePoint renderer_noted;                        // when that was last believed
         std::optional<wire::SetRenderer> renderer_word;  // said to this one alone
         Delivery delivery;
     };
@@ -119,7 +120,7 @@ private:
     bool is_chain(SettingId color) const;
     int layer_for(const Participant& participant, const wire::MediaHeader& header) const;
     double frames_per_second() const;
-    void note_report(ParticipantId id, const wire::Report& report);
+    void note_report(ParticipantId id, const wire::Report& report, TimePoint now);
     void tell_renderer(ParticipantId id);
     void refuse(ParticipantId id, std::string reason);
     void apply_settings();

@@ -265,13 +265,19 @@ TEST_F(Host, SetsTheRendererOfOneOfANameOrOfAll) {
 TEST_F(Host, LogsHowSomebodyDrawsWhenThatChanges) {
     join(alice);
     session.take_actions();
-    for (const char* renderer : {"mesh", "mesh", "ble\nnd", ""})
+    for (const char* renderer : {"mesh", "mesh", "ble\nnd", ""}) {
+        now += 1s;
         say(alice, wire::Report{{}, renderer});
+    }
+    // A change so soon is believed when it is said again.
+    say(alice, wire::Report{{}, "disc"});
+    now += 1s;
+    say(alice, wire::Report{{}, "splat"});
     std::vector<std::string> noted;
     for (const auto& a : session.take_actions())
         if (a.kind == Kind::drawing)
             noted.push_back(a.why);
-    EXPECT_EQ(noted, (std::vector<std::string>{"mesh", "ble nd", ""}));
+    EXPECT_EQ(noted, (std::vector<std::string>{"mesh", "ble nd", "", "splat"}));
 }
 
 TEST(RendererChoice, TheLastWordHoldsUnlessTheHostLocksIt) {
