@@ -81,7 +81,7 @@ void run(const Flags& flags) {
         if (scene.has_picture() && now >= next_picture) {
             for (const View& view : views)
                 files::write_png(folder / view.file,
-                                 scene.render(view.choice, size, view.renderer).color.view());
+                                 scene.picture({view.choice, size, view.renderer, {}}).view());
             if (!std::exchange(announced, true))
                 for (const View& view : views)
                     std::cout << "  " << (folder / view.file).string() << "\n";

@@ -311,6 +311,10 @@ void Host::Impl::carry_out() {
             case Kind::stepped:
                 log::info("host", "sending changed", {{"id", int(peer)}, {"to", action.why}});
                 break;
+            case Kind::drawing:
+                log::info("host", "participant draws",
+                          {{"id", int(peer)}, {"renderer", action.why}});
+                break;
         }
     }
 }
@@ -350,8 +354,8 @@ void Host::Impl::note_participants() {
     std::vector<HostFigures::Participant> list;
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
-            list.push_back(
-                {id, participant.name, participant.delivery.step().what, participant.report});
+            list.push_back({id, participant.name, participant.delivery.step().what,
+                            participant.report, participant.renderer});
     participants = list.size();
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
@@ -415,6 +419,31 @@ void Host::set_region(std::size_t camera, codec::strata::Region region) {
         else
             impl->with_region.erase(camera);
         impl->session->on_region(!impl->with_region.empty());
+        impl->carry_out();
+    });
+}
+
+void Host::set_renderer(const std::string& who, const wire::SetRenderer& word) {
+    std::optional<ParticipantId> id;
+    bool named = false;
+    std::string present;
+    for (const auto& participant : impl_->figures().participants) {
+        const std::string number = std::to_string(int(participant.id));
+        if (who == number)
+            id = participant.id;
+        named = named || who == participant.name;
+        present += (present.empty() ? "" : ", ") + number + " " + participant.name;
+    }
+    if (!who.empty() && !id && !named)
+        throw Error("There is no participant '" + who + "'; " +
+                    (present.empty() ? "nobody has joined." : "here are " + present + "."));
+    impl_->server->post([impl = impl_.get(), who, id, word] {
+        if (id)
+            impl->session->set_renderer(*id, word);
+        else if (who.empty())
+            impl->session->set_renderer(word);
+        else
+            impl->session->set_renderer(who, word);
         impl->carry_out();
     });
 }

@@ -42,6 +42,10 @@ public:
     // Error with one sentence if it has too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
 
+    // How a participant should draw, by number or name, or all of them (empty). Throws Error with
+    // one sentence if nobody is meant.
+    void set_renderer(const std::string& who, const wire::SetRenderer& word);
+
     // Takes over filter files that were changed. Log lines tell.
     void follow_filter_files();
 

@@ -20,6 +20,7 @@
 #include "input_lines.h"
 #include "progress.h"
 #include "region_text.h"
+#include "renderer_text.h"
 #include "stop_signal.h"
 
 namespace theatron::app {
@@ -46,13 +47,10 @@ void draw_regions(Host& host, const std::vector<std::string>& texts) {
         host.set_region(camera, std::move(region));
 }
 
-// "region CAMERA PART...", "region CAMERA none". Throws Error if it cannot be done.
-void obey(Host& host, const std::string& line) {
-    std::istringstream words(line);
-    std::string what, camera, part;
-    words >> what >> camera;
-    if (what.empty())
-        return;
+// "CAMERA PART...", "CAMERA none". Throws Error if it cannot be done.
+void change_region(Host& host, std::istringstream words) {
+    std::string camera, part;
+    words >> camera;
     codec::strata::Region region;
     bool none = false;
     while (words >> part)
@@ -60,9 +58,25 @@ void obey(Host& host, const std::string& line) {
             none = true;
         else
             region.push_back(parse_polygon(part));
-    if (what != "region" || none == !region.empty())
+    if (none == !region.empty())
         throw Error("Say 'region CAMERA X:Y:WIDTH:HEIGHT...' or 'region CAMERA none'.");
     host.set_region(find_camera(camera, host.camera_names()), std::move(region));
+}
+
+// Throws Error if it cannot be done.
+void obey(Host& host, const std::string& line) {
+    std::istringstream words(line);
+    std::string what, rest;
+    words >> what;
+    std::getline(words, rest);
+    if (what == "region") {
+        change_region(host, std::istringstream(rest));
+    } else if (what == "renderer") {
+        const RendererText text = parse_renderer(rest);
+        host.set_renderer(text.who, text.word);
+    } else if (!what.empty()) {
+        throw Error("There is no command '" + what + "'; lines begin with region or renderer.");
+    }
 }
 
 void obey(Host& host, InputLines& input) {
@@ -132,8 +146,13 @@ void add_host_command(CLI::App& app) {
         cameras += "  " + kind + "\n";
     command->footer(
         cameras +
-        "\nLines on standard input change the region of interest at any time: 'region 0 "
-        "100:50:300:200',\n'region 0 none'.\n"
+        "\nLines on standard input, at any time:\n"
+        "  region 0 100:50:300:200        the region of interest of camera 0; 'region 0 none'\n"
+        "  renderer mesh                  how all participants draw, now and when they join;\n"
+        "                                 each may choose another afterwards\n"
+        "  renderer 2 blend lock          participant 2, who cannot change it; a name instead of\n"
+        "                                 the number also holds when they join again\n"
+        "  renderer all free              they choose again\n"
         "\nExamples:\n"
         "  theatron host --camera folder:recordings/table,loop=1\n"
         "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "

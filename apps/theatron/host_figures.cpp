@@ -114,6 +114,7 @@ nlohmann::json to_json(const HostFigures& figures) {
         participants.push_back({{"id", int(participant.id)},
                                 {"name", participant.name},
                                 {"sent", participant.sent},
+                                {"renderer", participant.renderer},
                                 {"age_ms", age_ms(participant)}});
     return {{"name", figures.name},
             {"seconds", figures.seconds},
@@ -219,9 +220,12 @@ std::string to_table(const nlohmann::json& figures) {
             table += "    " + problem + "\n";
     }
     for (const auto& participant : participants) {
-        std::snprintf(line, sizeof(line), "participant %.0f %.100s: newest picture %.0f ms old\n",
+        const std::string renderer = text(participant, "renderer");
+        std::snprintf(line, sizeof(line),
+                      "participant %.0f %.100s: newest picture %.0f ms old%s%.40s\n",
                       number(participant, "id"), text(participant, "name").c_str(),
-                      number(participant, "age_ms"));
+                      number(participant, "age_ms"), renderer.empty() ? "" : ", drawn with ",
+                      renderer.c_str());
         table += line;
     }
     return table;

@@ -25,12 +25,14 @@ struct HostFigures {
         std::string name;
         std::string sent;                         // how much of what it asked for
         std::vector<wire::StreamReport> streams;  // its newest report
+        std::string renderer;                     // how it draws; empty: unknown
     };
     std::vector<Participant> participants;
 };
 
 // {"name","seconds","cameras":[{"name","state","problem","fps","age_ms","stages":[…],
-// "dropped":{…},…}],"participants":[{"id","name","age_ms"}]}
+// "dropped":{…},…}],"participants":[{"id","name","age_ms",
+// "renderer",…}]}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

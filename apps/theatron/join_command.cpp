@@ -15,6 +15,8 @@
 #include "input_lines.h"
 #include "participant.h"
 #include "participant_figures.h"
+#include "renderer_text.h"
+#include "session/renderer_choice.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -30,9 +32,11 @@ struct Flags {
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     std::string offscreen, depth_file;
-    std::string renderer = "mesh";
+    std::string renderer = automatic;
     std::string size = "1280x720";
     std::string view = "camera:0";
+    std::string room = "on", quality = "auto";
+    bool stereo = false;
     double seconds = 0;
     double warmup = 0;
     double every = 0;
@@ -57,6 +61,18 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
+// Of grown-ups, on average.
+constexpr double eye_distance_m = 0.063;
+
+RoomChoice parse_room(const Flags& flags) {
+    RoomChoice choice;
+    choice.shown = flags.room == "on";
+    if (flags.quality != "auto")
+        choice.quality =
+            flags.quality == "high" ? render::SceneQuality::high : render::SceneQuality::low;
+    return choice;
+}
+
 // 0 for "auto".
 double parse_render_scale(const std::string& text) {
     if (text == "auto")
@@ -71,22 +87,45 @@ double parse_render_scale(const std::string& text) {
 // Draws what came, from one viewpoint, into files.
 struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
-        : size(parse_size(flags.size)), view(parse_view(flags.view)) {
-        render::check_renderer_name(flags.renderer);
+        : size(parse_size(flags.size)),
+          view(parse_view(flags.view)),
+          renderer(flags.renderer),
+          scene(parse_room(flags)) {
+        check_renderer_choice(flags.renderer);
     }
+
+    // What is new, also what the host said about drawing.
+    void take(Participant& participant) {
+        scene.take(participant);
+        try {
+            if (const auto word = participant.take_renderer_word()) {
+                if (!word->renderer.empty())
+                    check_renderer_choice(word->renderer);
+                renderer.follow(*word);
+            }
+        } catch (const Error& error) {
+            std::fprintf(stderr, "The host wants another way of drawing. %s\n", error.what());
+        }
+        participant.tell_renderer(drawn_with());
+    }
+
+    std::string drawn_with() const { return renderer_for(renderer.renderer(), scene.cameras()); }
 
     void write(const Flags& flags) {
         if (!scene.has_picture())
             throw Error("No picture came from the host, so none was written.");
-        const render::Picture picture = scene.render(view, size, flags.renderer);
+        ViewerScene::Wish wish{view, size, drawn_with(), {}};
+        if (flags.stereo)
+            wish.eye_distance_m = eye_distance_m;
         if (!flags.offscreen.empty())
-            files::write_png(flags.offscreen, picture.color.view());
+            files::write_png(flags.offscreen, scene.picture(wish).view());
         if (!flags.depth_file.empty())
-            files::write_png(flags.depth_file, picture.depth_mm.view());
+            files::write_png(flags.depth_file, scene.distances(wish).view());
     }
 
     Size size;
     ViewChoice view;
+    session::RendererChoice renderer;
     ViewerScene scene;
 };
 
@@ -149,10 +188,10 @@ void run(const Flags& flags) {
     options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 
     if (flags.window()) {
-        render::check_renderer_name(flags.renderer);
+        check_renderer_choice(flags.renderer);
         WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
-                             flags.renderer, parse_render_scale(flags.render_scale),
-                             flags.seconds});
+                             parse_room(flags), flags.renderer,
+                             parse_render_scale(flags.render_scale), flags.seconds});
         catch_stop_signals();
         viewer.run();
         return;
@@ -177,7 +216,7 @@ void run(const Flags& flags) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
             first_frame = steady_now();
         if (picture)
-            picture->scene.take(participant);
+            picture->take(participant);
         else
             (void)participant.take_frames();
 
@@ -249,8 +288,12 @@ void add_join_command(CLI::App& app) {
     command->add_option("--offscreen", flags->offscreen,
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,
-                        "Write that picture's depth, in millimetres, into this 16-bit PNG file");
-    command->add_option("--renderer", flags->renderer, join_names(render::renderer_names()))
+                        "Write the clouds' depth in that picture, in millimetres, into this 16-bit "
+                        "PNG file");
+    command
+        ->add_option("--renderer", flags->renderer,
+                     join_names(renderer_choices()) +
+                         "; auto is blend for two cameras and more. The host may set another")
         ->capture_default_str();
     command->add_option("--size", flags->size, "Size of the window or of the picture")
         ->capture_default_str();
@@ -258,6 +301,21 @@ void add_join_command(CLI::App& app) {
         ->add_option("--view", flags->view,
                      "camera:N, or camera:N,yaw=DEGREES,pitch=DEGREES to look from beside it")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--room", flags->room,
+            "on: floor, walls and the cameras' names around the clouds, where the cameras' "
+            "places in the room are known; off: the clouds alone")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
+    command
+        ->add_option("--quality", flags->quality,
+                     "How carefully that room is lit: low, high, or auto, which is low where no "
+                     "graphics card draws. The clouds are the same in both")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "low", "high"}));
+    command->add_flag("--stereo", flags->stereo,
+                      "With --offscreen: what the left and the right eye see, beside each other");
     command->add_option("--seconds", flags->seconds,
                         "End this long after the first picture (default with --offscreen: 3)");
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "participant_figures.h"
+#include "xr/font_native.h"
+
 namespace theatron::app {
 namespace {
 
@@ -27,6 +30,7 @@ std::vector<CameraId> LiveScene::take(Participant& participant) {
         }
         generation_ = generation;
     }
+    update_room(cameras);
     std::vector<CameraId> updated;
     for (const auto& frame : participant.take_frames()) {
         const ColorView color = frame->color ? frame->color->view() : ColorView{};
@@ -37,6 +41,42 @@ std::vector<CameraId> LiveScene::take(Participant& participant) {
         }
     }
     return updated;
+}
+
+void LiveScene::update_room(const std::vector<Participant::Camera>& cameras) {
+    std::vector<room::RoomCamera> marks;
+    for (const auto& camera : cameras) {
+        std::string label = camera.description.name;
+        if (camera.state.condition != wire::CameraCondition::live)
+            label += std::string(" (") + text_of(camera.state.condition) + ")";
+        marks.push_back({std::move(label), camera.calibration});
+    }
+    room_.set_cameras(marks);
+}
+
+const render::SceneFrame* LiveScene::room_for(const render::CameraView& view) {
+    const render::SceneFrame* frame = choice_.shown ? room_.frame_for(view) : nullptr;
+    if (frame && !passes_) {
+        const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
+        passes_ = std::make_unique<render::ScenePasses>(&atlas);
+        room_.set_quality(choice_.quality.value_or(render::usual_quality()));
+    }
+    return frame;
+}
+
+void LiveScene::draw(const render::CameraView& view, const render::DrawTarget& target,
+                     const std::string& renderer) {
+    const render::SceneFrame* room = room_for(view);
+    if (room)
+        render::draw({room, renderer, {{view, target}}}, clouds_, passes_.get());
+    else
+        clouds_.draw(view, target, renderer);
+}
+
+render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, Size size,
+                                  const std::string& renderer, bool with_room) {
+    const render::SceneFrame* room = with_room ? room_for(eyes.front()) : nullptr;
+    return render::draw_and_read(room, renderer, eyes, size, clouds_, passes_.get());
 }
 
 bool LiveScene::fade(const Participant& participant, TimePoint now) {

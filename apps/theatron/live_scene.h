@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clouds of all cameras of a session, kept up to date.
+// The clouds of all cameras of a session, kept up to date, and the room around them.
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "participant.h"
-#include "render/cloud_scene.h"
+#include "render/room_picture.h"
+#include "room/virtual_room.h"
 
 namespace theatron::app {
+
+// What is drawn around the clouds.
+struct RoomChoice {
+    bool shown = true;
+    std::optional<render::SceneQuality> quality;  // none: as the driver's speed suggests
+};
 
 // Use from one thread, with the same GL context current.
 class LiveScene {
 public:
+    explicit LiveScene(RoomChoice choice) : choice_(choice) {}
+
     // Takes over what is new: cameras and frames. Returns the cameras whose picture
     // is new.
     std::vector<CameraId> take(Participant& participant);
@@ -24,10 +35,22 @@ public:
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The last frame of each camera that sent one.
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
-    render::CloudScene& clouds() { return clouds_; }
+
+    // Draws clouds and room into a cleared target. Throws Error if the driver cannot do it.
+    void draw(const render::CameraView& view, const render::DrawTarget& target,
+              const std::string& renderer);
+    // The pictures of these eyes beside each other, read back.
+    render::Picture render(const std::vector<render::CameraView>& eyes, Size size,
+                           const std::string& renderer, bool with_room);
 
 private:
+    void update_room(const std::vector<Participant::Camera>& cameras);
+    const render::SceneFrame* room_for(const render::CameraView& view);
+
+    RoomChoice choice_;
     render::CloudScene clouds_;
+    room::VirtualRoom room_;
+    std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;

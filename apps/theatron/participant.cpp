@@ -36,6 +36,8 @@ struct Participant::Shared {
     bool stopping = false;
     std::string depth_wish, color_wish;  // codecs to ask for
     std::optional<wire::ChooseDelivery> delivery_wish;
+    std::optional<wire::SetRenderer> renderer_word;  // not yet taken
+    std::string renderer;
 };
 
 Participant::Participant(Options options)
@@ -176,6 +178,7 @@ void Participant::on_control(ByteView message) {
             shared_->status.problem.clear();
             shared_->status.host_name = session_.welcome().host_name;
             shared_->status.delivery = {};
+            shared_->renderer_word = wire::SetRenderer{};
             const bool again = ++shared_->status.joins > 1;
             lock.unlock();
             announce();
@@ -210,6 +213,18 @@ void Participant::on_control(ByteView message) {
         case Change::delivery: {
             const std::lock_guard lock(shared_->mutex);
             shared_->status.delivery = session_.delivery();
+            break;
+        }
+        case Change::renderer: {
+            wire::SetRenderer word = session_.renderer_word();
+            {
+                const std::lock_guard lock(shared_->mutex);
+                // Giving the choice back leaves what was said just before.
+                if (word.renderer.empty() && shared_->renderer_word)
+                    word.renderer = shared_->renderer_word->renderer;
+                shared_->renderer_word = std::move(word);
+            }
+            announce();
             break;
         }
         case Change::refused:
@@ -286,9 +301,12 @@ void Participant::on_tick() {
     for (const auto& f : figures)
         report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,
                                   Duration(std::int64_t(f.age_ms * 1000))});
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->figures = figures;
+        report.renderer = shared_->renderer;
+    }
     client.send_control(wire::encode_control(report));
-    const std::lock_guard lock(shared_->mutex);
-    shared_->figures = figures;
 }
 
 Participant::Status Participant::status() const {
@@ -354,6 +372,16 @@ void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
     const std::lock_guard lock(shared_->mutex);
     shared_->delivery_wish = goal;
     shared_->status.goal = goal;
+}
+
+std::optional<wire::SetRenderer> Participant::take_renderer_word() {
+    const std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->renderer_word, std::nullopt);
+}
+
+void Participant::tell_renderer(const std::string& renderer) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->renderer = renderer;
 }
 
 void Participant::remark(const std::string& text) const {

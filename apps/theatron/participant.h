@@ -84,6 +84,12 @@ public:
     // Other codecs from now on; an empty text keeps the codec.
     void choose_codecs(const std::string& depth, const std::string& color);
 
+    // What the host said about drawing since the last call, if anything. With a new connection its
+    // earlier words no longer hold: that is a word, too.
+    std::optional<wire::SetRenderer> take_renderer_word();
+    // Tells the host how this participant draws.
+    void tell_renderer(const std::string& renderer);
+
     // Another target latency and ceiling from now on.
     void choose_delivery(const wire::ChooseDelivery& goal);
 

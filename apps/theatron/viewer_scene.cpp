@@ -5,11 +5,15 @@
 
 namespace theatron::app {
 
-render::Picture ViewerScene::render(const ViewChoice& view, Size size,
-                                    const std::string& renderer) {
-    const render::CameraView camera_view =
-        view.resolve(scene_.calibrations(), scene_.newest(), size);
-    render::Picture picture = scene_.clouds().render(camera_view, size, renderer);
+render::Picture ViewerScene::render(const Wish& wish, bool with_room) {
+    const render::CameraView view =
+        wish.view.resolve(scene_.calibrations(), scene_.newest(), wish.size);
+    std::vector<render::CameraView> eyes{view};
+    if (wish.eye_distance_m) {
+        const auto pair = render::stereo_pair(view, *wish.eye_distance_m);
+        eyes.assign(pair.begin(), pair.end());
+    }
+    render::Picture picture = scene_.render(eyes, wish.size, wish.renderer, with_room);
     if (context_.errors() > 0)
         throw Error("The graphics driver reported an error: " + context_.first_error());
     return picture;

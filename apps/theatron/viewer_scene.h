@@ -2,6 +2,7 @@
 // What a participant sees, drawn offscreen: the newest frames of all cameras.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "live_scene.h"
@@ -13,15 +14,28 @@ namespace theatron::app {
 // Use from one thread.
 class ViewerScene {
 public:
+    explicit ViewerScene(RoomChoice room = {}) : scene_(room) {}
+
     // Takes over what is new: cameras and frames.
     void take(Participant& participant) { (void)scene_.take(participant); }
 
     bool has_picture() const { return scene_.has_picture(); }
+    std::size_t cameras() const { return scene_.calibrations().size(); }
 
-    // Throws Error if that camera gave nothing, or if the driver reported an error.
-    render::Picture render(const ViewChoice& view, Size size, const std::string& renderer);
+    struct Wish {
+        ViewChoice view;
+        Size size;
+        std::string renderer;
+        // If given, the picture is twice as wide: what the left and the right eye see.
+        std::optional<double> eye_distance_m;
+    };
+    // Both throw Error if that camera gave nothing, or if the driver reported an error.
+    ColorImage picture(const Wish& wish) { return render(wish, true).color; }
+    DepthImage distances(const Wish& wish) { return render(wish, false).depth_mm; }  // of clouds
 
 private:
+    render::Picture render(const Wish& wish, bool with_room);
+
     render::OffscreenContext context_;
     LiveScene scene_;
 };

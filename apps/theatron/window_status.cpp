@@ -103,7 +103,8 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
         facts.push_back(age);
     }
     const bool reduced = screen.scale < 1;
-    facts.push_back({"Drawing", screen.renderer + (reduced ? ", coarser" : "")});
+    facts.push_back({"Drawing", screen.renderer + (screen.renderer_locked ? ", set by host" : "") +
+                                    (reduced ? ", coarser" : "")});
     facts.push_back({"Help", "F1"});
     return facts;
 }

@@ -16,8 +16,9 @@ struct OnScreen {
     std::optional<double> age_ms;  // of what is shown, now
     double drawn_per_second = 0;
     std::string renderer;
-    double scale = 1;     // of the window's pixels, drawn on each side
-    std::string address;  // of the host
+    bool renderer_locked = false;  // by the host
+    double scale = 1;              // of the window's pixels, drawn on each side
+    std::string address;           // of the host
 };
 
 std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/steady_clock.h"
 #include "participant_figures.h"
+#include "renderer_text.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -31,7 +32,8 @@ std::string next_name(const std::vector<std::string>& names, const std::string& 
 WindowViewer::WindowViewer(Options options)
     : options_(std::move(options)),
       window_("Theatron", options_.size),
-      renderer_(options_.renderer),
+      scene_(options_.room),
+      choice_(options_.renderer),
       participant_(with_callbacks(options_.join)) {}
 
 Participant::Options WindowViewer::with_callbacks(Participant::Options join) {
@@ -69,6 +71,7 @@ void WindowViewer::run() {
         if (options_.seconds > 0 && first_picture_at_ != TimePoint{} &&
             now - first_picture_at_ >= seconds_to_duration(options_.seconds))
             break;
+        follow_host();
         if (now < next_picture)
             continue;
 
@@ -118,10 +121,7 @@ void WindowViewer::obey(const xr::KeyPress& key) {
             window_.toggle_full_screen();
             break;
         case xr::Action::next_renderer:
-            renderer_ = next_name(render::renderer_names(), renderer_);
-            scale_.forget();
-            scene_changed_ = true;
-            note("Drawing: " + renderer_, choice_shown);
+            choose_renderer();
             break;
         case xr::Action::next_depth_codec:
             join.depth_codec = next_name(video::depth_codec_names(), join.depth_codec);
@@ -149,6 +149,44 @@ void WindowViewer::obey(const xr::KeyPress& key) {
         case xr::Action::leave:
             break;
     }
+}
+
+void WindowViewer::choose_renderer() {
+    if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
+        return note("The host has set this way of drawing: " + choice_.renderer(), choice_shown);
+    scale_.forget();
+    scene_changed_ = true;
+    const bool as_drawn = choice_.renderer() == renderer();
+    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + renderer()), choice_shown);
+}
+
+void WindowViewer::follow_host() {
+    const auto word = participant_.take_renderer_word();
+    if (!word)
+        return;
+    const session::RendererChoice before = choice_;
+    try {
+        if (!word->renderer.empty())
+            check_renderer_choice(word->renderer);
+        choice_.follow(*word);
+    } catch (const Error& e) {
+        return note(std::string("The host wants another way of drawing. ") + e.what(),
+                    remark_shown);
+    }
+    if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
+        note(choice_.locked() || !before.locked()
+                 ? "The host has set the way of drawing: " + choice_.renderer()
+                 : "The way of drawing is yours again.",
+             remark_shown);
+    if (choice_.renderer() == before.renderer())
+        return;
+    scale_.forget();
+    scene_changed_ = true;
+}
+
+// What is drawn with now.
+std::string WindowViewer::renderer() const {
+    return renderer_for(choice_.renderer(), scene_.calibrations().size());
 }
 
 // Throws Error if that camera does not exist or sent nothing yet.
@@ -248,7 +286,9 @@ void WindowViewer::update_texts(TimePoint now) {
         screen.age_ms = since > 500 ? *age_at_presentation_ + since : ages_.percentile(0.5);
     }
     screen.drawn_per_second = drawn_.per_second(now);
-    screen.renderer = renderer_;
+    screen.renderer = renderer();
+    screen.renderer_locked = choice_.locked();
+    participant_.tell_renderer(screen.renderer);
     screen.scale = options_.scale > 0 ? options_.scale : scale_.scale();
     screen.address = options_.join.link.host + ":" + std::to_string(options_.join.link.port);
 
@@ -266,7 +306,7 @@ void WindowViewer::update_texts(TimePoint now) {
     next_texts_ = now + texts_every;
 
     const std::string host = status.host_name.empty() ? screen.address : status.host_name;
-    const std::string title = host + " - " + renderer_ + " - Theatron";
+    const std::string title = host + " - " + screen.renderer + " - Theatron";
     if (title != title_)
         window_.set_title(title_ = title);
 }
@@ -274,15 +314,16 @@ void WindowViewer::update_texts(TimePoint now) {
 void WindowViewer::draw_scene() {
     const double scale = options_.scale > 0 ? options_.scale : scale_.scale();
     const render::DrawTarget target = picture_.begin(window_.pixels(), scale);
+    const std::string wanted = renderer();
     try {
-        scene_.clouds().draw(view(), target, renderer_);
-        working_renderer_ = renderer_;
+        scene_.draw(view(), target, wanted);
+        working_renderer_ = wanted;
     } catch (const Error& e) {
         // A driver that cannot do one way of drawing must not end the session.
-        if (working_renderer_.empty() || working_renderer_ == renderer_)
+        if (working_renderer_.empty() || working_renderer_ == wanted)
             throw;
         note(e.what(), remark_shown);
-        renderer_ = working_renderer_;
+        choice_.follow({working_renderer_, choice_.locked()});
     }
 }
 

@@ -10,6 +10,7 @@
 #include "base/statistics.h"
 #include "live_scene.h"
 #include "participant.h"
+#include "session/renderer_choice.h"
 #include "view_choice.h"
 #include "window_status.h"
 #include "xr/desktop_window_native.h"
@@ -25,7 +26,8 @@ public:
         Participant::Options join;
         Size size{1280, 720};
         ViewChoice view;
-        std::string renderer = "mesh";
+        RoomChoice room;
+        std::string renderer = "auto";
         double scale = 0;    // of the window's pixels to draw; 0: as there is time for
         double seconds = 0;  // end this long after the first picture; 0: never
     };
@@ -41,6 +43,9 @@ private:
     bool obey(const xr::WindowInput& input);
     void obey(const xr::KeyPress& key);
     void note(const std::string& text, Duration length);
+    void choose_renderer();
+    void follow_host();
+    std::string renderer() const;
     void go_home(const ViewChoice& choice);
     void find_view();
     std::string camera_text(CameraId camera) const;
@@ -67,7 +72,8 @@ private:
     TimePoint steered_at_, first_picture_at_;
 
     // What is drawn.
-    std::string renderer_, working_renderer_;
+    session::RendererChoice choice_;
+    std::string working_renderer_;
     xr::RenderScale scale_;
     xr::OverlayContent texts_;
     std::string notice_, title_;

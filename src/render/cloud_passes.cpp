@@ -87,8 +87,12 @@ public:
         glUniform2f(half_picture_, float(picture.width / 2.0), float(picture.height / 2.0));
         glUniform1f(pixels_per_tan_, float(picture.width / (frame.view.right - frame.view.left)));
         set_depth_from_w(frame.view, depth_from_w_);
+        // Points are wider than the viewport that their middles lie in.
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(frame.target.x, frame.target.y, picture.width, picture.height);
         glDrawArraysInstanced(GL_POINTS, 0, GLsizei(size.area()),
                               GLsizei(frame.textures.sources().size()));
+        glDisable(GL_SCISSOR_TEST);
     }
 
 private:

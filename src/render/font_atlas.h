@@ -3,8 +3,9 @@
 // a browser can fill the same from a canvas.
 #pragma once
 
+#include <cstddef>
 #include <map>
-#include <string>
+#include <span>
 
 #include "image/image.h"
 
@@ -22,7 +23,8 @@ struct FontAtlas {
     double capital_height = 0;  // pixels
 };
 
-// Latin letters, digits and signs of this font file. Throws Error if it cannot be read.
-FontAtlas load_font_atlas(const std::string& file);
+// Latin letters, digits and signs of a font, given as the bytes of its file. Takes some tenths
+// of a second. Throws Error if it cannot be read.
+FontAtlas load_font_atlas(std::span<const std::byte> font);
 
 }  // namespace theatron::render

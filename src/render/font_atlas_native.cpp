@@ -70,15 +70,16 @@ void place(FontAtlas& atlas, FontAtlas::Glyph& glyph, const Image<std::uint8_t>&
 
 }  // namespace
 
-FontAtlas load_font_atlas(const std::string& file) {
+FontAtlas load_font_atlas(std::span<const std::byte> font) {
     FT_Library library = nullptr;
     if (FT_Init_FreeType(&library) != 0)
         throw Error("The font library does not start.");
     const std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)> owner(library,
                                                                              FT_Done_FreeType);
     FT_Face face = nullptr;
-    if (FT_New_Face(library, file.c_str(), 0, &face) != 0)
-        throw Error("Cannot read the font " + file + ".");
+    if (FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(font.data()),
+                           FT_Long(font.size()), 0, &face) != 0)
+        throw Error("The font for texts in the room cannot be read.");
     FT_Set_Pixel_Sizes(face, 0, glyph_pixels);
 
     FontAtlas atlas;

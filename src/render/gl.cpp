@@ -20,13 +20,26 @@ ShaderPart find_part(std::string_view name) {
     throw Error("There is no shader file " + std::string(name) + " in this build.");
 }
 
-constexpr std::string_view preamble =
+// Desktop GL has one precision alone, and its older drivers do not take these lines.
+constexpr std::string_view es_preamble =
     "#version 300 es\n"
     "precision highp float;\n"
     "precision highp int;\n"
     "precision highp sampler2D;\n"
+    "precision highp sampler2DShadow;\n"
     "precision highp sampler2DArray;\n"
-    "precision highp usampler2DArray;\n";
+    "precision highp usampler2DArray;\n"
+    "precision highp samplerCube;\n";
+constexpr std::string_view desktop_preamble = "#version 420 core\n";
+
+// For the current context.
+std::string_view preamble() {
+#ifdef __EMSCRIPTEN__
+    return es_preamble;
+#else
+    return epoxy_is_desktop_gl() ? desktop_preamble : es_preamble;
+#endif
+}
 
 int count_lines(std::string_view text) {
     return int(std::count(text.begin(), text.end(), '\n'));
@@ -34,7 +47,7 @@ int count_lines(std::string_view text) {
 
 // The file and line of a line of the whole source, as make_source put it together.
 std::string place_of(int line, const std::vector<ShaderPart>& parts) {
-    line -= count_lines(preamble);
+    line -= count_lines(preamble());
     for (const ShaderPart& part : parts) {
         const int lines = count_lines(part.text) + 1;
         if (line <= lines)
@@ -45,7 +58,7 @@ std::string place_of(int line, const std::vector<ShaderPart>& parts) {
 }
 
 std::string make_source(const std::vector<ShaderPart>& parts) {
-    std::string source(preamble);
+    std::string source(preamble());
     for (const ShaderPart& part : parts)
         source.append(part.text) += '\n';
     return source;

@@ -3,8 +3,9 @@
 //
 // Only sources that draw include this header (this folder and the passes of xr/): it
 // brings in the GL types.
-// The common subset of OpenGL ES 3.0 and WebGL 2 is used throughout; natively
-// libepoxy finds the functions, in the browser Emscripten maps them to WebGL.
+// The common subset of OpenGL ES 3.0 and WebGL 2 is used throughout, which desktop core
+// profiles also have; natively libepoxy finds the functions, in the browser Emscripten maps
+// them to WebGL.
 #pragma once
 
 #ifdef __EMSCRIPTEN__

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Gl, AShaderErrorNamesFileAndLine) {
-    test_context();
+    OffscreenContext context(tested_gl());  // of its own, so that others see no errors
     try {
         compile_shader(GL_VERTEX_SHADER,
                        {{"library.glsl", "float one() {\n  return 1.0;\n}\n"},
@@ -25,8 +25,15 @@ TEST(Gl, AShaderErrorNamesFileAndLine) {
     }
 }
 
+TEST(Gl, TheContextIsOfTheKindThatWasAskedFor) {
+    const std::string version = test_context().version();
+    EXPECT_EQ(version.find("OpenGL ES") == std::string::npos, tested_gl() == GlKind::desktop_core)
+        << version;
+    EXPECT_EQ(epoxy_is_desktop_gl(), tested_gl() == GlKind::desktop_core);
+}
+
 TEST(Gl, ErrorsOfTheDriverAreCounted) {
-    OffscreenContext context;  // of its own, so that others see no errors
+    OffscreenContext context(tested_gl());  // of its own, so that others see no errors
     EXPECT_EQ(context.errors(), 0);
     glEnable(GL_RGBA8);  // no such switch
     EXPECT_EQ(context.errors(), 1);

@@ -12,10 +12,11 @@ namespace theatron::render {
 struct OffscreenContext::Parts {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
+    EGLenum api = EGL_OPENGL_ES_API;  // each has a current context of its own
     GlErrors errors;
 };
 
-OffscreenContext::OffscreenContext() : parts_(std::make_unique<Parts>()) {
+OffscreenContext::OffscreenContext(GlKind kind) : parts_(std::make_unique<Parts>()) {
     const std::string advice =
         " Install Mesa's EGL (libegl1, libegl-mesa0, libgl1-mesa-dri) or a graphics driver.";
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base"))
@@ -29,35 +30,56 @@ OffscreenContext::OffscreenContext() : parts_(std::make_unique<Parts>()) {
             throw Error("EGL finds no display to draw on." + advice);
     }
 
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, 0,
-                             EGL_NONE};
+    const bool desktop = kind == GlKind::desktop_core;
+    const std::string name = desktop ? "OpenGL with a core profile" : "OpenGL ES 3";
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, desktop ? EGL_OPENGL_BIT : EGL_OPENGL_ES3_BIT,
+                             EGL_SURFACE_TYPE, 0, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
-    eglBindAPI(EGL_OPENGL_ES_API);
+    parts_->api = desktop ? EGL_OPENGL_API : EGL_OPENGL_ES_API;
+    eglBindAPI(parts_->api);
     if (!eglChooseConfig(parts_->display, wanted, &config, 1, &found) || found == 0)
-        throw Error("EGL offers no OpenGL ES 3 without a window." + advice);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE,
-                                 EGL_NONE};
-    parts_->context = eglCreateContext(parts_->display, config, EGL_NO_CONTEXT, attributes);
+        throw Error("EGL offers no " + name + " without a window." + advice);
+    const EGLint es_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_OPENGL_DEBUG,
+                                    EGL_TRUE, EGL_NONE};
+    // Textures of fixed size and what our shaders unpack came with 4.2; drivers give the newest
+    // version that fits.
+    const EGLint core_attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                      4,
+                                      EGL_CONTEXT_MINOR_VERSION,
+                                      2,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                      EGL_CONTEXT_OPENGL_DEBUG,
+                                      EGL_TRUE,
+                                      EGL_NONE};
+    parts_->context = eglCreateContext(parts_->display, config, EGL_NO_CONTEXT,
+                                       desktop ? core_attributes : es_attributes);
     if (parts_->context == EGL_NO_CONTEXT)
-        throw Error("EGL refuses to make an OpenGL ES 3 context." + advice);
+        throw Error("EGL refuses to make a context of " + name + "." + advice);
     make_current();
     parts_->errors.watch();
 }
 
 OffscreenContext::~OffscreenContext() {
-    eglMakeCurrent(parts_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    release();
     eglDestroyContext(parts_->display, parts_->context);
     // The display stays initialised: it belongs to the whole process.
 }
 
 void OffscreenContext::make_current() {
+    eglBindAPI(parts_->api);
     if (!eglMakeCurrent(parts_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, parts_->context))
-        throw Error("The OpenGL ES context cannot be used on this thread.");
+        throw Error("The OpenGL context cannot be used on this thread.");
 }
 
 void OffscreenContext::release() {
+    eglBindAPI(parts_->api);
     eglMakeCurrent(parts_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+std::string OffscreenContext::version() const {
+    return reinterpret_cast<const char*>(glGetString(GL_VERSION));
 }
 
 std::string OffscreenContext::renderer_name() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GL ES 3 context without a window or a display server, for pictures into
-// files and for tests. Works on Mesa's software renderer.
+// A GL context without a window or a display server, for pictures into files and for
+// tests. Works on Mesa's software renderer.
 #pragma once
 
 #include <memory>
@@ -8,11 +8,14 @@
 
 namespace theatron::render {
 
+// OpenGL ES 3, or OpenGL's core profile as desktop drivers have it.
+enum class GlKind { es, desktop_core };
+
 class OffscreenContext {
 public:
     // Makes the context and makes it current on this thread. Throws Error, saying
     // what to install, where there is no EGL that can do it.
-    OffscreenContext();
+    explicit OffscreenContext(GlKind kind = GlKind::es);
     // Nothing of this context may be in use any more.
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
@@ -22,6 +25,8 @@ public:
     void make_current();
     void release();
 
+    // For example "OpenGL ES 3.2" or "4.5 (Core Profile)", as the driver puts it.
+    std::string version() const;
     // The driver's name for itself, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string renderer_name() const;
     // GL errors that the driver has reported so far, and the text of the first.

@@ -45,12 +45,16 @@ struct SurfaceLook {
     Vec3 base_color{0.8, 0.8, 0.8};
     double metallic = 0, roughness = 0.6;
     double opacity = 1;  // below 1: what is behind shows through
+    double grid_m = 0;   // faint lines so far apart in the room, that tell distances; 0: none
 };
 
 struct SceneObject {
     const SceneMesh* mesh = nullptr;
     Pose room_from_object;
     SurfaceLook look;
+    // Floor and walls of the room, whose inside is convex: behind all else, however far that is,
+    // so that they never hide a real floor that was measured a little lower.
+    bool backdrop = false;
 };
 
 // One line of text. Its frame: x along the line, y down, z away from who reads it; the origin is at
@@ -70,7 +74,7 @@ struct SceneFrame {
     std::vector<SceneText> texts;
     Vec3 to_light{0.3, 1, 0.2};  // a direction
     double light = 2.2;          // of white light, beside the surroundings' 1
-    // What casts shadows lies in this ball.
+    // What casts shadows, all but the backdrop, lies in this ball.
     Vec3 shadow_middle{0, 1, 0};
     double shadow_radius_m = 2.5;
     SceneQuality quality = SceneQuality::high;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "render/environment.h"
 #include "render/matrix.h"
@@ -46,7 +47,8 @@ bool is_translucent(const SceneObject& object) {
 }  // namespace
 
 struct ScenePasses::Parts {
-    Program lit{{"scene.vert"}, {"output.glsl", "scene.frag"}};
+    std::optional<Program> lit_high, lit_low;  // made when first used
+    const Program* lit = nullptr;              // the one in use
     Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
     Texture environment;
     Texture shadow_map;
@@ -60,11 +62,23 @@ struct ScenePasses::Parts {
     explicit Parts(const FontAtlas* atlas) {
         glActiveTexture(GL_TEXTURE0 + environment_unit);
         environment = make_environment();
-        lit.set_sampler("environment", environment_unit);
-        lit.set_sampler("shadow_map", shadow_unit);
-        lit.set_sampler("scene_depth", scene_depth_unit);
         if (atlas)
             text.emplace(*atlas);
+    }
+
+    void use_lit(SceneQuality quality) {
+        const bool high = quality == SceneQuality::high;
+        std::optional<Program>& program = high ? lit_high : lit_low;
+        if (!program) {
+            const std::string_view define = high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY";
+            program.emplace(ShaderFiles{define, "scene.vert"},
+                            ShaderFiles{"output.glsl", define, "scene.frag"});
+            program->set_sampler("environment", environment_unit);
+            program->set_sampler("shadow_map", shadow_unit);
+            program->set_sampler("scene_depth", scene_depth_unit);
+        }
+        lit = &*program;
+        lit->use();
     }
 
     void make_scene_depth(Size size) {
@@ -85,7 +99,7 @@ struct ScenePasses::Parts {
     }
 
     // Draws the opaque objects' depth alone; for shadows and for ambient occlusion.
-    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room) {
+    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room, bool with_backdrop) {
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
         glDepthMask(GL_TRUE);
@@ -96,7 +110,7 @@ struct ScenePasses::Parts {
         shadow.use();
         for (const SceneObject& object : frame.objects) {
             // What is half transparent would hide light as something solid does.
-            if (is_translucent(object))
+            if (is_translucent(object) || (object.backdrop && !with_backdrop))
                 continue;
             set_matrix(shadow.uniform("clip_from_object"),
                        clip_from_room * matrix(object.room_from_object));
@@ -134,26 +148,34 @@ struct ScenePasses::Parts {
         glBindTexture(GL_TEXTURE_2D, shadow_map.name());
         glActiveTexture(GL_TEXTURE0 + environment_unit);
         glBindTexture(GL_TEXTURE_CUBE_MAP, environment.name());
-        lit.use();
-        set_matrix(lit.uniform("clip_from_room"),
+        use_lit(frame.quality);
+        set_matrix(lit->uniform("clip_from_room"),
                    projection(view) * matrix(inverse(view.room_from_eye)));
-        set_matrix(lit.uniform("light_from_room"), LightView(frame).clip_from_room);
-        set_vector(lit.uniform("eye"), view.room_from_eye.translation);
-        set_vector(lit.uniform("to_light"), normalized(frame.to_light));
-        glUniform1f(lit.uniform("light"), float(frame.light));
-        glUniform1f(lit.uniform("shadow_texel"), 1.0f / float(shadow_side));
-        glUniform1i(lit.uniform("shadow_taps"), frame.quality == SceneQuality::high ? 1 : 0);
+        set_matrix(lit->uniform("light_from_room"), LightView(frame).clip_from_room);
+        set_vector(lit->uniform("eye"), view.room_from_eye.translation);
+        set_vector(lit->uniform("to_light"), normalized(frame.to_light));
+        glUniform1f(lit->uniform("light"), float(frame.light));
+        glUniform1f(lit->uniform("shadow_texel"), 1.0f / float(shadow_side));
     }
 
     void draw(const SceneObject& object) const {
-        set_matrix(lit.uniform("room_from_object"), matrix(object.room_from_object));
-        set_vector(lit.uniform("base_color"), object.look.base_color);
-        glUniform4f(lit.uniform("look"), float(object.look.metallic),
+        set_matrix(lit->uniform("room_from_object"), matrix(object.room_from_object));
+        set_vector(lit->uniform("base_color"), object.look.base_color);
+        glUniform4f(lit->uniform("look"), float(object.look.metallic),
                     float(std::clamp(object.look.roughness, 0.05, 1.0)), float(object.look.opacity),
-                    0);
+                    float(object.look.grid_m));
+        glUniform1i(lit->uniform("tells_distance"), !object.backdrop);
         object.mesh->buffers().draw();
     }
 };
+
+SceneQuality usual_quality() {
+    const std::string_view name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    for (const std::string_view software : {"llvmpipe", "softpipe", "SwiftShader", "swrast"})
+        if (name.find(software) != std::string_view::npos)
+            return SceneQuality::low;
+    return SceneQuality::high;
+}
 
 ScenePasses::ScenePasses(const FontAtlas* atlas) : parts_(std::make_unique<Parts>(atlas)) {}
 ScenePasses::~ScenePasses() = default;
@@ -167,7 +189,7 @@ void ScenePasses::prepare(const SceneFrame& frame) {
     glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
     glBindFramebuffer(GL_FRAMEBUFFER, p.shadow_target.name());
     glViewport(0, 0, p.shadow_side, p.shadow_side);
-    p.draw_depth(frame, LightView(frame).clip_from_room);
+    p.draw_depth(frame, LightView(frame).clip_from_room, false);
 }
 
 void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
@@ -180,21 +202,23 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
         glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
         glBindFramebuffer(GL_FRAMEBUFFER, p.scene_depth_target.name());
         glViewport(0, 0, target.size.width, target.size.height);
-        p.draw_depth(frame, projection(view) * matrix(inverse(view.room_from_eye)));
+        p.draw_depth(frame, projection(view) * matrix(inverse(view.room_from_eye)), true);
         glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
         glBindTexture(GL_TEXTURE_2D, p.scene_depth.name());
     }
     p.begin_lit(frame, view, target);
-    glUniform1i(p.lit.uniform("occludes"), occludes);
     const double n = view.near_m, f = view.far_m;
-    glUniform2f(p.lit.uniform("depth_from_w"), float(f / (f - n)), float(-f * n / (f - n)));
-    glDepthMask(GL_TRUE);
+    glUniform2f(p.lit->uniform("depth_from_w"), float(f / (f - n)), float(-f * n / (f - n)));
+    glUniform1i(p.lit->uniform("occludes"), occludes);
     glDisable(GL_BLEND);
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    for (const SceneObject& object : frame.objects)
-        if (!is_translucent(object))
-            p.draw(object);
+    for (const bool backdrop : {true, false}) {
+        glDepthMask(backdrop ? GL_FALSE : GL_TRUE);
+        for (const SceneObject& object : frame.objects)
+            if (!is_translucent(object) && object.backdrop == backdrop)
+                p.draw(object);
+    }
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
 }
@@ -213,7 +237,7 @@ void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& vi
         return distance(a) > distance(b);
     });
     p.begin_lit(frame, view, target);
-    glUniform1i(p.lit.uniform("occludes"), 0);
+    glUniform1i(p.lit->uniform("occludes"), 0);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a SceneFrame: shadows, lit opaque surfaces, texts, and what is translucent.
 //
-// A picture with clouds is drawn in this order: draw_opaque, CloudScene::draw,
-// draw_translucent. For a stereo pair both are called once for each eye; shadows are drawn
-// with the first, see prepare().
+// A picture with clouds is drawn by room_picture.h, in this order: prepare, and for each eye
+// draw_opaque, CloudScene::draw, draw_translucent.
 //
 // All functions need the GL context current in which the object was made.
 #pragma once
@@ -15,6 +14,9 @@
 #include "render/scene_frame.h"
 
 namespace theatron::render {
+
+// High, but low where no graphics card draws but the processor. Needs a current context.
+SceneQuality usual_quality();
 
 class ScenePasses {
 public:

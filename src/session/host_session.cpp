@@ -2,18 +2,25 @@
 #include "session/host_session.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace theatron::session {
 namespace {
 
-constexpr std::size_t max_name_length = 100;
+constexpr std::size_t max_name_length = 100, max_renderer_length = 40;
+constexpr Duration renderer_interval = std::chrono::seconds(1);
 constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
 // Names come from strangers and are shown to people: no control characters.
-std::string shown_name(const std::string& name) {
+std::string shown_text(const std::string& text, std::size_t max_length) {
     std::string shown;
-    for (const char c : name.substr(0, max_name_length))
+    for (const char c : text.substr(0, max_length))
         shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    return shown;
+}
+
+std::string shown_name(const std::string& name) {
+    const std::string shown = shown_text(name, max_name_length);
     return shown.empty() ? "guest" : shown;
 }
 
@@ -56,7 +63,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     } else if (const auto* ping = std::get_if<wire::Ping>(&*message)) {
         send(id, wire::Pong{ping->sent, now, now});
     } else if (const auto* report = std::get_if<wire::Report>(&*message)) {
-        participant.report = report->streams;
+        note_report(id, *report, now);
     } else if (const auto* received = std::get_if<wire::Received>(&*message)) {
         actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, received->media_bytes});
     } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&*message)) {
@@ -94,7 +101,59 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
     color_.wish(id, color);
     set_wish(id);
     set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
+    tell_renderer(id);
     apply_settings();
+}
+
+void HostSession::note_report(ParticipantId id, const wire::Report& report, TimePoint now) {
+    Participant& participant = participants_[id];
+    participant.report = report.streams;
+    std::string renderer = shown_text(report.renderer, max_renderer_length);
+    // Reports repeat it; who changes it all the time must not fill the log.
+    if (renderer == participant.renderer || now - participant.renderer_noted < renderer_interval)
+        return;
+    participant.renderer_noted = now;
+    participant.renderer = renderer;
+    actions_.push_back({Action::Kind::drawing, id, {}, std::move(renderer), {}, 0});
+}
+
+// Says what holds for this one, if anything was ever said.
+void HostSession::tell_renderer(ParticipantId id) {
+    const Participant& participant = participants_[id];
+    const auto named = renderer_words_.find(participant.name);
+    if (participant.renderer_word)
+        send(id, *participant.renderer_word);
+    else if (named != renderer_words_.end())
+        send(id, named->second);
+    else if (renderer_word_)
+        send(id, *renderer_word_);
+}
+
+void HostSession::set_renderer(const wire::SetRenderer& word) {
+    renderer_word_ = word;
+    renderer_words_.clear();
+    for (auto& [id, participant] : participants_) {
+        participant.renderer_word.reset();
+        if (participant.joined && !participant.closing)
+            tell_renderer(id);
+    }
+}
+
+void HostSession::set_renderer(ParticipantId id, const wire::SetRenderer& word) {
+    const auto found = participants_.find(id);
+    if (found == participants_.end() || !found->second.joined || found->second.closing)
+        return;
+    found->second.renderer_word = word;
+    tell_renderer(id);
+}
+
+void HostSession::set_renderer(const std::string& name, const wire::SetRenderer& word) {
+    renderer_words_[name] = word;
+    for (auto& [id, participant] : participants_)
+        if (participant.name == name && participant.joined && !participant.closing) {
+            participant.renderer_word.reset();
+            tell_renderer(id);
+        }
 }
 
 void HostSession::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {

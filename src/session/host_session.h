@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ public:
             acknowledged,     // `participant` has taken `bytes` of media
             set_ceiling,      // send at most `bytes` a second to `participant`; 0: no ceiling
             stepped,          // `participant` gets more or less; `why` for the log
+            drawing,          // `participant` draws with another renderer: `why`; for the log
         };
         Kind kind{};
         ParticipantId participant{};
@@ -71,6 +73,12 @@ public:
     // Whether any camera has a region of interest. Without one no depth may be lossy
     // for the sake of a slow link.
     void on_region(bool is_drawn);
+    // How everybody should draw, also who joins later. Forgets what was said to single ones.
+    void set_renderer(const wire::SetRenderer& word);
+    // How one should draw, as long as it stays.
+    void set_renderer(ParticipantId participant, const wire::SetRenderer& word);
+    // How those with this name should draw, now and when they join again.
+    void set_renderer(const std::string& name, const wire::SetRenderer& word);
     // A frame could not be sent: this participant's stream needs a key frame.
     void on_broken_stream(StreamId stream, SettingId setting);
     // Ten times a second for each participant.
@@ -95,7 +103,10 @@ public:
         TimePoint connected;
         std::string name;
         SettingId depth_setting{}, color_setting{};
-        std::vector<wire::StreamReport> report;  // the newest
+        std::vector<wire::StreamReport> report;          // the newest
+        std::string renderer;                            // how it draws, as it says; may be empty
+        TimePoint renderer_noted;                        // when that was last believed
+        std::optional<wire::SetRenderer> renderer_word;  // said to this one alone
         Delivery delivery;
     };
     const std::map<ParticipantId, Participant>& participants() const { return participants_; }
@@ -109,6 +120,8 @@ private:
     bool is_chain(SettingId color) const;
     int layer_for(const Participant& participant, const wire::MediaHeader& header) const;
     double frames_per_second() const;
+    void note_report(ParticipantId id, const wire::Report& report, TimePoint now);
+    void tell_renderer(ParticipantId id);
     void refuse(ParticipantId id, std::string reason);
     void apply_settings();
     void send(ParticipantId id, wire::Control message);
@@ -118,6 +131,8 @@ private:
     std::map<ParticipantId, Participant> participants_;
     std::map<CameraId, wire::CameraState> camera_states_;
     bool region_is_drawn_ = false;
+    std::optional<wire::SetRenderer> renderer_word_;           // to all
+    std::map<std::string, wire::SetRenderer> renderer_words_;  // to those with a name
     SettingTable depth_{SettingId{1}}, color_{SettingId{0x8001}};
     std::vector<ActiveSetting> announced_depth_, announced_color_;
     KeyRequests key_requests_;

@@ -28,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     while (!in.rest().empty()) {
         const auto control = in.get<std::uint8_t>();
         const std::size_t length = in.get<std::uint16_t>();
+        if (control % 16 == 3)
+            host.set_renderer(ParticipantId(1 + control / 128), {"mesh", control > 99});
         const ByteView part = in.get_bytes(std::min(length, in.rest().size()));
         host.on_control(ParticipantId(1 + control % 2), part, now);
         now += 100ms;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "session/host_session.h"
+#include "session/renderer_choice.h"
 #include "session/viewer_session.h"
 
 namespace theatron::session {
@@ -225,6 +226,74 @@ TEST_F(Host, DamagedMessagesEndTheConnection) {
     EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
 }
 
+TEST_F(Host, SetsTheRendererOfOneOfANameOrOfAll) {
+    const auto heard = [&](ParticipantId id, const auto& actions) {
+        std::string text;
+        for (const auto& word : sent<wire::SetRenderer>(id, actions))
+            text += word.renderer + (word.locked ? "!" : "") + ";";
+        return text;
+    };
+    join(alice);
+    EXPECT_EQ(heard(alice, session.take_actions()), "") << "nothing was said yet";
+    session.set_renderer({"mesh", true});
+    session.set_renderer(dave, {"splat", false});  // who is not in
+    auto actions = session.take_actions();
+    EXPECT_EQ(heard(alice, actions), "mesh!;");
+    EXPECT_EQ(heard(dave, actions), "");
+
+    join(bob);
+    EXPECT_EQ(heard(bob, session.take_actions()), "mesh!;") << "who comes later is told, too";
+    session.set_renderer(bob, {"blend", false});
+    actions = session.take_actions();
+    EXPECT_EQ(heard(alice, actions), "");
+    EXPECT_EQ(heard(bob, actions), "blend;");
+    session.on_closed(bob);
+    join(bob);
+    EXPECT_EQ(heard(bob, session.take_actions()), "mesh!;") << "a number is of one connection";
+
+    session.set_renderer("guest", {"disc", true});  // as both are called
+    actions = session.take_actions();
+    EXPECT_EQ(heard(alice, actions) + heard(bob, actions), "disc!;disc!;");
+    session.on_closed(bob);
+    join(bob);
+    EXPECT_EQ(heard(bob, session.take_actions()), "disc!;") << "a name is found again";
+    session.set_renderer({"", false});
+    join(carol);
+    EXPECT_EQ(heard(carol, session.take_actions()), ";") << "names are forgotten";
+}
+
+TEST_F(Host, LogsHowSomebodyDrawsWhenThatChanges) {
+    join(alice);
+    session.take_actions();
+    for (const char* renderer : {"mesh", "mesh", "ble\nnd", ""}) {
+        now += 1s;
+        say(alice, wire::Report{{}, renderer});
+    }
+    // A change so soon is believed when it is said again.
+    say(alice, wire::Report{{}, "disc"});
+    now += 1s;
+    say(alice, wire::Report{{}, "splat"});
+    std::vector<std::string> noted;
+    for (const auto& a : session.take_actions())
+        if (a.kind == Kind::drawing)
+            noted.push_back(a.why);
+    EXPECT_EQ(noted, (std::vector<std::string>{"mesh", "ble nd", "", "splat"}));
+}
+
+TEST(RendererChoice, TheLastWordHoldsUnlessTheHostLocksIt) {
+    RendererChoice choice("auto");
+    choice.follow({"mesh", false});
+    EXPECT_EQ(choice.renderer(), "mesh");
+    EXPECT_TRUE(choice.choose("splat"));
+    EXPECT_EQ(choice.renderer(), "splat");
+    choice.follow({"blend", true});
+    EXPECT_FALSE(choice.choose("splat"));
+    EXPECT_EQ(choice.renderer(), "blend");
+    choice.follow({"", false});
+    EXPECT_EQ(choice.renderer(), "blend") << "given back as it is";
+    EXPECT_TRUE(choice.choose("splat"));
+}
+
 // Host and viewer, each fed with what the other says.
 TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     ViewerSession viewer({"secret", "Dr. A", "trvl", "jpeg"});
@@ -253,6 +322,13 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     deliver();
     EXPECT_EQ(viewer.note(), "There is no codec bad.");
     EXPECT_EQ(viewer.settings()[0].codec, "rvl");
+
+    session.set_renderer({"mesh", true});
+    deliver();
+    EXPECT_EQ(changes, std::vector{Change::renderer});
+    EXPECT_EQ(viewer.renderer_word(), (wire::SetRenderer{"mesh", true}));
+    (void)viewer.begin();
+    EXPECT_EQ(viewer.renderer_word(), wire::SetRenderer{}) << "another host may think otherwise";
 }
 
 TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {

@@ -16,6 +16,7 @@ Bytes ViewerSession::begin() {
     settings_.clear();
     camera_states_.clear();
     delivery_ = {};
+    renderer_word_ = {};
     acknowledged_at_ = {};
     acknowledged_ = 0;
     wire::Join join;
@@ -58,6 +59,10 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (auto* delivery = std::get_if<wire::Delivery>(&*message)) {
         delivery_ = std::move(*delivery);
         return Change::delivery;
+    }
+    if (auto* word = std::get_if<wire::SetRenderer>(&*message)) {
+        renderer_word_ = std::move(*word);
+        return Change::renderer;
     }
     return Change::nothing;
 }

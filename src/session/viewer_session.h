@@ -37,6 +37,7 @@ public:
         camera,    // camera_states()
         pong,      // pong() answers a ping
         delivery,  // delivery(): the host sends more or less
+        renderer,  // renderer_word(): how the host wants this participant to draw
     };
     // Safe for untrusted input: what is damaged or not understood is nothing.
     Change on_control(ByteView message);
@@ -62,6 +63,8 @@ public:
     const std::string& refusal() const { return refusal_; }
     const wire::Pong& pong() const { return pong_; }
     const wire::Delivery& delivery() const { return delivery_; }
+    // Of this connection's host; empty as long as it said nothing.
+    const wire::SetRenderer& renderer_word() const { return renderer_word_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -74,6 +77,7 @@ private:
     std::string refusal_;
     wire::Pong pong_;
     wire::Delivery delivery_;
+    wire::SetRenderer renderer_word_;
     TimePoint acknowledged_at_;
     std::uint64_t acknowledged_ = 0;
 };

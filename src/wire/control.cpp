@@ -38,7 +38,7 @@ Body pack(Builder& b, const Report& m) {
     for (const StreamReport& s : m.streams)
         streams.push_back(fbs::CreateStreamReport(b, std::uint16_t(s.stream), s.newest_frame,
                                                   s.frames, s.bytes, s.age.count()));
-    return fbs::CreateReport(b, b.CreateVector(streams)).Union();
+    return fbs::CreateReport(b, b.CreateVector(streams), b.CreateString(m.renderer)).Union();
 }
 
 Body pack(Builder& b, const Welcome& m) {
@@ -91,9 +91,13 @@ Body pack(Builder& b, const Delivery& m) {
         .Union();
 }
 
+Body pack(Builder& b, const SetRenderer& m) {
+    return fbs::CreateSetRenderer(b, b.CreateString(m.renderer), m.locked).Union();
+}
+
 // The union's numbers follow the order of the variant's alternatives, from 1.
-static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::Delivery) == 13);
-static_assert(std::variant_size_v<Control> == 13);
+static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::SetRenderer) == 14);
+static_assert(std::variant_size_v<Control> == 14);
 
 // From table to struct. Strings and vectors may be absent.
 
@@ -125,6 +129,7 @@ Report unpack(const fbs::Report& m) {
         for (const auto* s : *m.streams())
             report.streams.push_back({StreamId(s->stream()), s->newest_frame(), s->frames(),
                                       s->bytes(), Duration(s->age_us())});
+    report.renderer = text(m.renderer());
     return report;
 }
 
@@ -182,6 +187,10 @@ Delivery unpack(const fbs::Delivery& m) {
     return {m.level(), m.levels(), text(m.what()), text(m.reason())};
 }
 
+SetRenderer unpack(const fbs::SetRenderer& m) {
+    return {text(m.renderer()), m.locked()};
+}
+
 }  // namespace
 
 Bytes encode_control(const Control& message) {
@@ -235,6 +244,8 @@ Result<Control> decode_control(ByteView bytes) {
             return Control(unpack(*control.body_as_ChooseDelivery()));
         case fbs::Body::Delivery:
             return Control(unpack(*control.body_as_Delivery()));
+        case fbs::Body::SetRenderer:
+            return Control(unpack(*control.body_as_SetRenderer()));
         case fbs::Body::NONE:
             break;
     }

@@ -58,6 +58,7 @@ struct StreamReport {
 // Sent by participants a few times a second.
 struct Report {
     std::vector<StreamReport> streams;
+    std::string renderer;  // how it draws now; empty: it does not, or does not tell
 };
 
 // Sent as media arrives: the host keeps no more on the way than the link carries.
@@ -134,8 +135,16 @@ struct Delivery {
     std::string reason;       // "frames were too old", for people
 };
 
-using Control = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Welcome, Refused,
-                             Settings, CameraState, Pong, Received, ChooseDelivery, Delivery>;
+// How the host wants this participant to draw from now on. Not sent until the host has a wish.
+struct SetRenderer {
+    std::string renderer;  // as on the command line; empty: as it is
+    bool locked = false;   // the participant cannot change it
+    bool operator==(const SetRenderer&) const = default;
+};
+
+using Control =
+    std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Welcome, Refused, Settings,
+                 CameraState, Pong, Received, ChooseDelivery, Delivery, SetRenderer>;
 
 Bytes encode_control(const Control& message);
 

@@ -181,7 +181,9 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", ""}).depth_codec, "rvl");
     EXPECT_EQ(round_trip(RequestKey{StreamId{3}, SettingId{4}}).setting, SettingId{4});
     EXPECT_EQ(round_trip(Ping{from_us(-5)}).sent, from_us(-5));
-    const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}});
+    const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}, "blend"});
+    EXPECT_EQ(report.renderer, "blend");
+    EXPECT_EQ(round_trip(SetRenderer{"mesh", true}), (SetRenderer{"mesh", true}));
     ASSERT_EQ(report.streams.size(), 1u);
     EXPECT_EQ(report.streams[0].bytes, 4u);
     EXPECT_EQ(report.streams[0].age, Duration(5));
@@ -202,6 +204,16 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, "gone", ""}).problem,
               "gone");
     EXPECT_EQ(round_trip(Pong{from_us(1), from_us(2), from_us(3)}).sent, from_us(3));
+}
+
+// Programs of the same protocol may be older and know fewer kinds.
+TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
+    Bytes bytes = encode_control(SetRenderer{"mesh", true});
+    const auto kind = std::byte(std::variant_size_v<Control>);
+    const auto at = std::find(bytes.begin(), bytes.end(), kind);
+    ASSERT_NE(at, bytes.end());
+    *at = std::byte(int(kind) + 1);
+    EXPECT_EQ(decode_control(bytes).error(), Status::unsupported);
 }
 
 TEST(Control, RefusesDamage) {

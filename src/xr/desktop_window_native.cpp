@@ -111,6 +111,8 @@ struct DesktopWindow::Parts {
         if (window)
             SDL_DestroyWindow(window);
     }
+    // Leaves the window open, without a context, where the driver has none of this kind.
+    bool open(const std::string& title, Size size, int profile, int major, int minor);
     double window_height() const {
         int width = 0, height = 0;
         SDL_GetWindowSize(window, &width, &height);
@@ -119,22 +121,31 @@ struct DesktopWindow::Parts {
     void take(const SDL_Event& event, WindowInput& input);
 };
 
+bool DesktopWindow::Parts::open(const std::string& title, Size size, int profile, int major,
+                                int minor) {
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, profile);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, major);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, minor);
+    // How a window is made depends on what will draw in it.
+    if (window)
+        SDL_DestroyWindow(window);
+    window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                              size.width, size.height,
+                              SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    context = window ? SDL_GL_CreateContext(window) : nullptr;
+    return context != nullptr;
+}
+
 DesktopWindow::DesktopWindow(const std::string& title, Size size)
     : parts_(std::make_unique<Parts>()) {
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
     // The clouds are drawn elsewhere and copied here.
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
-    parts_->window = SDL_CreateWindow(
-        title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
-        SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!parts_->window)
-        fail("No window can be opened here");
+    // Some desktop drivers have no OpenGL ES.
+    if (!parts_->open(title, size, SDL_GL_CONTEXT_PROFILE_ES, 3, 0) &&
+        !parts_->open(title, size, SDL_GL_CONTEXT_PROFILE_CORE, 4, 2))
+        fail(parts_->window ? "The graphics driver offers neither OpenGL ES 3 nor OpenGL 4.2"
+                            : "No window can be opened here");
     SDL_SetWindowMinimumSize(parts_->window, 320, 240);
-    parts_->context = SDL_GL_CreateContext(parts_->window);
-    if (!parts_->context)
-        fail("The graphics driver offers no OpenGL ES 3 for a window");
     // Where the driver cannot wait for the screen, the owner's own pace must do.
     SDL_GL_SetSwapInterval(1);
     parts_->wake_event = SDL_RegisterEvents(1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window on the desktop that OpenGL ES 3 draws into, and what is done there.
+// A window on the desktop that OpenGL ES 3 draws into (a core profile where the driver has no
+// ES), and what is done there.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,7 @@ class DesktopWindow {
 public:
     // Opens the window and makes its GL context current. `size` is in the desktop's
     // units, which are several pixels each on some screens. Throws Error where
-    // there is no display, or none that can do OpenGL ES 3.
+    // there is no display, or none that can do OpenGL ES 3 or OpenGL 4.2.
     DesktopWindow(const std::string& title, Size size);
     // No object of the GL context may be left.
     ~DesktopWindow();

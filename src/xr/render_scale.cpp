@@ -7,6 +7,9 @@ namespace theatron::xr {
 namespace {
 
 constexpr Duration too_slow = 50ms;
+// Where pictures take so long that nobody would wait for a whole window of them, fewer decide.
+constexpr std::size_t least = 3;
+constexpr Duration patience = 600ms;
 // The next finer step has at most 2.3 times the pixels, so this cannot swing to and fro.
 constexpr Duration fast_enough = 20ms;
 // Points cost much by themselves: a coarser picture that saves less than this share
@@ -17,11 +20,15 @@ constexpr double worthwhile = 0.85;
 
 void RenderScale::add(Duration drawing) {
     times_[count_++] = drawing;
-    if (count_ < window)
+    sum_ += drawing;
+    const bool enough = count_ == window || (count_ >= least && sum_ > patience);
+    if (!enough)
         return;
+    const auto middle = times_.begin() + std::ptrdiff_t(count_ / 2);
+    std::nth_element(times_.begin(), middle, times_.begin() + std::ptrdiff_t(count_));
+    const Duration median = *middle;
     count_ = 0;
-    std::nth_element(times_.begin(), times_.begin() + window / 2, times_.end());
-    const Duration median = times_[window / 2];
+    sum_ = {};
 
     const bool in_vain =
         before_ > Duration{} && double(median.count()) > worthwhile * double(before_.count());

@@ -30,6 +30,7 @@ private:
 
     std::array<Duration, window> times_{};
     std::size_t count_ = 0;
+    Duration sum_{};
     std::size_t step_ = 0;
     std::size_t coarsest_ = steps.size() - 1;  // where going further did not help
     Duration before_{};                        // the median at the finer step, 0 if unknown

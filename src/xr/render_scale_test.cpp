@@ -29,6 +29,12 @@ TEST(RenderScale, ManyPixelsAreTooMuchForASlowMachine) {
     EXPECT_EQ(settle(slower, 5ms, 1000ms), 0.35);
 }
 
+TEST(RenderScale, AVerySlowMachineIsHelpedSoon) {
+    RenderScale scale;
+    EXPECT_EQ(settle(scale, 5ms, 1000ms, 3), 0.75);
+    EXPECT_EQ(settle(scale, 5ms, 1000ms, 6), 0.35);
+}
+
 TEST(RenderScale, WherePointsCostAllThePictureStaysSharp) {
     RenderScale scale;
     EXPECT_EQ(settle(scale, 100ms, 5ms), 1.0);

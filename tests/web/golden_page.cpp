@@ -17,16 +17,20 @@ using namespace theatron::render;
 
 // Shaders of the lit scene: that they compile and raise no error. Pictures are tested natively.
 void draw_lit_scene() {
-    const SceneMesh ball(make_sphere_mesh(0.3, 12));
+    const SceneMesh ball(make_sphere_mesh(0.3, 12)), floor(make_box_mesh({-2, -1, -2}, {2, 0, 2}));
     SceneFrame frame;
-    frame.objects = {{&ball, {}, {}},
+    frame.objects = {{&floor, {}, {{0.5, 0.5, 0.5}, 0, 0.5, 1, 1}, true},
+                     {&ball, {}, {}},
                      {&ball, {Quat{}, {0.5, 0, 0}}, {{0.8, 0.1, 0.1}, 0, 0.4, 0.5}}};
     ScenePasses passes;
     const RenderTarget target(golden_picture_size);
     target.clear({});
-    passes.prepare(frame);
-    passes.draw_opaque(frame, golden_view(), target.target());
-    passes.draw_translucent(frame, golden_view(), target.target());
+    for (const SceneQuality quality : {SceneQuality::low, SceneQuality::high}) {
+        frame.quality = quality;
+        passes.prepare(frame);
+        passes.draw_opaque(frame, golden_view(), target.target());
+        passes.draw_translucent(frame, golden_view(), target.target());
+    }
 }
 
 void report_errors(const std::string& what) {

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metal-rough surfaces under one lamp and the light from all around. GGX with Smith's shadowing
 // (Walter et al. 2007) and Schlick's Fresnel term; for the surroundings Karis' fit of the
-// environment term (2014).
-
-precision highp samplerCube;
-precision highp sampler2DShadow;
+// environment term (2014). With LOW_QUALITY surfaces are matt, shadows have hard edges, and corners are as bright
+// as the rest.
 
 uniform samplerCube environment;  // level: roughness; the last one is diffuse
 uniform sampler2DShadow shadow_map;
 uniform mat4 light_from_room;
 uniform vec3 eye, to_light, base_color;
-uniform vec4 look;  // metallic, roughness, opacity
+uniform vec4 look;  // metallic, roughness, opacity, distance of the grid's lines
+uniform bool tells_distance;
 uniform float light;
 uniform float shadow_texel;
-uniform int shadow_taps;  // to each side
 
 // Ambient occlusion, by what the opaque objects' depth shows around a place.
 uniform bool occludes;
@@ -23,6 +21,10 @@ uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
 
 in vec3 v_place;
 in vec3 v_normal;
+#ifdef LOW_QUALITY
+in vec3 v_around;
+in float v_lamp;
+#endif
 
 const float last_level = 4.0;
 
@@ -32,15 +34,32 @@ float lit_share(vec3 normal) {
     if (any(lessThan(seen, vec3(0.0))) || any(greaterThan(seen, vec3(1.0))))
         return 1.0;
     seen.z -= 0.001;
-    float sum = 0.0, count = 0.0;
-    for (int y = -shadow_taps; y <= shadow_taps; ++y)
-        for (int x = -shadow_taps; x <= shadow_taps; ++x) {
+#ifdef LOW_QUALITY
+    return texture(shadow_map, seen);
+#else
+    float sum = 0.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
             sum += texture(shadow_map, vec3(seen.xy + vec2(x, y) * shadow_texel, seen.z));
-            count += 1.0;
-        }
-    return sum / count;
+    return sum / 9.0;
+#endif
 }
 
+// Faint lines on a surface, as far apart as the look says; they vanish where they would be
+// finer than the picture's pixels.
+float line_share(vec3 n) {
+    if (look.w == 0.0)
+        return 0.0;
+    vec3 p = v_place / look.w;
+    vec3 to_line = abs(fract(p + 0.5) - 0.5), wide = fwidth(p);
+    vec3 on_line = clamp(1.0 - (to_line - 0.006 / look.w) / max(wide, vec3(1e-5)), 0.0, 1.0) *
+                   clamp(0.05 / max(wide, vec3(1e-5)), 0.0, 1.0);
+    // Lines cross a surface, they do not lie in it.
+    on_line *= step(abs(n), vec3(0.5));
+    return max(on_line.x, max(on_line.y, on_line.z));
+}
+
+#ifndef LOW_QUALITY
 vec3 from_lamp(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
     vec3 h = normalize(v + to_light);
     float nl = max(dot(n, to_light), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0);
@@ -61,6 +80,7 @@ vec3 from_surroundings(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughnes
     return diffuse * textureLod(environment, n, last_level).rgb +
            reflected * (mirror * fit.x + fit.y);
 }
+#endif
 
 // From light to sRGB, bright parts compressed.
 vec3 shown(vec3 c) {
@@ -68,37 +88,54 @@ vec3 shown(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
-// The share of the light from all around that reaches the place.
+#ifndef LOW_QUALITY
+// Whether a place lies behind what is seen in its direction, but not far behind: that would
+// be another thing, before it only as the eye sees it.
+bool is_hidden(vec3 place, float reach) {
+    vec4 clip = clip_from_room * vec4(place, 1.0);
+    float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
+    float behind = clip.w - depth_from_w.y / (seen - depth_from_w.x);
+    return behind > 0.01 && behind < 2.0 * reach;
+}
+
+// The share of the light from all around that reaches the place. Along each direction two places
+// are looked at: one alone passes through walls that stand near.
 float open_share(vec3 n) {
     if (!occludes)
         return 1.0;
-    const int count = 12;
-    const float reach = 0.25;  // metres
+    const int count = 16;
+    const float reach = 0.4;  // metres
     vec3 side = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
     vec3 other = cross(n, side);
     // Each pixel turns its samples by another angle.
-    float turn = 6.2832 * fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
     float hidden = 0.0;
     for (int i = 0; i < count; ++i) {
-        float a = (float(i) + 0.5) / float(count), angle = turn + 2.39996 * float(i);
+        float a = (float(i) + 0.5) / float(count), angle = 6.2832 * noise + 2.39996 * float(i);
         vec3 d = n * sqrt(1.0 - a) + (side * cos(angle) + other * sin(angle)) * sqrt(a);
-        vec3 p = v_place + 0.01 * n + d * reach * (0.1 + 0.9 * fract(0.618 * float(i)));
-        vec4 clip = clip_from_room * vec4(p, 1.0);
-        float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
-        float before = clip.w - depth_from_w.y / (seen - depth_from_w.x);
-        hidden += float(before > 0.01 && before < 2.0 * reach);
+        // Not in step with the angle.
+        float far = reach * (0.5 + 0.5 * fract(0.7549 * float(i) + 7.0 * noise));
+        vec3 from = v_place + 0.01 * n;
+        hidden += float(is_hidden(from + 0.3 * far * d, reach) || is_hidden(from + far * d, reach));
     }
-    return 1.0 - hidden / float(count);
+    // A little stronger than geometry says: what hides the light is dark itself.
+    return pow(1.0 - hidden / float(count), 1.6);
 }
+#endif
 
 void main() {
-    vec3 v = normalize(eye - v_place);
     vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
-    vec3 diffuse = base_color * (1.0 - look.x);
-    vec3 mirror = mix(vec3(0.04), base_color, look.x);
+    vec3 surface = base_color * (1.0 - 0.25 * line_share(n));
+    vec3 v = normalize(eye - v_place);
+#ifdef LOW_QUALITY
+    vec3 color = surface * (v_lamp * lit_share(n) + v_around);
+#else
+    vec3 diffuse = surface * (1.0 - look.x);
+    vec3 mirror = mix(vec3(0.04), surface, look.x);
     vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
                  from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
-    write_surface(shown(color), 1.0 / gl_FragCoord.w);
+#endif
+    write_surface(shown(color), tells_distance ? 1.0 / gl_FragCoord.w : 0.0);
     // A thin wall seen along itself lets less light through.
     out_color.a = look.z < 1.0 ? 1.0 - pow(1.0 - look.z, 1.0 / max(dot(n, v), 0.2)) : 1.0;
 }

@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+// With LOW_QUALITY light is computed at the corners of triangles alone.
 
 uniform mat4 clip_from_room;
 uniform mat4 room_from_object;
+#ifdef LOW_QUALITY
+uniform samplerCube environment;
+uniform vec3 to_light;
+uniform float light;
+#endif
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 
 out vec3 v_place;   // in the room
 out vec3 v_normal;
+#ifdef LOW_QUALITY
+out vec3 v_around;  // light from all around
+out float v_lamp;   // light from the lamp, where no shadow falls
+#endif
 
 void main() {
     vec4 in_room = room_from_object * vec4(place, 1.0);
     v_place = in_room.xyz;
     v_normal = mat3(room_from_object) * normal;
+#ifdef LOW_QUALITY
+    v_around = textureLod(environment, v_normal, 4.0).rgb;
+    v_lamp = max(dot(normalize(v_normal), to_light), 0.0) * light / 3.14159;
+#endif
     gl_Position = clip_from_room * in_room;
 }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The virtual operating room around the clouds: floor, walls, and a mark with a name where each
+// camera stands.
+//
+// The real room is seen as clouds in its place, so this one only goes on where nothing was
+// measured: its floor and walls never hide a cloud. It needs to know where the cameras are; as long
+// as that is unknown, there is no floor to draw, and no room.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/calibration.h"
+#include "render/camera_view.h"
+#include "render/scene_frame.h"
+
+namespace theatron::room {
+
+struct RoomCamera {
+    std::string label;
+    Calibration calibration;
+    bool operator==(const RoomCamera&) const = default;
+};
+
+// Floor and walls, on the ground: room coordinates of the corners, and how high the walls are.
+struct RoomExtent {
+    double left = 0, right = 0, back = 0, front = 0;
+    double height = 0;
+    bool operator==(const RoomExtent&) const = default;
+};
+
+// Large enough for these cameras and for people around them; nothing if none of them is registered.
+std::optional<RoomExtent> extent_of(const std::vector<RoomCamera>& cameras);
+
+// Needs the GL context current in which it was made.
+class VirtualRoom {
+public:
+    // Changes what is there. Cheap if nothing has changed.
+    void set_cameras(const std::vector<RoomCamera>& cameras);
+
+    // What is to be drawn for an eye there: labels face it, and what it stands in is left out.
+    // Nothing where there is no room. Valid until the next call.
+    const render::SceneFrame* frame_for(const render::CameraView& view);
+
+    void set_quality(render::SceneQuality quality) { frame_.quality = quality; }
+
+private:
+    std::vector<RoomCamera> cameras_;
+    std::optional<RoomExtent> extent_;
+    std::optional<render::SceneMesh> floor_, walls_, mark_;
+    render::SceneFrame frame_;
+};
+
+}  // namespace theatron::room
