@@ -88,10 +88,14 @@ void run(const Flags& flags) {
         report(chains, flags.json, [&] { print_quality(chains); });
         return;
     }
-    const std::vector<DepthImage> frames =
-        flags.folder.empty() ? rocking_person(flags.frames).measured
-                             : load_sequence(flags.folder, false, flags.frames).depth;
-    const nlohmann::json result = bench_filter(frames);
+    const auto frames = [&]() -> std::vector<DepthImage> {
+        if (!flags.folder.empty())
+            return load_sequence(flags.folder, false, flags.frames).depth;
+        if (flags.room)
+            return operating_room_frames(flags.frames, show_progress());
+        return rocking_person(flags.frames).measured;
+    };
+    const nlohmann::json result = bench_filter(frames());
     report(result, flags.json, [&] { print_times(result); });
 }
 
@@ -112,7 +116,8 @@ void add_filter_bench(CLI::App& bench) {
         ->default_val(std::vector<std::string>{"off", "paper", "default"});
     command->add_flag(
         "--room", flags->room,
-        "With --quality: the operating room, too; rendered once, which takes minutes");
+        "The operating room: with --quality, too; else instead of the generated person. It is "
+        "rendered once, which takes minutes");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] { run(*flags); });

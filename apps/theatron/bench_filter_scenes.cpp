@@ -124,6 +124,17 @@ FilterClip board_crossing(const CrossingBoard& board, int frames) {
     });
 }
 
+std::vector<DepthImage> operating_room_frames(int frames, const capture::Progress& progress) {
+    synthetic::FrameLoop loop({}, progress);
+    std::vector<DepthImage> images;
+    Frame frame;
+    for (std::size_t i = 0; i < std::min(std::size_t(frames), loop.frames()); ++i) {
+        loop.read(i, frame);
+        images.push_back(frame.depth);
+    }
+    return images;
+}
+
 FilterClip operating_room_clip(int frames, const capture::Progress& progress) {
     synthetic::LoopOptions options;
     synthetic::FrameLoop measured(options, progress);

@@ -45,8 +45,11 @@ struct CrossingBoard {
 CrossingBoard crossing_board(double pixels_per_frame);
 FilterClip board_crossing(const CrossingBoard& board, int frames);
 
-// The generated operating room, with and without the sensor's errors; rendered
-// once and kept, which takes minutes.
+// The generated operating room as its sensor measures it; rendered once and kept,
+// which takes minutes.
+std::vector<DepthImage> operating_room_frames(int frames, const capture::Progress& progress);
+
+// The same with and without the sensor's errors.
 FilterClip operating_room_clip(int frames, const capture::Progress& progress);
 
 }  // namespace theatron::app

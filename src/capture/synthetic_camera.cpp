@@ -45,13 +45,13 @@ Size color_size(const std::string& name, const std::string& specification) {
 }
 
 // noise=off reads better than noise=0; both are understood.
-bool take_noise(Options& options) {
-    const std::string noise = options.take("noise", "on");
-    if (noise == "on" || noise == "1")
+bool take_switch(Options& options, const std::string& name) {
+    const std::string value = options.take(name, "on");
+    if (value == "on" || value == "1")
         return true;
-    if (noise == "off" || noise == "0")
+    if (value == "off" || value == "0")
         return false;
-    throw Error("In the camera '" + options.text() + "', noise must be on or off.");
+    throw Error("In the camera '" + options.text() + "', " + name + " must be on or off.");
 }
 
 synthetic::LoopOptions take_loop_options(Options& options) {
@@ -65,7 +65,8 @@ synthetic::LoopOptions take_loop_options(Options& options) {
     loop.scene.seed = std::uint32_t(options.take_int("seed", 1, 0, 1'000'000));
     loop.scene.loop = seconds_to_duration(options.take_number("seconds", 20, 2, 120));
     loop.frames_per_second = options.take_number("fps", 30, 1, 60);
-    loop.noise = take_noise(options);
+    loop.noise = take_switch(options, "noise");
+    loop.scene.people = take_switch(options, "people");
     loop.color = color_size(options.take("color", "720"), options.text());
     loop.folder = options.take("cache");
     const std::string quality = options.take("quality", "full");

@@ -47,6 +47,7 @@ TEST(SyntheticCamera, ExplainsWrongOptions) {
     EXPECT_NE(problem_of("synthetic:color=9").find("color"), std::string::npos);
     EXPECT_NE(problem_of("synthetic:camera=2,cameras=2").find("camera"), std::string::npos);
     EXPECT_NE(problem_of("synthetic:noise=some").find("on or off"), std::string::npos);
+    EXPECT_NE(problem_of("synthetic:people=2").find("people must be on or off"), std::string::npos);
     EXPECT_NE(problem_of("synthetic:nose=1").find("nose"), std::string::npos);
 }
 

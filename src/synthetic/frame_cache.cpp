@@ -63,6 +63,8 @@ std::string key_of(const LoopOptions& o) {
     add("depth_divisor", o.depth_divisor);
     add("frames", frames_of(o));
     add("noise", int(o.noise));
+    if (!o.scene.people)
+        key += " people=0";
     return key;
 }
 

@@ -115,6 +115,7 @@ TEST_F(FrameCache, EveryOptionHasItsOwnFile) {
     differs([](LoopOptions& o) { o.scene.seed = 9; });
     differs([](LoopOptions& o) { o.scene.detail = 1; });
     differs([](LoopOptions& o) { o.scene.loop = 3s; });
+    differs([](LoopOptions& o) { o.scene.people = false; });
     differs([](LoopOptions& o) { o.color = {}; });
     differs([](LoopOptions& o) { o.depth_divisor = 2; });
     differs([](LoopOptions& o) { o.frames_per_second = 3; });

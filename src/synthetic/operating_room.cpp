@@ -54,11 +54,14 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     add_tray(still, options.seed);
     add_bricks(still, options.seed);
     add_monitor(still);
-    add_patient(still, scene->moving, options.detail);
-    const Mesh cover = scene->moving.mesh;  // moves a little, but lies among what does not
-    add_situs(still, scene->moving, options.detail);
-    add_people(scene->moving, options.detail, options.seed);
-    add_tools(scene->moving);
+    Mesh cover;  // moves a little, but lies among what does not
+    if (options.people) {
+        add_patient(still, scene->moving, options.detail);
+        cover = scene->moving.mesh;
+        add_situs(still, scene->moving, options.detail);
+        add_people(scene->moving, options.detail, options.seed);
+        add_tools(scene->moving);
+    }
     split_long_edges(still, 0.16f);
     Mesh together = still;
     together.append(cover);

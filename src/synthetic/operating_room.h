@@ -36,6 +36,9 @@ struct SceneOptions {
     Duration loop = 20s;  // 2 s to 2 min; hands move at a natural speed near 20 s
     // 1: full quality. Smaller values make coarser meshes, faster (tests use 0.3).
     double detail = 1;
+    // Without them nothing moves: no team, no patient, no sheets over the table, none
+    // of the tools that pass from hand to hand.
+    bool people = true;
 };
 
 // What a pixel shows. The numbers are stable: they are stored and compared.
