@@ -17,10 +17,16 @@ class DepthPlane {
 public:
     static constexpr int margin = 32;  // the longest vector of 16-bit lanes
 
+    static int padded_width_of(Size size) { return (size.width + margin - 1) / margin * margin; }
+    // Whole words of a bit per pixel: those of HoleScratch have the same shape.
+    static std::ptrdiff_t pitch_of(Size size) {
+        return (padded_width_of(size) + 2 * margin + 63) / 64 * 64;
+    }
+
     explicit DepthPlane(Size size)
         : size_(size),
-          padded_width_((size.width + margin - 1) / margin * margin),
-          pitch_(padded_width_ + 2 * margin),
+          padded_width_(padded_width_of(size)),
+          pitch_(pitch_of(size)),
           pixels_(std::size_t(pitch_) * std::size_t(size.height + 2)) {}
 
     Size size() const { return size_; }

@@ -30,8 +30,25 @@ using Words = std::uint64_t*;
 constexpr hn::ScalableTag<std::uint64_t> dw;
 constexpr hn::ScalableTag<std::uint16_t> d;
 
-std::uint8_t* bytes_of(Words words) {
-    return reinterpret_cast<std::uint8_t*>(words);
+// Pixels to fill are scattered: vectors are put together from groups of eight.
+#if HWY_HAVE_SCALABLE
+constexpr hn::CappedTag<std::uint16_t, 8> dg;
+#else
+constexpr hn::CappedTag<std::uint16_t, 32> dg;
+#endif
+constexpr std::size_t groups_per_vector = hn::MaxLanes(dg) / 8;
+
+// From the row of the image's first pixel on, margin included.
+std::uint8_t* bytes_of(const HoleScratch& s, HoleScratch::Bits& bits) {
+    return reinterpret_cast<std::uint8_t*>(bits.data() + HoleScratch::slack +
+                                           HoleScratch::margin_rows * s.words_per_row());
+}
+// The same pixel.
+std::uint16_t* pixels_of(DepthPlane& depth) {
+    return depth.row(0) - DepthPlane::margin;
+}
+const std::uint16_t* pixels_of(const DepthPlane& depth) {
+    return depth.row(0) - DepthPlane::margin;
 }
 
 // A range of whole rows of bits, margins included.
@@ -66,7 +83,7 @@ HWY_INLINE auto from_left(const std::uint64_t* words, std::ptrdiff_t i, int bits
 
 // Leaves the pixels that a square of set pixels covers. The square is looked for
 // by its top left pixel, with a window that doubles.
-void open_by_square(HoleScratch& s, Words bits, int side, Range image) {
+HWY_NOINLINE void open_by_square(HoleScratch& s, Words bits, int side, Range image) {
     const std::ptrdiff_t row = s.words_per_row();
     const std::ptrdiff_t above = row * (HoleScratch::margin_rows - 1);
     const Range extended{image.begin - above, image.end};
@@ -95,28 +112,33 @@ void open_by_square(HoleScratch& s, Words bits, int side, Range image) {
 }
 
 // Finds what may be filled. False if nothing.
-bool mark_fillable(const DepthPlane& depth, int side, HoleScratch& s, Range image) {
+HWY_NOINLINE bool mark_fillable(const DepthPlane& depth, int side, HoleScratch& s, Range image) {
     const int lanes = int(hn::Lanes(d));
     const auto zero = hn::Zero(d);
+    std::uint8_t* hole = bytes_of(s, s.hole);
+    const std::uint16_t* pixels = pixels_of(depth);
     for (int y = 0; y < depth.size().height; ++y) {
-        const std::uint16_t* row = depth.row(y);
-        std::uint8_t* bytes = bytes_of(s.row(s.hole, y));
-        for (int x = 0; x < depth.padded_width(); x += lanes)
-            hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, row + x), zero), bytes + x / 8);
+        const std::ptrdiff_t row = y * depth.pitch() + DepthPlane::margin;
+        for (std::ptrdiff_t i = row; i < row + depth.padded_width(); i += lanes) {
+            const auto none = hn::Eq(hn::LoadU(d, pixels + i), zero);
+            hn::StoreMaskBits(d, none, hole + i / 8);
+        }
     }
     std::copy(s.hole.begin(), s.hole.end(), s.work.begin());
     open_by_square(s, s.work.data(), side, image);
     auto any = hn::Zero(dw);
-    upwards(image, [&](auto i) {
-        const auto may =
-            hn::AndNot(hn::LoadU(dw, s.work.data() + i), hn::LoadU(dw, s.hole.data() + i));
+    upwards(image, [&](auto i) HWY_ATTR {
+        const auto hole = hn::LoadU(dw, s.hole.data() + i);
+        const auto may = hn::AndNot(hn::LoadU(dw, s.work.data() + i), hole);
         any = hn::Or(any, may);
         hn::StoreU(may, dw, s.may_fill.data() + i);
+        hn::StoreU(may, dw, s.open.data() + i);
+        hn::StoreU(hn::Not(hole), dw, s.known.data() + i);
     });
     return !hn::AllTrue(dw, hn::Eq(any, hn::Zero(dw)));
 }
 
-using Pixels = hn::Vec<decltype(d)>;
+using Pixels = hn::Vec<decltype(dg)>;
 
 HWY_INLINE void sort_pair(Pixels& a, Pixels& b) {
     const auto low = hn::Min(a, b);
@@ -124,25 +146,36 @@ HWY_INLINE void sort_pair(Pixels& a, Pixels& b) {
     a = low;
 }
 
-// rim_of() for a vector of pixels, in two steps: what is found more often first.
+// The pixels of the groups of one vector, `offset` pixels beside them.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> load_groups(Tag tag, const std::uint16_t* pixels,
+                                    const HoleScratch::Group* groups) {
+    if constexpr (hn::MaxLanes(tag) > 8) {
+        const hn::Half<Tag> half;
+        return hn::Combine(tag, load_groups(half, pixels, groups + hn::MaxLanes(half) / 8),
+                           load_groups(half, pixels, groups));
+    } else {
+        return hn::LoadU(tag, pixels + 8 * std::size_t(*groups));
+    }
+}
+
+// rim_of() for a vector of pixels.
 class RimLanes {
 public:
-    HWY_INLINE RimLanes(const std::uint16_t* pixel, std::ptrdiff_t pitch)
-        : n0_(hn::LoadU(d, pixel - pitch - 1)),
-          n1_(hn::LoadU(d, pixel - pitch)),
-          n2_(hn::LoadU(d, pixel - pitch + 1)),
-          n3_(hn::LoadU(d, pixel - 1)),
-          n4_(hn::LoadU(d, pixel + 1)),
-          n5_(hn::LoadU(d, pixel + pitch - 1)),
-          n6_(hn::LoadU(d, pixel + pitch)),
-          n7_(hn::LoadU(d, pixel + pitch + 1)) {}
-
-    // Without neighbours there are neither near nor far ones.
-    HWY_INLINE auto edge(Tolerance tolerance) {
-        const auto furthest = hn::Max(hn::Max(hn::Max(n0_, n1_), hn::Max(n2_, n3_)),
-                                      hn::Max(hn::Max(n4_, n5_), hn::Max(n6_, n7_)));
+    HWY_INLINE RimLanes(const std::uint16_t* pixels, std::ptrdiff_t pitch,
+                        const HoleScratch::Group* groups)
+        : n0_(load_groups(dg, pixels - pitch - 1, groups)),
+          n1_(load_groups(dg, pixels - pitch, groups)),
+          n2_(load_groups(dg, pixels - pitch + 1, groups)),
+          n3_(load_groups(dg, pixels - 1, groups)),
+          n4_(load_groups(dg, pixels + 1, groups)),
+          n5_(load_groups(dg, pixels + pitch - 1, groups)),
+          n6_(load_groups(dg, pixels + pitch, groups)),
+          n7_(load_groups(dg, pixels + pitch + 1, groups)) {
+        furthest_ = hn::Max(hn::Max(hn::Max(n0_, n1_), hn::Max(n2_, n3_)),
+                            hn::Max(hn::Max(n4_, n5_), hn::Max(n6_, n7_)));
         // One less puts "no measurement" behind all others.
-        const auto one = hn::Set(d, 1);
+        const auto one = hn::Set(dg, 1);
         n0_ = hn::Sub(n0_, one);
         n1_ = hn::Sub(n1_, one);
         n2_ = hn::Sub(n2_, one);
@@ -151,29 +184,18 @@ public:
         n5_ = hn::Sub(n5_, one);
         n6_ = hn::Sub(n6_, one);
         n7_ = hn::Sub(n7_, one);
-        const auto nearest = hn::Add(hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
-                                             hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))),
-                                     one);
-        const auto limit = hn::SaturatedAdd(hn::Set(d, tolerance.constant),
-                                            hn::MulHigh(nearest, hn::Set(d, tolerance.slope)));
-        return hn::Gt(hn::Sub(furthest, nearest), limit);
     }
 
-    // Behind edge().
-    HWY_INLINE Pixels count() const {
-        const auto nothing = hn::Set(d, 0xffff);
-        // A mask is -1 in each lane.
-        const auto is_none = [&](Pixels n)
-                                 HWY_ATTR { return hn::VecFromMask(d, hn::Eq(n, nothing)); };
-        return hn::Add(
-            hn::Set(d, 8),
-            hn::Add(
-                hn::Add(hn::Add(is_none(n0_), is_none(n1_)), hn::Add(is_none(n2_), is_none(n3_))),
-                hn::Add(hn::Add(is_none(n4_), is_none(n5_)), hn::Add(is_none(n6_), is_none(n7_)))));
+    // Without neighbours there are neither near nor far ones.
+    HWY_INLINE auto edge(Tolerance tolerance) const {
+        return beyond(tolerance, hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
+                                         hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))));
     }
 
-    // Behind edge(), and once.
-    HWY_INLINE Pixels median(Pixels count) {
+    // Once, as the last: the median, or 0 at an edge. Of `more_than` 2, 4 and 6
+    // neighbours.
+    template <class Masks>
+    HWY_INLINE Pixels median_off_edge(const Masks& more_than, Tolerance tolerance) {
         // The best network for eight; of its result only the first four are used.
         sort_pair(n0_, n2_), sort_pair(n1_, n3_), sort_pair(n4_, n6_), sort_pair(n5_, n7_);
         sort_pair(n0_, n4_), sort_pair(n1_, n5_), sort_pair(n2_, n6_), sort_pair(n3_, n7_);
@@ -182,115 +204,182 @@ public:
         sort_pair(n1_, n4_), sort_pair(n3_, n6_);
         sort_pair(n1_, n2_), sort_pair(n3_, n4_);
         auto median = n0_;
-        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 2)), n1_, median);
-        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 4)), n2_, median);
-        median = hn::IfThenElse(hn::Gt(count, hn::Set(d, 6)), n3_, median);
-        return hn::Add(median, hn::Set(d, 1));
+        median = hn::IfThenElse(more_than[0], n1_, median);
+        median = hn::IfThenElse(more_than[1], n2_, median);
+        median = hn::IfThenElse(more_than[2], n3_, median);
+        return hn::IfThenZeroElse(beyond(tolerance, n0_), hn::Add(median, hn::Set(dg, 1)));
     }
 
 private:
+    HWY_INLINE hn::Mask<decltype(dg)> beyond(Tolerance tolerance, Pixels nearest_less_one) const {
+        const auto nearest = hn::Add(nearest_less_one, hn::Set(dg, 1));
+        const auto limit = hn::SaturatedAdd(hn::Set(dg, tolerance.constant),
+                                            hn::MulHigh(nearest, hn::Set(dg, tolerance.slope)));
+        return hn::Gt(hn::Sub(furthest_, nearest), limit);
+    }
+
     Pixels n0_, n1_, n2_, n3_, n4_, n5_, n6_, n7_;
+    Pixels furthest_;
 };
 
-void list_blocks(const DepthPlane& depth, HoleScratch& s) {
-    const int lanes = int(hn::Lanes(d));
-    const std::uint64_t first = (std::uint64_t(1) << lanes) - 1;
-    s.blocks.clear();
-    for (int y = 0; y < depth.size().height; ++y) {
-        const std::uint64_t* row = s.row(s.may_fill, y);
-        for (int word = 0; 64 * word < depth.padded_width(); ++word) {
-            if (row[word] == 0)
-                continue;
-            for (int x = 0; x < 64; x += lanes)
-                if ((row[word] >> x & first) != 0)
-                    s.blocks.push_back({std::uint32_t(y * depth.pitch() + 64 * word + x),
-                                        std::uint32_t(8 * (y * s.words_per_row() + word) + x / 8)});
-        }
+// For each byte the places of its bits, in order.
+struct BitPlaces {
+    constexpr BitPlaces() {
+        for (int byte = 0; byte < 256; ++byte)
+            for (int bit = 0; bit < 8; ++bit)
+                if ((byte >> bit & 1) != 0)
+                    place[byte][count[byte]++] = std::uint8_t(bit);
     }
+    std::uint8_t place[256][8] = {};
+    std::uint8_t count[256] = {};
+};
+constexpr BitPlaces bit_places;
+
+// Lists the groups in which a bit is set, without branches: they follow no pattern.
+HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range image,
+                 HoleScratch::Groups& groups) {
+    const hn::ScalableTag<std::uint8_t> db;
+    const std::uint8_t* bytes = bytes_of(s, bits);
+    const std::ptrdiff_t size = 8 * (image.end - image.begin);
+    std::uint8_t* present = s.group_bits.data();
+    // Beyond the image's last row is a margin without bits.
+    for (std::ptrdiff_t i = 0; i < size; i += std::ptrdiff_t(hn::Lanes(db)))
+        hn::StoreMaskBits(db, hn::Ne(hn::LoadU(db, bytes + i), hn::Zero(db)), present + i / 8);
+
+    const hn::CappedTag<std::uint32_t, 8> d32;
+    const hn::Rebind<std::uint8_t, decltype(d32)> d8;
+    HoleScratch::Group* next = groups.places.data();
+    for (std::ptrdiff_t i = 0; i < size / 8; ++i) {
+        const std::uint8_t byte = present[i];
+        const auto first = hn::Set(d32, std::uint32_t(8 * i));
+        for (std::size_t k = 0; k < 8; k += hn::Lanes(d32))
+            hn::StoreU(
+                hn::Add(first, hn::PromoteTo(d32, hn::LoadU(d8, bit_places.place[byte] + k))), d32,
+                next + k);
+        next += bit_places.count[byte];
+    }
+    groups.count = std::size_t(next - groups.places.data());
+    // The last vector is filled up with the image's first pixels.
+    std::fill_n(next, groups_per_vector, HoleScratch::Group(DepthPlane::margin / 8));
 }
 
-// Whether an open pixel of the block lies beside one of the ring.
-HWY_INLINE bool reaches_block(std::uint8_t* ring, const std::uint8_t* open,
-                              std::ptrdiff_t bytes_per_row) {
-    // From eight pixels left of the block on.
-    const auto word_at = [](const std::uint8_t* bytes) {
-        std::uint64_t word;
-        std::memcpy(&word, bytes - 1, sizeof(word));
-        return word;
+// Numbers of two bits, one for each pixel.
+struct Count {
+    hn::Vec<decltype(dw)> ones, twos;
+};
+HWY_INLINE Count sum(hn::Vec<decltype(dw)> a, hn::Vec<decltype(dw)> b, hn::Vec<decltype(dw)> c) {
+    const auto either = hn::Xor(a, b);
+    return {hn::Xor(either, c), hn::Or(hn::And(a, b), hn::And(either, c))};
+}
+
+// Counts the neighbours that are known: which open pixels have enough of them, and
+// which of them is the median.
+void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
+    const std::ptrdiff_t row = s.words_per_row();
+    const std::uint64_t* known = s.known.data();
+    const auto all = hn::Set(dw, ~std::uint64_t(0));
+    const auto bit_of_least = [&](int bit) HWY_ATTR {
+        return (min_neighbours >> bit & 1) != 0 ? all : hn::Zero(dw);
     };
-    const std::uint64_t rows =
-        word_at(ring - bytes_per_row) | word_at(ring) | word_at(ring + bytes_per_row);
-    constexpr std::uint64_t block = ((std::uint64_t(1) << hn::MaxLanes(d)) - 1) << 8;
-    return ((rows | rows << 1 | rows >> 1) & word_at(open) & block) != 0;
+    const auto least1 = bit_of_least(0), least2 = bit_of_least(1), least4 = bit_of_least(2),
+               least8 = bit_of_least(3);
+    upwards(image, [&](auto i) HWY_ATTR {
+        const auto in_row = [&](std::ptrdiff_t at) HWY_ATTR {
+            return sum(from_left(known, at, 1), hn::LoadU(dw, known + at), from_right(known, at, 1));
+        };
+        const Count above = in_row(i - row), below = in_row(i + row);
+        const Count beside = sum(from_left(known, i, 1), hn::Zero(dw), from_right(known, i, 1));
+        const Count ones = sum(above.ones, beside.ones, below.ones);
+        const Count twos = sum(above.twos, beside.twos, below.twos);
+        const auto bit1 = ones.ones;
+        const auto bit2 = hn::Xor(twos.ones, ones.twos);
+        const auto carry = hn::And(twos.ones, ones.twos);
+        const auto bit4 = hn::Xor(twos.twos, carry);
+        const auto bit8 = hn::And(twos.twos, carry);
+
+        // From the lowest bit on: whether the count is at least the least so far.
+        auto enough = hn::Or(bit1, hn::Not(least1));
+        const auto next = [&](auto bit, auto least) HWY_ATTR {
+            enough = hn::Or(hn::AndNot(least, bit), hn::And(hn::Not(hn::Xor(bit, least)), enough));
+        };
+        next(bit2, least2);
+        next(bit4, least4);
+        next(bit8, least8);
+        const auto open = hn::LoadU(dw, s.open.data() + i);
+        hn::StoreU(hn::And(open, enough), dw, s.candidate.data() + i);
+        hn::StoreU(hn::AndNot(enough, open), dw, s.open.data() + i);
+        const auto more = hn::Or(bit4, bit8);
+        hn::StoreU(hn::Or(more, hn::And(bit1, bit2)), dw, s.more_than[0].data() + i);
+        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::Or(bit1, bit2))), dw, s.more_than[1].data() + i);
+        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::And(bit1, bit2))), dw,
+                   s.more_than[2].data() + i);
+    });
 }
 
-// Fills one ring of pixels. After the first only what lies beside a pixel of the
-// ring before can have changed. False if nothing was filled.
-bool fill_ring(DepthPlane& depth, const HoleRule& rule, HoleScratch& s, bool first) {
-    const int lanes = int(hn::Lanes(d));
-    const auto min_neighbours = hn::Set(d, std::uint16_t(rule.min_neighbours));
-    const std::ptrdiff_t bytes_per_row = 8 * s.words_per_row();
-    std::uint16_t* pixels = depth.row(0);
-    std::uint8_t* open = bytes_of(s.row(s.open, 0));
-    std::uint8_t* ring = bytes_of(s.row(s.ring, 0));
-    std::uint8_t* next_ring = bytes_of(s.row(s.next_ring, 0));
-    std::uint16_t* pending = s.pending.data();
-    s.changed.clear();
-    std::fill(s.next_ring.begin(), s.next_ring.end(), 0);
-    for (const HoleScratch::Block block : s.open_blocks) {
-        if (!first && !reaches_block(ring + block.byte, open + block.byte, bytes_per_row))
-            continue;
-        std::uint16_t* pixel = pixels + block.pixel;
-        const auto wanted = hn::LoadMaskBits(d, open + block.byte);
-        RimLanes rim(pixel, depth.pitch());
-        const auto edge = rim.edge(rule.tolerance);
-        const auto count = rim.count();
-        const auto fills = hn::And(wanted, hn::AndNot(edge, at_least(count, min_neighbours)));
-        if (hn::AllFalse(d, fills))
-            continue;
-        hn::StoreMaskBits(d, fills, next_ring + block.byte);
-        hn::StoreU(hn::IfThenElse(fills, rim.median(count), hn::LoadU(d, pixel)), d, pending);
-        pending += lanes;
-        s.changed.push_back(block);
+// The bits of the groups of one vector.
+HWY_INLINE hn::Mask<decltype(dg)> load_bits(const std::uint8_t* bits,
+                                            const HoleScratch::Group* groups) {
+    std::uint8_t together[8] = {};  // LoadMaskBits may read a word
+    for (std::size_t g = 0; g < groups_per_vector; ++g)
+        together[g] = bits[groups[g]];
+    return hn::LoadMaskBits(dg, together);
+}
+
+// Fills one ring of pixels: the candidates. Those at an edge stay as they are, as
+// more neighbours leave an edge an edge. False if nothing was filled.
+bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
+    std::uint16_t* pixels = pixels_of(depth);
+    const std::uint8_t* more_than[3];
+    for (int i = 0; i < 3; ++i)
+        more_than[i] = bytes_of(s, s.more_than[i]);
+    const HoleScratch::Groups& groups = s.some;
+    for (std::size_t i = 0; i < groups.count; i += groups_per_vector) {
+        RimLanes rim(pixels, depth.pitch(), &groups.places[i]);
+        const hn::Mask<decltype(dg)> masks[3] = {load_bits(more_than[0], &groups.places[i]),
+                                                 load_bits(more_than[1], &groups.places[i]),
+                                                 load_bits(more_than[2], &groups.places[i])};
+        const auto median = rim.median_off_edge(masks, tolerance);
+        hn::StoreU(median, dg, s.depth.data() + 8 * i);
+        hn::StoreMaskBits(dg, hn::Ne(median, hn::Zero(dg)), s.filled.data() + i);
     }
-    pending = s.pending.data();
-    for (const HoleScratch::Block block : s.changed) {
-        hn::StoreU(hn::LoadU(d, pending), d, pixels + block.pixel);
-        pending += lanes;
-        const auto was_open = hn::LoadMaskBits(d, open + block.byte);
-        const auto filled = hn::LoadMaskBits(d, next_ring + block.byte);
-        hn::StoreMaskBits(d, hn::AndNot(filled, was_open), open + block.byte);
+    std::uint8_t* known = bytes_of(s, s.known);
+    const std::uint8_t* wanted = bytes_of(s, s.candidate);
+    const hn::CappedTag<std::uint16_t, 8> eight;
+    unsigned any = 0;
+    for (std::size_t i = 0; i < groups.count; ++i) {
+        const HoleScratch::Group group = groups.places[i];
+        const std::uint8_t filled = s.filled[i] & wanted[group];
+        std::uint16_t* pixel = pixels + 8 * std::size_t(group);
+        hn::StoreU(hn::IfThenElse(hn::LoadMaskBits(eight, &filled),
+                                  hn::LoadU(eight, s.depth.data() + 8 * i),
+                                  hn::LoadU(eight, pixel)),
+                   eight, pixel);
+        known[group] |= filled;
+        any |= filled;
     }
-    // Without branches: which blocks are full follows no pattern.
-    std::size_t kept = 0;
-    for (const HoleScratch::Block block : s.open_blocks) {
-        const auto still_open = hn::LoadMaskBits(d, open + block.byte);
-        s.open_blocks[kept] = block;
-        kept += !hn::AllFalse(d, still_open);
-    }
-    s.open_blocks.resize(kept);
-    std::swap(s.ring, s.next_ring);
-    return !s.changed.empty();
+    return any != 0;
 }
 
 // Marks what sees an edge. False if nothing does.
-bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
-    const std::uint16_t* pixels = depth.row(0);
-    const std::uint8_t* may_fill = bytes_of(s.row(s.may_fill, 0));
-    std::uint8_t* edges = bytes_of(s.row(s.edge, 0));
-    std::fill(s.edge.begin(), s.edge.end(), 0);
-    bool any = false;
-    for (const HoleScratch::Block block : s.blocks) {
-        RimLanes rim(pixels + block.pixel, depth.pitch());
-        const auto edge = hn::And(rim.edge(tolerance), hn::LoadMaskBits(d, may_fill + block.byte));
-        any |= !hn::AllFalse(d, edge);
-        hn::StoreMaskBits(d, edge, edges + block.byte);
+HWY_NOINLINE bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
+    for (std::size_t i = 0; i < s.all.count; i += groups_per_vector) {
+        const RimLanes rim(pixels_of(depth), depth.pitch(), &s.all.places[i]);
+        hn::StoreMaskBits(dg, rim.edge(tolerance), s.filled.data() + i);
     }
-    return any;
+    std::uint8_t* edges = bytes_of(s, s.edge);
+    const std::uint8_t* may_fill = bytes_of(s, s.may_fill);
+    std::fill(s.edge.begin(), s.edge.end(), 0);
+    unsigned any = 0;
+    for (std::size_t i = 0; i < s.all.count; ++i) {
+        const HoleScratch::Group group = s.all.places[i];
+        edges[group] = s.filled[i] & may_fill[group];
+        any |= edges[group];
+    }
+    return any != 0;
 }
 
 // One step from the edge through what may be filled.
-void spread_edges(HoleScratch& s, Range image) {
+HWY_NOINLINE void spread_edges(HoleScratch& s, Range image) {
     const std::uint64_t* edge = s.edge.data();
     const std::uint64_t* may_fill = s.may_fill.data();
     std::uint64_t* sideways = s.work.data();
@@ -316,22 +405,26 @@ void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
     const Range image{first, first + depth.size().height * row};
     if (!mark_fillable(depth, rule.max_size + 1, s, image))
         return;
-    list_blocks(depth, s);
-    std::copy(s.may_fill.begin(), s.may_fill.end(), s.open.begin());
-    s.open_blocks = s.blocks;
-    for (int i = 0; i < rule.iterations; ++i)
-        if (!fill_ring(depth, rule, s, i == 0))
+    list_groups(s, s.may_fill, image, s.all);
+    for (int i = 0; i < rule.iterations; ++i) {
+        find_candidates(s, rule.min_neighbours, image);
+        list_groups(s, s.candidate, image, s.some);
+        if (!fill_ring(depth, rule.tolerance, s))
             break;
+    }
 
     if (!mark_edges(depth, rule.tolerance, s))
         return;
     for (int i = 0; i < rule.iterations; ++i)
         spread_edges(s, image);
-    const std::uint8_t* edges = bytes_of(s.row(s.edge, 0));
-    for (const HoleScratch::Block block : s.blocks) {
-        std::uint16_t* pixel = depth.row(0) + block.pixel;
-        const auto edge = hn::LoadMaskBits(d, edges + block.byte);
-        hn::StoreU(hn::IfThenZeroElse(edge, hn::LoadU(d, pixel)), d, pixel);
+    const std::uint8_t* edges = bytes_of(s, s.edge);
+    const hn::CappedTag<std::uint16_t, 8> eight;
+    list_groups(s, s.edge, image, s.some);
+    for (std::size_t i = 0; i < s.some.count; ++i) {
+        const HoleScratch::Group group = s.some.places[i];
+        std::uint16_t* pixel = pixels_of(depth) + 8 * std::size_t(group);
+        const auto edge = hn::LoadMaskBits(eight, edges + group);
+        hn::StoreU(hn::IfThenZeroElse(edge, hn::LoadU(eight, pixel)), eight, pixel);
     }
 }
 
@@ -345,19 +438,22 @@ namespace theatron::filter {
 
 HWY_EXPORT(fill_holes);
 
-HoleScratch::HoleScratch(Size size) : words_per_row_((size.width + 63) / 64 + 2) {
+HoleScratch::HoleScratch(Size size) : words_per_row_(DepthPlane::pitch_of(size) / 64) {
     const std::size_t words =
         std::size_t(words_per_row_) * std::size_t(size.height + 2 * margin_rows) + 2 * slack;
     hole.assign(words, ~std::uint64_t(0));
-    for (Bits* bits : {&may_fill, &open, &ring, &next_ring, &edge, &work})
+    for (Bits* bits : {&may_fill, &open, &known, &candidate, &more_than[0], &more_than[1], &more_than[2],
+                       &edge, &work})
         bits->assign(words, 0);
-    // The shortest vectors have eight pixels.
-    const std::size_t most_blocks = std::size_t((size.width + 7) / 8) * std::size_t(size.height);
-    blocks.reserve(most_blocks);
-    open_blocks.reserve(most_blocks);
-    changed.reserve(most_blocks);
-    // The longest have DepthPlane::margin.
-    pending.resize(std::size_t(size.width + DepthPlane::margin) * std::size_t(size.height));
+    // Whole vectors of groups are written, and whole words of flags.
+    constexpr std::size_t more = 16;
+    const std::size_t most_groups =
+        std::size_t(8 * words_per_row_) * std::size_t(size.height) + more;
+    for (Groups* groups : {&all, &some})
+        groups->places.resize(most_groups);
+    group_bits.resize(most_groups / 8 + more);
+    depth.resize(8 * most_groups);
+    filled.resize(most_groups);
 }
 
 void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& scratch) {

@@ -28,32 +28,34 @@ class HoleScratch {
 public:
     explicit HoleScratch(Size size);
 
-    // A bit per pixel, 64 to a word, with a margin of a word at both sides and of
-    // `margin_rows` above and below. The whole is one array: what a shift brings in
-    // from the row before or after comes from a margin.
+    // A bit per pixel of a plane, margins at both sides included, and of `margin_rows`
+    // above and below. The whole is one array of words: what a shift brings in from
+    // the row before or after comes from a margin.
     static constexpr int margin_rows = 32;
     std::ptrdiff_t words_per_row() const { return words_per_row_; }
     static constexpr std::ptrdiff_t slack = 8;  // words, readable before and after
     using Bits = std::vector<std::uint64_t>;
-    // The word with the row's first pixel.
-    std::uint64_t* row(Bits& bits, int y) const {
-        return bits.data() + slack + (y + margin_rows) * words_per_row_ + 1;
-    }
 
-    Bits hole;             // not measured; the margins too
-    Bits may_fill;         // by the shape of the holes
-    Bits open;             // of these, not yet filled
-    Bits ring, next_ring;  // of these, filled in one iteration
-    Bits edge;             // of these, near an edge
+    Bits hole;       // not measured; the margins too
+    Bits may_fill;   // by the shape of the holes
+    Bits open;          // of these, not yet looked at
+    Bits known;         // measured or filled
+    Bits candidate;     // what an iteration looks at
+    Bits more_than[3];  // so many known neighbours: 2, 4, 6
+    Bits edge;          // what is near an edge
     Bits work;
 
-    // Vectors of pixels in which there is something to fill; those where there is
-    // still something; those that an iteration changes, and to what.
-    struct Block {
-        std::uint32_t pixel, byte;  // from the first pixel, and from its byte of bits
+    // Eight pixels side by side, a byte of bits, in which a bit is set: the byte's
+    // place from the row of the image's first pixel on. The pixels' is eight times that.
+    using Group = std::uint32_t;
+    struct Groups {
+        std::vector<Group> places;
+        std::size_t count = 0;
     };
-    std::vector<Block> blocks, open_blocks, changed;
-    std::vector<std::uint16_t> pending;
+    Groups all, some;                      // all that may be filled; what one iteration looks at
+    std::vector<std::uint8_t> group_bits;  // a bit per group of the image
+    std::vector<std::uint16_t> depth;      // of some groups: what they may be filled with, and
+    std::vector<std::uint8_t> filled;      // where
 
 private:
     std::ptrdiff_t words_per_row_;

@@ -20,20 +20,27 @@ public:
     KalmanLanes(const KalmanRule& rule, int boost)
         : noise_constant_(hn::Set(du, std::uint16_t(rule.noise_constant))),
           noise_squared_(hn::Set(du, std::uint16_t(rule.noise_squared))),
-          reset_sigmas_(hn::Set(di, std::int16_t(rule.reset_sigmas))),
+          reset_sigmas_(hn::Set(di, std::int16_t(rule.reset_sigmas << 10))),
           trend_(hn::Set(du, std::uint16_t(rule.trend))),
           least_gain_(hn::Set(di, std::int16_t(rule.least_gain))),
+          gain_at_rest_(hn::Set(di, std::int16_t(larger(rule.least_gain, gain_at_rest)))),
+          // With a boost no gain is at rest.
+          gains_at_rest_(hn::Set(
+              du, std::uint16_t(boost > 0 ? 0xffff : larger(rule.least_gain, gain_at_rest)))),
           twice_least_gain_(hn::Set(du, std::uint16_t(2 * rule.least_gain))),
-          most_hold_(hn::Set(du, std::uint16_t(rule.most_hold))),
+          most_hold_(hn::Set(du, std::uint16_t(rule.most_hold << 12))),
           fresh_gain_(hn::Set(
               du,
               std::uint16_t(gain_after_reset | (smaller(hold_after_reset, rule.most_hold) << 12)))),
-          boost_(hn::Set(di, std::int16_t(smaller(boost, 255)))) {}
+          boost_(hn::Set(di, std::int16_t(smaller(boost, 255)))) {
+        for (int times = 1; times <= trend_steps; ++times)
+            floor_[times - 1] =
+                hn::Set(di, std::int16_t(larger(rule.least_gain, trend_gain(times))));
+    }
 
     // Advances the state of the pixels at these places, and returns their depth.
-    HWY_INLINE auto step(const std::uint16_t* in, std::uint16_t* depth_at,
+    HWY_INLINE auto step(hn::Vec<hn::ScalableTag<std::uint16_t>> measured, std::uint16_t* depth_at,
                          std::uint16_t* estimate_at, std::uint16_t* gain_at) const {
-        const auto measured = hn::LoadU(du, in);
         const auto depth = hn::LoadU(du, depth_at);
         const auto zero = hn::Zero(du);
         // The sensor's blind corners, and where the background is gone.
@@ -42,86 +49,80 @@ public:
         const auto estimate = hn::LoadU(du, estimate_at);
         const auto gains = hn::LoadU(du, gain_at);
 
-        const auto missing = hn::And(hn::ShiftRight<8>(gains), hn::Set(du, 0xf));
-        const auto hold = hn::ShiftRight<12>(gains);
-        const auto is_measured = hn::Ne(measured, zero);
-        const auto known = hn::Ne(depth, zero);
-
         const auto squared = hn::MulHigh(depth, depth);
         const auto noise =
             hn::Min(hn::SaturatedAdd(noise_constant_, hn::MulHigh(squared, noise_squared_)),
                     hn::Set(du, most_noise));
-        const auto rest = signed_(hn::ShiftRight<8>(estimate), 128);
-        const auto far = hn::Set(du, 1000);
-        const auto ahead = as_signed(hn::Min(hn::SaturatedSub(measured, depth), far));
-        const auto behind = as_signed(hn::Min(hn::SaturatedSub(depth, measured), far));
-        const auto innovation = hn::Sub(hn::ShiftLeft<estimate_bits>(hn::Sub(ahead, behind)), rest);
-        const auto noise_i = as_signed(noise);
-        const auto jump = hn::Gt(hn::Abs(innovation), hn::Mul(reset_sigmas_, noise_i));
+        const auto noise_i = hn::BitCast(di, noise);
+        // (reset_sigmas * noise + 16) >> 5
+        const auto reset = hn::BitCast(du, hn::MulFixedPoint15(noise_i, reset_sigmas_));
+        const auto distance =
+            hn::Or(hn::SaturatedSub(measured, depth), hn::SaturatedSub(depth, measured));
+        const auto jump = hn::Gt(distance, reset);
 
-        // A measured pixel that is no jump.
-        auto trend = signed_(hn::And(estimate, hn::Set(du, 0xff)), 128);
-        trend = hn::Sub(trend, hn::ShiftRight<3>(hn::Add(trend, hn::Set(di, 4))));
-        trend = hn::Add(trend, hn::ShiftRight<4>(hn::Add(innovation, hn::Set(di, 8))));
-        trend = clamp(trend, -127, 127);
-        const auto mean = hn::Add(hn::Abs(trend), hn::Abs(trend));
-        const auto threshold =
-            as_signed(hn::Min(hn::MulHigh(hn::ShiftLeft<4>(noise), trend_), hn::Set(du, 4095)));
-        auto floor = least_gain_;
-        auto beyond = threshold;
-        for (int times = 1; times <= trend_steps; ++times) {
-            const auto raised = hn::Max(floor, hn::Set(di, std::int16_t(trend_gain(times))));
-            floor = hn::IfThenElse(hn::Gt(mean, beyond), raised, floor);
-            beyond = hn::Add(beyond, threshold);
-        }
-        const auto moving = hn::Gt(mean, threshold);
-        const auto old_gain = hn::And(gains, hn::Set(du, 0xff));
-        auto gain = hn::Add(as_signed(old_gain), boost_);
-        gain = hn::Max(hn::Min(gain, hn::Set(di, 255)), floor);
-
-        // (innovation * gain + 128) >> 8
-        const auto moved = hn::Add(rest, hn::MulFixedPoint15(innovation, hn::ShiftLeft<7>(gain)));
+        // From here on for a measured pixel that is no jump; what becomes of others is
+        // thrown away. Shifts with rounding are multiplications.
+        const auto rest = hn::ShiftRight<8>(hn::BitCast(di, estimate));
+        const auto innovation =
+            hn::Sub(hn::BitCast(di, hn::ShiftLeft<estimate_bits>(hn::Sub(measured, depth))), rest);
+        auto trend = hn::Add(
+            hn::MulFixedPoint15(hn::BitCast(di, hn::ShiftLeft<8>(estimate)), hn::Set(di, 7 << 4)),
+            hn::MulFixedPoint15(innovation, hn::Set(di, 1 << 11)));
+        trend = hn::Min(hn::Max(trend, hn::Set(di, -127)), hn::Set(di, 127));
+        const auto size = hn::Abs(trend);
+        const auto threshold = hn::BitCast(di, hn::MulHigh(hn::ShiftLeft<3>(noise), trend_));
+        const auto moving = hn::Gt(size, threshold);
         const auto dead_band =
-            hn::IfThenElse(moving, hn::Set(di, 16),
-                           clamp(hn::ShiftRight<2>(noise_i), least_dead_band, most_dead_band));
-        const auto step =
-            hn::IfThenElseZero(hn::Gt(hn::Abs(moved), dead_band),
-                               hn::ShiftRight<estimate_bits>(hn::Add(moved, hn::Set(di, 16))));
-        const auto left = clamp(hn::Sub(moved, hn::ShiftLeft<estimate_bits>(step)), -most_estimate,
-                                most_estimate);
-        const auto nothing = hn::Zero(di);
-        const auto up = hn::BitCast(du, hn::Max(step, nothing));
-        const auto down = hn::BitCast(du, hn::Max(hn::Neg(step), nothing));
-        const auto one = hn::Set(du, 1);
-        const auto raised = hn::SaturatedAdd(depth, up);
-        const auto followed = hn::Sub(raised, hn::Min(down, hn::Sub(raised, one)));
+            hn::ShiftRight<2>(hn::Max(noise_i, hn::Set(di, least_dead_band_noise)));
 
-        const auto longer = hn::Min(hn::Max(hold, hn::Add(missing, hn::Set(du, 2))), most_hold_);
-        const auto settled = hn::Not(hn::Gt(old_gain, twice_least_gain_));
-        const auto grows = hn::And(hn::Ne(missing, zero), settled);
-        const auto next_hold = hn::IfThenElse(grows, longer, hold);
+        // Most pixels have long been still: their gains stay as they are.
+        const auto is_measured = hn::Ne(measured, zero);
+        const auto restless = hn::Or(jump, hn::RebindMask(du, moving));
+        const auto at_rest = hn::Eq(hn::And(gains, hn::Set(du, 0x0fff)), gains_at_rest_);
+        if (hn::AllTrue(du, hn::AndNot(restless, hn::And(is_measured, at_rest)))) {
+            const Followed pixel =
+                followed(depth, rest, innovation, trend, gain_at_rest_, dead_band);
+            hn::StoreU(pixel.depth, du, depth_at);
+            hn::StoreU(pixel.estimate, du, estimate_at);
+            return pixel.depth;
+        }
+
+        const auto old_gain = hn::And(gains, hn::Set(du, 0xff));
+        auto floor = hn::IfThenElse(moving, floor_[0], least_gain_);
+        auto beyond = threshold;
+        for (int times = 2; times <= trend_steps; ++times) {
+            beyond = hn::Add(beyond, threshold);
+            floor = hn::IfThenElse(hn::Gt(size, beyond), floor_[times - 1], floor);
+        }
+        const auto gain =
+            hn::Max(hn::Min(hn::Add(hn::BitCast(di, old_gain), boost_), hn::Set(di, 255)), floor);
+        const Followed pixel =
+            followed(depth, rest, innovation, trend, gain,
+                     hn::IfThenElse(moving, hn::Set(di, moving_dead_band), dead_band));
         const auto gain_u = hn::BitCast(du, gain);
         const auto next_gain = hn::Max(hn::Sub(gain_u, hn::ShiftRight<9>(hn::Mul(gain_u, gain_u))),
                                        hn::BitCast(du, least_gain_));
-        const auto middle = hn::Set(di, 128);
-        const auto packed = hn::Or(hn::ShiftLeft<8>(hn::BitCast(du, hn::Add(left, middle))),
-                                   hn::BitCast(du, hn::Add(trend, middle)));
 
-        // One of four: followed, begun anew, held, gone.
-        const auto follows = hn::AndNot(jump_mask(jump), known);
-        auto next_depth = hn::IfThenElse(follows, followed, measured);
-        auto next_estimate = hn::IfThenElse(follows, packed, hn::Set(du, 0x8080));
-        auto next_gains =
-            hn::IfThenElse(follows, hn::Or(next_gain, hn::ShiftLeft<12>(next_hold)), fresh_gain_);
-        const auto held = hn::And(known, hn::Lt(missing, hold));
-        next_depth = hn::IfThenElse(is_measured, next_depth, hn::IfThenElseZero(held, depth));
-        next_estimate =
-            hn::IfThenElse(is_measured, next_estimate, hn::IfThenElseZero(held, estimate));
-        next_gains = hn::IfThenElse(is_measured, next_gains,
-                                    hn::IfThenElseZero(held, hn::Add(gains, hn::Set(du, 1 << 8))));
+        // Numbers of frames stay where they are: in the highest bits.
+        const auto missing = hn::And(hn::ShiftLeft<4>(gains), hn::Set(du, 0xf000));
+        const auto hold = hn::And(gains, hn::Set(du, 0xf000));
+        const auto longer =
+            hn::Min(hn::Max(hold, hn::SaturatedAdd(missing, hn::Set(du, 0x2000))), most_hold_);
+        const auto grows = hn::AndNot(hn::Gt(old_gain, twice_least_gain_), hn::Ne(missing, zero));
+        const auto next_hold = hn::IfThenElse(grows, longer, hold);
+
+        // One of four: followed, begun anew, held, gone. What was not known has no hold.
+        const auto follows = hn::AndNot(jump, hn::Ne(hn::Min(measured, depth), zero));
+        const auto held = hn::AndNot(is_measured, hn::Lt(missing, hold));
+        const auto next_depth =
+            hn::IfThenElse(held, depth, hn::IfThenElse(follows, pixel.depth, measured));
         hn::StoreU(next_depth, du, depth_at);
-        hn::StoreU(next_estimate, du, estimate_at);
-        hn::StoreU(next_gains, du, gain_at);
+        hn::StoreU(hn::IfThenElse(held, estimate, hn::IfThenElseZero(follows, pixel.estimate)), du,
+                   estimate_at);
+        const auto measured_gain = hn::IfThenElse(follows, hn::Or(next_gain, next_hold),
+                                                  hn::IfThenElseZero(is_measured, fresh_gain_));
+        hn::StoreU(hn::IfThenElse(held, hn::Add(gains, hn::Set(du, 1 << 8)), measured_gain), du,
+                   gain_at);
         return next_depth;
     }
 
@@ -133,21 +134,33 @@ private:
     using VU = hn::Vec<DU>;
     using VI = hn::Vec<DI>;
 
-    static HWY_INLINE VI as_signed(VU v) { return hn::BitCast(di, v); }
-    static HWY_INLINE VI signed_(VU v, int middle) {
-        return hn::Sub(as_signed(v), hn::Set(di, std::int16_t(middle)));
+    struct Followed {
+        VU depth, estimate;
+    };
+    static HWY_INLINE Followed followed(VU depth, VI rest, VI innovation, VI trend, VI gain,
+                                        VI dead_band) {
+        // (innovation * gain + 128) >> 8
+        const auto moved = hn::Add(rest, hn::MulFixedPoint15(innovation, hn::ShiftLeft<7>(gain)));
+        // (moved + 16) >> 5
+        const auto step = hn::IfThenElseZero(hn::Gt(hn::Abs(moved), dead_band),
+                                             hn::MulFixedPoint15(moved, hn::Set(di, 1 << 10)));
+        const auto left = hn::Sub(moved, hn::ShiftLeft<estimate_bits>(step));
+        // Less half the range, to add signed numbers with saturation.
+        const auto half = hn::Set(du, 0x8000);
+        const auto next = hn::Max(hn::SaturatedAdd(hn::BitCast(di, hn::Xor(depth, half)), step),
+                                  hn::Set(di, -0x7fff));
+        return {hn::Xor(hn::BitCast(du, next), half),
+                hn::Or(hn::BitCast(du, hn::ShiftLeft<8>(left)),
+                       hn::And(hn::BitCast(du, trend), hn::Set(du, 0xff)))};
     }
-    static HWY_INLINE VI clamp(VI v, int low, int high) {
-        return hn::Min(hn::Max(v, hn::Set(di, std::int16_t(low))), hn::Set(di, std::int16_t(high)));
-    }
-    static HWY_INLINE hn::Mask<DU> jump_mask(hn::Mask<DI> m) { return hn::RebindMask(du, m); }
 
     VU noise_constant_, noise_squared_;
     VI reset_sigmas_;
     VU trend_;
-    VI least_gain_;
-    VU twice_least_gain_, most_hold_, fresh_gain_;
+    VI least_gain_, gain_at_rest_;
+    VU gains_at_rest_, twice_least_gain_, most_hold_, fresh_gain_;
     VI boost_;
+    VI floor_[trend_steps];
 };
 
 void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
@@ -164,9 +177,10 @@ void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, Kalman
         std::uint16_t* out_row = out.row(y);
         int x = 0;
         for (; x + lanes <= width; x += lanes)
-            hn::StoreU(kalman.step(row + x, depth + x, estimate + x, gain + x), d, out_row + x);
+            hn::StoreU(kalman.step(hn::LoadU(d, row + x), depth + x, estimate + x, gain + x), d,
+                       out_row + x);
         if (x < width) {
-            kalman.step(row + x, depth + x, estimate + x, gain + x);
+            kalman.step(hn::LoadU(d, row + x), depth + x, estimate + x, gain + x);
             std::memcpy(out_row + x, depth + x, std::size_t(width - x) * sizeof(*depth));
         }
     }

@@ -29,17 +29,16 @@ struct KalmanRule {
     int noise_constant = 16;    // in 1/32 unit
     int noise_squared = 34000;  // times depth^2 / 2^32, in 1/32 unit; at most 0xffff
     int reset_sigmas = 5;       // at most 20
-    int trend = 2048;           // in 1/4096 sigma
+    int trend = 2048;           // in 1/4096 sigma, of the mean of the innovations
     int least_gain = 20;        // of 256
     int most_hold = 8;          // frames, at most 15
 };
 
 // The state of a pixel, packed into three numbers.
 struct KalmanPixel {
-    std::uint16_t depth = 0;  // as given out
-    std::uint16_t estimate =
-        0;                   // less depth, in 1/32 (high byte, signed); trend (low byte, signed)
-    std::uint16_t gain = 0;  // of 256 (low byte); frames missing and to hold (4 bits each)
+    std::uint16_t depth = 0;     // as given out
+    std::uint16_t estimate = 0;  // less depth, in 1/32 (high byte); trend (low byte); both signed
+    std::uint16_t gain = 0;      // of 256 (low byte); frames missing and to hold (4 bits each)
 };
 
 struct KalmanState {
@@ -58,8 +57,7 @@ void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, Kalma
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
                             KalmanState& state, MutableDepthView out);
 
-inline constexpr int most_noise = 1023;       // in 1/32 unit
-inline constexpr int most_estimate = 127;     // in 1/32 unit
+inline constexpr int most_noise = 448;        // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256
 inline constexpr int hold_after_reset = 1;
 // The least gain, of 256, where the mean innovation is beyond 1, 2, 3, 4 times the
@@ -68,8 +66,12 @@ THEATRON_HD constexpr int trend_gain(int times) {
     return times == 1 ? 40 : times == 2 ? 90 : times == 3 ? 160 : 230;
 }
 inline constexpr int trend_steps = 4;
-inline constexpr int least_dead_band = 24;  // in 1/32 unit
-inline constexpr int most_dead_band = 112;
+// A gain falls to this, if not to the rule's least: its square over 512 is 0.
+inline constexpr int gain_at_rest = 22;
+// The dead band is a part of the noise, but of no less than this, in 1/32 unit.
+inline constexpr int least_dead_band_noise = 96;
+inline constexpr int dead_band_share = 4;
+inline constexpr int moving_dead_band = 16;
 
 THEATRON_HD inline int noise_at(const KalmanRule& rule, int depth) {
     const int squared = (depth * std::int64_t(depth)) >> 16;
@@ -77,31 +79,32 @@ THEATRON_HD inline int noise_at(const KalmanRule& rule, int depth) {
                    most_noise);
 }
 
-// A measured pixel that is no jump. `innovation`: from the estimate, in 1/32.
-THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int innovation, int noise,
+// A measured pixel that is no jump.
+THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int difference, int noise,
                                         const KalmanRule& rule, int boost) {
-    const int rest = (before.estimate >> 8) - 128;
-    int trend = (before.estimate & 0xff) - 128;
+    const int rest = std::int8_t(before.estimate >> 8);
+    int trend = std::int8_t(before.estimate & 0xff);
     int gain = smaller((before.gain & 0xff) + boost, 255);
     const int missing = (before.gain >> 8) & 0xf;
     int hold = before.gain >> 12;
 
     // A leaky sum of innovations, in half units: 8 times their recent mean.
-    trend = clamped(trend - ((trend + 4) >> 3) + ((innovation + 8) >> 4), -127, 127);
-    const int mean = 2 * (trend < 0 ? -trend : trend);  // in 1/32
-    const int threshold = smaller(((noise << 4) * rule.trend) >> 16, 4095);
+    const int innovation = difference * (1 << estimate_bits) - rest;
+    trend = clamped(((7 * trend + 4) >> 3) + ((innovation + 8) >> 4), -127, 127);
+    const int size = trend < 0 ? -trend : trend;
+    const int threshold = ((noise << 3) * rule.trend) >> 16;
     int floor = rule.least_gain;
     for (int times = 1; times <= trend_steps; ++times)
-        if (mean > times * threshold)
+        if (size > times * threshold)
             floor = larger(floor, trend_gain(times));
-    const bool moving = mean > threshold;
+    const bool moving = size > threshold;
     gain = larger(gain, floor);
 
     const int moved = rest + ((innovation * gain + 128) >> 8);
-    const int dead_band = moving ? 16 : clamped(noise >> 2, least_dead_band, most_dead_band);
-    const int size = moved < 0 ? -moved : moved;
-    const int step = size > dead_band ? (moved + 16) >> estimate_bits : 0;
-    const int left = clamped(moved - (step << estimate_bits), -most_estimate, most_estimate);
+    const int dead_band =
+        moving ? moving_dead_band : larger(noise, least_dead_band_noise) / dead_band_share;
+    const int step = (moved < 0 ? -moved : moved) > dead_band ? (moved + 16) >> estimate_bits : 0;
+    const int left = moved - step * (1 << estimate_bits);  // at most the dead band: fits a byte
 
     // Only what has long been still may be missing for long.
     if (missing > 0 && (before.gain & 0xff) <= 2 * rule.least_gain)
@@ -110,7 +113,7 @@ THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int innovatio
 
     KalmanPixel after;
     after.depth = std::uint16_t(clamped(before.depth + step, 1, 0xffff));
-    after.estimate = std::uint16_t(((left + 128) << 8) | (trend + 128));
+    after.estimate = std::uint16_t(left * 256 + (trend & 0xff));
     after.gain = std::uint16_t(next_gain | (hold << 12));
     return after;
 }
@@ -126,19 +129,15 @@ THEATRON_HD inline KalmanPixel kalman_step(const KalmanPixel& before, int measur
         return held;
     }
     const int noise = noise_at(rule, before.depth);
-    const int rest = (before.estimate >> 8) - 128;
-    const int difference = clamped(measured - before.depth, -1000, 1000);
-    const int innovation = (difference << estimate_bits) - rest;
-    const bool jump = (innovation < 0 ? -innovation : innovation) > rule.reset_sigmas * noise;
-    if (before.depth == none || jump) {
+    const int reset = (rule.reset_sigmas * noise + 16) >> estimate_bits;
+    if (before.depth == none || distance(measured, before.depth) > reset) {
         KalmanPixel fresh;
         fresh.depth = std::uint16_t(measured);
-        fresh.estimate = std::uint16_t((128 << 8) | 128);
         fresh.gain =
             std::uint16_t(gain_after_reset | (smaller(hold_after_reset, rule.most_hold) << 12));
         return fresh;
     }
-    return followed(before, innovation, noise, rule, boost);
+    return followed(before, measured - before.depth, noise, rule, boost);
 }
 
 }  // namespace theatron::filter
