@@ -90,6 +90,14 @@ public:
             !stages.empty() && std::holds_alternative<Kalman>(stages.back());
         for (std::size_t i = begin; i < stages.size(); ++i) {
             const bool last = i + 1 == stages.size();
+            // The two in one go where nothing comes in between.
+            const auto* flying = std::get_if<FlyingPixels>(&stages[i]);
+            if (flying && i + 2 == stages.size() && ends_with_kalman) {
+                Kalman& kalman = std::get<Kalman>(stages.back());
+                apply_kalman_to_supported(current, flying->rule, kalman.rule, boost_of(kalman, now),
+                                          kalman.state, out);
+                break;
+            }
             std::visit([&](auto& stage) { run(stage, last, out, now); }, stages[i]);
         }
         if (!ends_with_kalman)
@@ -116,10 +124,13 @@ private:
         fill_holes(current, stage.rule, stage.scratch);
     }
     void run(Kalman& stage, bool last, MutableDepthView out, FrameGap::Meaning now) {
+        apply_kalman(current, stage.rule, boost_of(stage, now), stage.state,
+                     last ? out : current.view());
+    }
+    static int boost_of(Kalman& stage, FrameGap::Meaning now) {
         if (now.forgets)
             stage.state.clear();
-        const int boost = now.missed * stage.rule.least_gain;
-        apply_kalman(current, stage.rule, boost, stage.state, last ? out : current.view());
+        return now.missed * stage.rule.least_gain;
     }
 };
 

@@ -237,7 +237,7 @@ constexpr BitPlaces bit_places;
 
 // Lists the groups in which a bit is set, without branches: they follow no pattern.
 HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range image,
-                 HoleScratch::Groups& groups) {
+                              HoleScratch::Groups& groups) {
     const hn::ScalableTag<std::uint8_t> db;
     const std::uint8_t* bytes = bytes_of(s, bits);
     const std::ptrdiff_t size = 8 * (image.end - image.begin);
@@ -284,8 +284,14 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
     const auto least1 = bit_of_least(0), least2 = bit_of_least(1), least4 = bit_of_least(2),
                least8 = bit_of_least(3);
     upwards(image, [&](auto i) HWY_ATTR {
+        const auto open = hn::LoadU(dw, s.open.data() + i);
+        if (hn::AllTrue(dw, hn::Eq(open, hn::Zero(dw)))) {
+            hn::StoreU(open, dw, s.candidate.data() + i);
+            return;
+        }
         const auto in_row = [&](std::ptrdiff_t at) HWY_ATTR {
-            return sum(from_left(known, at, 1), hn::LoadU(dw, known + at), from_right(known, at, 1));
+            return sum(from_left(known, at, 1), hn::LoadU(dw, known + at),
+                       from_right(known, at, 1));
         };
         const Count above = in_row(i - row), below = in_row(i + row);
         const Count beside = sum(from_left(known, i, 1), hn::Zero(dw), from_right(known, i, 1));
@@ -305,14 +311,12 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
         next(bit2, least2);
         next(bit4, least4);
         next(bit8, least8);
-        const auto open = hn::LoadU(dw, s.open.data() + i);
         hn::StoreU(hn::And(open, enough), dw, s.candidate.data() + i);
         hn::StoreU(hn::AndNot(enough, open), dw, s.open.data() + i);
         const auto more = hn::Or(bit4, bit8);
         hn::StoreU(hn::Or(more, hn::And(bit1, bit2)), dw, s.more_than[0].data() + i);
         hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::Or(bit1, bit2))), dw, s.more_than[1].data() + i);
-        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::And(bit1, bit2))), dw,
-                   s.more_than[2].data() + i);
+        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::And(bit1, bit2))), dw, s.more_than[2].data() + i);
     });
 }
 
@@ -350,10 +354,10 @@ bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
         const HoleScratch::Group group = groups.places[i];
         const std::uint8_t filled = s.filled[i] & wanted[group];
         std::uint16_t* pixel = pixels + 8 * std::size_t(group);
-        hn::StoreU(hn::IfThenElse(hn::LoadMaskBits(eight, &filled),
-                                  hn::LoadU(eight, s.depth.data() + 8 * i),
-                                  hn::LoadU(eight, pixel)),
-                   eight, pixel);
+        hn::StoreU(
+            hn::IfThenElse(hn::LoadMaskBits(eight, &filled),
+                           hn::LoadU(eight, s.depth.data() + 8 * i), hn::LoadU(eight, pixel)),
+            eight, pixel);
         known[group] |= filled;
         any |= filled;
     }
@@ -442,8 +446,8 @@ HoleScratch::HoleScratch(Size size) : words_per_row_(DepthPlane::pitch_of(size) 
     const std::size_t words =
         std::size_t(words_per_row_) * std::size_t(size.height + 2 * margin_rows) + 2 * slack;
     hole.assign(words, ~std::uint64_t(0));
-    for (Bits* bits : {&may_fill, &open, &known, &candidate, &more_than[0], &more_than[1], &more_than[2],
-                       &edge, &work})
+    for (Bits* bits : {&may_fill, &open, &known, &candidate, &more_than[0], &more_than[1],
+                       &more_than[2], &edge, &work})
         bits->assign(words, 0);
     // Whole vectors of groups are written, and whole words of flags.
     constexpr std::size_t more = 16;

@@ -36,8 +36,8 @@ public:
     static constexpr std::ptrdiff_t slack = 8;  // words, readable before and after
     using Bits = std::vector<std::uint64_t>;
 
-    Bits hole;       // not measured; the margins too
-    Bits may_fill;   // by the shape of the holes
+    Bits hole;          // not measured; the margins too
+    Bits may_fill;      // by the shape of the holes
     Bits open;          // of these, not yet looked at
     Bits known;         // measured or filled
     Bits candidate;     // what an iteration looks at

@@ -10,6 +10,8 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "filter/support_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace theatron::filter::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -163,26 +165,53 @@ private:
     VI floor_[trend_steps];
 };
 
-void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
-                 MutableDepthView out) {
-    const hn::ScalableTag<std::uint16_t> d;
-    const int lanes = int(hn::Lanes(d));
-    const KalmanLanes kalman(rule, boost);
-    const auto [width, height] = in.size();
-    for (int y = 0; y < height; ++y) {
-        const std::uint16_t* row = in.row(y);
-        std::uint16_t* depth = state.depth.row(y);
-        std::uint16_t* estimate = state.estimate.row(y);
-        std::uint16_t* gain = state.gain.row(y);
-        std::uint16_t* out_row = out.row(y);
+class KalmanRows {
+public:
+    KalmanRows(const KalmanRule& rule, int boost, KalmanState& state, MutableDepthView out)
+        : kalman_(rule, boost), state_(state), out_(out) {}
+
+    // `measured`: the row, readable to the end of the last vector.
+    HWY_INLINE void step(const std::uint16_t* measured, int y) const {
+        const hn::ScalableTag<std::uint16_t> d;
+        const int lanes = int(hn::Lanes(d)), width = out_.size.width;
+        std::uint16_t* depth = state_.depth.row(y);
+        std::uint16_t* estimate = state_.estimate.row(y);
+        std::uint16_t* gain = state_.gain.row(y);
+        std::uint16_t* out = out_.row(y);
         int x = 0;
         for (; x + lanes <= width; x += lanes)
-            hn::StoreU(kalman.step(hn::LoadU(d, row + x), depth + x, estimate + x, gain + x), d,
-                       out_row + x);
+            hn::StoreU(kalman_.step(hn::LoadU(d, measured + x), depth + x, estimate + x, gain + x),
+                       d, out + x);
         if (x < width) {
-            kalman.step(hn::LoadU(d, row + x), depth + x, estimate + x, gain + x);
-            std::memcpy(out_row + x, depth + x, std::size_t(width - x) * sizeof(*depth));
+            kalman_.step(hn::LoadU(d, measured + x), depth + x, estimate + x, gain + x);
+            std::memcpy(out + x, depth + x, std::size_t(width - x) * sizeof(*depth));
         }
+    }
+
+private:
+    KalmanLanes kalman_;
+    KalmanState& state_;
+    MutableDepthView out_;
+};
+
+void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
+                 MutableDepthView out) {
+    const KalmanRows rows(rule, boost, state, out);
+    for (int y = 0; y < in.size().height; ++y)
+        rows.step(in.row(y), y);
+}
+
+void supported_kalman_rows(const DepthPlane& in, const FlyingPixelRule& flying,
+                           const KalmanRule& rule, int boost, KalmanState& state,
+                           MutableDepthView out) {
+    const hn::ScalableTag<std::uint16_t> d;
+    const KalmanRows rows(rule, boost, state, out);
+    const SupportLanes supported(flying);
+    for (int y = 0; y < in.size().height; ++y) {
+        std::uint16_t* row = state.row.row(0);
+        for (int x = 0; x < in.padded_width(); x += int(hn::Lanes(d)))
+            hn::StoreU(supported(in.row(y) + x, in.pitch()), d, row + x);
+        rows.step(row, y);
     }
 }
 
@@ -193,11 +222,19 @@ HWY_AFTER_NAMESPACE();
 namespace theatron::filter {
 
 HWY_EXPORT(kalman_rows);
+HWY_EXPORT(supported_kalman_rows);
 
 void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
                   MutableDepthView out) {
     assert(in.size() == out.size && in.size() == state.depth.size());
     HWY_DYNAMIC_DISPATCH(kalman_rows)(in, rule, boost, state, out);
+}
+
+void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
+                               const KalmanRule& rule, int boost, KalmanState& state,
+                               MutableDepthView out) {
+    assert(in.size() == out.size && in.size() == state.depth.size());
+    HWY_DYNAMIC_DISPATCH(supported_kalman_rows)(in, flying, rule, boost, state, out);
 }
 
 }  // namespace theatron::filter

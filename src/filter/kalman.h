@@ -18,6 +18,7 @@
 #pragma once
 
 #include "filter/depth_plane.h"
+#include "filter/flying_pixels.h"
 #include "filter/rules.h"
 
 namespace theatron::filter {
@@ -42,13 +43,15 @@ struct KalmanPixel {
 };
 
 struct KalmanState {
-    explicit KalmanState(Size size) : depth(size), estimate(size), gain(size) {}
+    explicit KalmanState(Size size)
+        : depth(size), estimate(size), gain(size), row({size.width, 1}) {}
     void clear() {
         depth.clear();
         estimate.clear();
         gain.clear();
     }
     DepthPlane depth, estimate, gain;
+    DepthPlane row;  // what apply_kalman_to_supported() is at
 };
 
 // One frame. `boost` is added to all gains: what was missed meanwhile.
@@ -56,6 +59,11 @@ void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, Kalma
                   MutableDepthView out);
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
                             KalmanState& state, MutableDepthView out);
+
+// The same behind remove_flying_pixels(), in one go over the image. `out` is not `in`.
+void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
+                               const KalmanRule& rule, int boost, KalmanState& state,
+                               MutableDepthView out);
 
 inline constexpr int most_noise = 448;        // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256
