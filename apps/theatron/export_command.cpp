@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron export
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +8,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "export_formats.h"
+#include "filter_choice.h"
 #include "progress.h"
 
 namespace theatron::app {
@@ -21,11 +23,11 @@ struct Flags {
     bool json = false;
 };
 
-ExportSource open_source(const Flags& flags) {
+using Recording = std::shared_ptr<const record::RecordingFile>;
+
+ExportSource open_source(const Flags& flags, const Recording& recording) {
     ExportSource source;
     source.progress = show_progress();
-    const std::shared_ptr<const record::RecordingFile> recording =
-        record::RecordingFile::open(flags.file);
     if (flags.camera) {
         source.cameras.push_back(std::make_unique<capture::RecordedFrames>(
             recording, std::size_t(*flags.camera), flags.file));
@@ -37,6 +39,19 @@ ExportSource open_source(const Flags& flags) {
     return source;
 }
 
+// All lines that name filters which the depth went through before it was recorded.
+std::vector<std::string> filters_of(const record::RecordingFile& recording,
+                                    std::optional<int> camera) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < recording.cameras().size(); ++i)
+        if (!camera || std::size_t(*camera) == i)
+            for (const record::FilterChange& change : recording.cameras()[i].depth.filters)
+                if (!change.filters.empty() &&
+                    std::find(lines.begin(), lines.end(), change.filters) == lines.end())
+                    lines.push_back(change.filters);
+    return lines;
+}
+
 void run(const Flags& flags) {
     if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty())
         throw Error("Say into what to export: --ply DIR, --png DIR or --k4a FILE.mkv.");
@@ -44,24 +59,34 @@ void run(const Flags& flags) {
         throw Error("Only points can be merged; --merged goes with --ply.");
     if (flags.undistort && flags.png.empty())
         throw Error("Only pictures can be undistorted; --undistort goes with --png.");
+    const Recording recording = record::RecordingFile::open(flags.file);
+    const std::vector<std::string> filters = filters_of(*recording, flags.camera);
     const auto report = [&](const char* what, std::size_t count, const std::string& place) {
         if (flags.json)
-            std::cout << nlohmann::json{{"format", what}, {"count", count}, {"path", place}}.dump()
+            std::cout << nlohmann::json{{"format", what},
+                                        {"count", count},
+                                        {"path", place},
+                                        {"filters", filters}}
+                             .dump()
                       << std::endl;
         else
             std::cout << place << ": " << count << (count == 1 ? " frame" : " frames") << std::endl;
     };
+    if (!flags.json)
+        for (const std::string& line : filters)
+            std::cout << "depth was filtered before it was recorded: " << shown_filter(line)
+                      << std::endl;
     // Each begins anew: a camera plays from its first frame to its last.
     if (!flags.ply.empty()) {
-        ExportSource source = open_source(flags);
+        ExportSource source = open_source(flags, recording);
         report("ply", export_ply(source, flags.ply, flags.merged), flags.ply);
     }
     if (!flags.png.empty()) {
-        ExportSource source = open_source(flags);
+        ExportSource source = open_source(flags, recording);
         report("png", export_png(source, flags.png, flags.undistort), flags.png);
     }
     if (!flags.k4a.empty()) {
-        ExportSource source = open_source(flags);
+        ExportSource source = open_source(flags, recording);
         report("k4a", export_k4a(source, flags.k4a), flags.k4a);
     }
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "filter_choice.h"
 #include "geometry/calibration.h"
 #include "record/recording_file.h"
 
@@ -68,6 +69,19 @@ Json describe(const record::StreamContent& stream, double nominal_fps) {
             {"longest_gap_ms", f.longest_gap_ms}};
 }
 
+// Which filters depth went through, and from when on.
+Json describe_filters(const record::StreamContent& depth) {
+    Json list = Json::array();
+    for (const record::FilterChange& change : depth.filters) {
+        const TimePoint begin = depth.frames.front().header.captured;
+        const TimePoint at = depth.frames[change.frame].header.captured;
+        list.push_back({{"from_frame", change.frame},
+                        {"from_seconds", to_seconds(at - begin)},
+                        {"filters", change.filters}});
+    }
+    return list;
+}
+
 Json describe(const CameraModel& model) {
     return {{"fx", model.fx},
             {"fy", model.fy},
@@ -98,6 +112,7 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
                   {"name", camera.name},
                   {"nominal_fps", camera.frames_per_second},
                   {"depth", describe(camera.depth, camera.frames_per_second)}};
+        json["depth"]["filters"] = describe_filters(camera.depth);
         if (camera.color.present)
             json["color"] = describe(camera.color, camera.frames_per_second);
         json["calibration"] = describe_calibration(camera.calibration);
@@ -134,6 +149,11 @@ void print_filtering(const Json& depth) {
     if (depth["filtered"] > 0)
         print("          %llu of them went through the host's filters\n",
               (unsigned long long)depth["filtered"]);
+    for (const Json& change : depth["filters"]) {
+        const std::string filters = change["filters"];
+        print("          from %.1f s on: %s\n", double(change["from_seconds"]),
+              filters.empty() ? "no filters" : shown_filter(filters).c_str());
+    }
 }
 
 void print_calibration(const Json& calibration) {

@@ -39,8 +39,10 @@ public:
         if (!recorder_ && steady_now() - created_ > join_patience)
             throw Error(status.problem.empty() ? "The host sent nothing to record."
                                                : status.problem);
-        if (status.phase == Participant::Phase::joined)
+        if (status.phase == Participant::Phase::joined) {
+            note_filters();
             take_over(status);
+        }
     }
 
     record::Recorder* recorder() override {
@@ -126,6 +128,22 @@ private:
                 stream.setting = found->second.setting;
     }
 
+    // The host says on another way than the pictures' which filters run: to within the
+    // pictures that are on their way.
+    void note_filters() {
+        std::uint64_t generation = 0;
+        const auto cameras = participant_->cameras(generation);
+        const std::lock_guard lock(mutex_);
+        for (const Participant::Camera& camera : cameras)
+            filters_[camera.description.depth_stream] = camera.state.filter;
+    }
+
+    // Of a frame that went through some.
+    std::string filters_of(StreamId stream) {
+        const std::string& filters = filters_[stream];
+        return filters.empty() ? "unnamed" : filters;
+    }
+
     void on_media(const wire::MediaHeader& header, ByteView message) {
         const std::lock_guard lock(mutex_);
         const auto found = streams_.find(header.stream);
@@ -141,7 +159,8 @@ private:
         if (stream.newest && std::int32_t(header.frame - *stream.newest) > 1)
             lost_ += header.frame - *stream.newest - 1;
         stream.newest = header.frame;
-        recorder_->add(header, std::make_shared<Bytes>(message.begin(), message.end()));
+        recorder_->add(header, std::make_shared<Bytes>(message.begin(), message.end()),
+                       header.filtered == TimePoint{} ? "" : filters_of(header.stream));
     }
 
     const std::string file_;
@@ -152,9 +171,10 @@ private:
     std::string end_;
     int joins_ = 0;
 
-    std::mutex mutex_;  // guards the next two
+    std::mutex mutex_;  // guards the next three
     std::unique_ptr<record::Recorder> recorder_;
     std::map<StreamId, Stream> streams_;
+    std::map<StreamId, std::string> filters_;  // that run on each camera's depth
     std::atomic<std::uint64_t> lost_{0};
 
     // Last: its thread uses all of the above.

@@ -240,11 +240,16 @@ Status read_additions(Window& window, const Element& additions, FoundBlock& bloc
                 bytes = e;
             return Status::ok;
         });
-        constexpr std::uint64_t our_id = 2;
+        constexpr std::uint64_t our_side = 2, our_note = 3;
         constexpr std::uint64_t max_side = 1 << 16;
-        if (status == Status::ok && id == our_id && bytes && bytes->size() <= max_side) {
+        if (status != Status::ok || !bytes || bytes->size() > max_side)
+            return status;
+        if (id == our_side) {
             block.side_at = bytes->begin;
             block.side_size = std::uint32_t(bytes->size());
+        } else if (id == our_note) {
+            block.note_at = bytes->begin;
+            block.note_size = std::uint32_t(bytes->size());
         }
         return status;
     });

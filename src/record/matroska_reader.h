@@ -39,6 +39,8 @@ struct FoundBlock {
     std::uint32_t payload_size = 0;
     std::uint64_t side_at = 0;
     std::uint32_t side_size = 0;  // 0: none
+    std::uint64_t note_at = 0;
+    std::uint32_t note_size = 0;  // 0: none
 };
 
 struct FoundFile {

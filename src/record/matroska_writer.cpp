@@ -150,13 +150,19 @@ void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
         if (track.frames_per_second > 0)
             add_number<KaxTrackDefaultDuration>(
                 entry, std::uint64_t(std::llround(1e9 / track.frames_per_second)));
-        if (!layout.side_name.empty()) {
-            add_number<KaxMaxBlockAdditionID>(entry, side_id);
+        const auto add_mapping = [&](int id, const std::string& name) {
             auto& mapping = add<KaxBlockAdditionMapping>(entry);
-            add_number<KaxBlockAddIDValue>(mapping, side_id);
-            add_text<KaxBlockAddIDName>(mapping, layout.side_name);
+            add_number<KaxBlockAddIDValue>(mapping, std::uint64_t(id));
+            add_text<KaxBlockAddIDName>(mapping, name);
             add_number<KaxBlockAddIDType>(mapping, 0);
-        }
+        };
+        const bool side = !layout.side_name.empty(), note = !layout.note_name.empty();
+        if (side || note)
+            add_number<KaxMaxBlockAdditionID>(entry, std::uint64_t(note ? note_id : side_id));
+        if (side)
+            add_mapping(side_id, layout.side_name);
+        if (note)
+            add_mapping(note_id, layout.note_name);
         auto& video = add<KaxTrackVideo>(entry);
         add_number<KaxVideoPixelWidth>(video, std::uint64_t(track.width));
         add_number<KaxVideoPixelHeight>(video, std::uint64_t(track.height));
@@ -367,10 +373,19 @@ void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
         auto* payload = reinterpret_cast<binary*>(const_cast<std::byte*>(block.payload.data()));
         kax.AddFrame(track, std::uint64_t(block.time_us * ns_per_tick),
                      *new DataBuffer(payload, uint32(block.payload.size())), LACING_NONE);
-        if (!block.side.empty()) {
-            auto& more = add<KaxBlockMore>(add<KaxBlockAdditions>(group));
-            add_number<KaxBlockAddID>(more, side_id);
-            add_bytes<KaxBlockAdditional>(more, block.side);
+        if (!block.side.empty() || !block.note.empty()) {
+            auto& additions = add<KaxBlockAdditions>(group);
+            const auto add_more = [&](int id, ByteView bytes) {
+                if (bytes.empty())
+                    return;
+                // Not by add(): it would find the one before.
+                auto& more = *new Empty<KaxBlockMore>;
+                additions.PushElement(more);
+                add_number<KaxBlockAddID>(more, std::uint64_t(id));
+                add_bytes<KaxBlockAdditional>(more, bytes);
+            };
+            add_more(side_id, block.side);
+            add_more(note_id, as_bytes(block.note));
         }
         if (!block.key)
             add<KaxReferenceBlock>(group).SetReferencedTimecode(block.reference_us - block.time_us);

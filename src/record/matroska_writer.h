@@ -48,11 +48,12 @@ struct Block {
     bool key = true;
     std::int64_t reference_us = 0;  // unless key: the time of the frame referred to
     ByteView payload;
-    ByteView side;  // stored beside the payload, unseen by players; may be empty
+    ByteView side;     // stored beside the payload, unseen by players; may be empty
+    std::string note;  // likewise
 };
 
-// Block additions with this number hold a block's `side`.
-inline constexpr int side_id = 2;
+// Block additions with these numbers hold a block's `side` and `note`.
+inline constexpr int side_id = 2, note_id = 3;
 
 class MatroskaWriter {
 public:
@@ -60,7 +61,8 @@ public:
         std::vector<Track> tracks;
         std::vector<Attachment> attachments;
         std::vector<Tag> tags;
-        std::string side_name;  // what `side` is, for people who look into the file
+        // What `side` and `note` are, for people who look into the file; empty: there are none.
+        std::string side_name, note_name;
     };
 
     // Creates `path`, in place of a file that is there, and writes everything

@@ -17,6 +17,7 @@ constexpr std::size_t many_bytes = std::size_t(16) << 20;
 MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras) {
     MatroskaWriter::Layout layout;
     layout.side_name = side_name;
+    layout.note_name = note_name;
     const auto add = [&](const RecordedCamera& camera, StreamId id, const RecordedStream& stream,
                          const char* codec_id) {
         Track track;
@@ -65,7 +66,8 @@ Recorder::~Recorder() {
     finish();
 }
 
-bool Recorder::add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+bool Recorder::add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+                   const std::string& filters) {
     if (std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
         return false;
     bool many = false;
@@ -79,7 +81,7 @@ bool Recorder::add(const wire::MediaHeader& header, std::shared_ptr<const Bytes>
         }
         waiting_bytes_ += message->size();
         many = waiting_bytes_ > many_bytes;
-        waiting_.push_back({header, std::move(message)});
+        waiting_.push_back({header, std::move(message), filters});
     }
     if (many)
         changed_.notify_one();
@@ -165,6 +167,12 @@ std::string Recorder::write(std::vector<Waiting>& batch) {
         recent_us_[{header.stream, header.frame}] = block.time_us;
         block.payload = wire::media_payload(*waiting.message);
         block.side = ByteView(*waiting.message).first(wire::media_header_size);
+        // Said where it changes.
+        std::string& filters = filters_[header.stream];
+        if (is_depth(header.stream) && filters != waiting.filters) {
+            filters = waiting.filters;
+            block.note = filters.empty() ? no_filters : filters;
+        }
         blocks.push_back(block);
     }
     // References reach back a few frames only.

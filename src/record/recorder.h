@@ -58,7 +58,9 @@ public:
 
     // Takes a whole media message of one of the cameras' streams. Never waits; returns false if it
     // was dropped, because the disk is too slow or the recording has ended. From any thread.
-    bool add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
+    // `filters` names those that the depth went through (docs/filters.md); empty: none.
+    bool add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+             const std::string& filters = {});
 
     // From any thread.
     Figures figures() const;
@@ -70,6 +72,7 @@ private:
     struct Waiting {
         wire::MediaHeader header;
         std::shared_ptr<const Bytes> message;
+        std::string filters;
     };
 
     void run();
@@ -80,6 +83,7 @@ private:
     // The writing thread's only.
     std::optional<TimePoint> begin_;
     std::map<std::pair<StreamId, FrameNumber>, std::int64_t> recent_us_;
+    std::map<StreamId, std::string> filters_;  // of each stream's last frame
 
     mutable std::mutex mutex_;  // guards all below
     std::condition_variable changed_;

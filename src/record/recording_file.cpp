@@ -14,6 +14,7 @@ namespace theatron::record {
 namespace {
 
 constexpr double usual_frames_per_second = 30;
+constexpr std::size_t max_filters = 4096;  // bytes of a line
 
 // What was written in nanoseconds is known to a thousandth of a frame.
 double frames_per_second(std::uint64_t default_duration_ns) {
@@ -86,6 +87,15 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(std::unique_ptr<ByteS
             first ? header->captured : std::min(recording->begin_, header->captured);
         recording->end_ = first ? header->captured : std::max(recording->end_, header->captured);
         first = false;
+        if (is_depth(id) && block.note_size > 0 && block.note_size <= max_filters) {
+            Bytes note(block.note_size);
+            if (recording->source_->read(block.note_at, note)) {
+                std::string filters = text_of(note);
+                if (filters == no_filters)
+                    filters.clear();
+                stream.filters.push_back({stream.frames.size(), std::move(filters)});
+            }
+        }
         stream.frames.push_back({*header, block.payload_at});
     }
     for (auto& [id, camera] : cameras)

@@ -23,11 +23,20 @@ struct RecordedFrame {
     std::uint64_t payload_at = 0;
 };
 
+// From this frame on, until the next of these.
+struct FilterChange {
+    std::size_t frame = 0;  // of those recorded
+    std::string filters;    // docs/filters.md; empty: none
+    bool operator==(const FilterChange&) const = default;
+};
+
 struct StreamContent {
     bool present = false;
     std::string codec;  // its setting: "zstd:delta=1"; of JPEG just "jpeg"
     int width = 0, height = 0;
     std::vector<RecordedFrame> frames;  // in the order in which they were recorded
+    // Which filters depth went through before it was encoded; none before the first.
+    std::vector<FilterChange> filters;
 };
 
 struct CameraContent {

@@ -13,6 +13,8 @@ inline constexpr const char* color_codec_id = "V_THEATRON/COLOR";  // all but JP
 inline constexpr const char* jpeg_codec_id = "V_MJPEG";
 inline constexpr const char* calibration_mime_type = "application/x-theatron-calibration";
 inline constexpr const char* side_name = "theatron.media-header";
+inline constexpr const char* note_name = "theatron.filters";
+inline constexpr const char* no_filters = "off";
 
 constexpr int track_number(StreamId stream) {
     return int(stream) + 1;

@@ -127,6 +127,48 @@ std::size_t frames_in(const RecordingFile& recording) {
     return count;
 }
 
+TEST(Recording, TellsWhichFiltersDepthWentThroughAndWhereTheyChanged) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "filtered.mkv";
+    const auto messages = generated(2, 12, 100);
+    {
+        Recorder recorder(path, cameras(2));
+        for (const Message& m : messages) {
+            const bool first = camera_of(m.header.stream) == CameraId(0);
+            const char* filters = m.header.frame < 3   ? ""
+                                  : m.header.frame < 5 ? "holes+kalman"
+                                                       : "range:max_mm=900";
+            ASSERT_TRUE(recorder.add(m.header, m.bytes, first ? filters : ""));
+        }
+    }
+    const auto recording = RecordingFile::open(path);
+    EXPECT_EQ(recording->refused(), 0u);
+    EXPECT_EQ(count_equal(*recording, messages), messages.size());
+    const auto& depth = recording->cameras()[0].depth;
+    ASSERT_EQ(depth.filters.size(), 2u);
+    EXPECT_EQ(depth.filters[0].filters, "holes+kalman");
+    EXPECT_EQ(depth.frames[depth.filters[0].frame].header.frame, 3u);
+    EXPECT_EQ(depth.filters[1].filters, "range:max_mm=900");
+    EXPECT_EQ(depth.frames[depth.filters[1].frame].header.frame, 5u);
+    EXPECT_TRUE(recording->cameras()[0].color.filters.empty());
+    EXPECT_TRUE(recording->cameras()[1].depth.filters.empty());
+}
+
+TEST(Recording, TellsWhenFiltersEnd) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "ends.mkv";
+    {
+        Recorder recorder(path, cameras(1));
+        for (const Message& m : generated(1, 4, 100))
+            ASSERT_TRUE(recorder.add(m.header, m.bytes, m.header.frame < 1 ? "kalman" : ""));
+    }
+    const std::vector<FilterChange> expected{{0, "kalman"}, {1, ""}};
+    const auto recording = RecordingFile::open(path);
+    const auto& filters = recording->cameras()[0].depth.filters;
+    ASSERT_EQ(filters.size(), expected.size());
+    EXPECT_EQ(filters, expected);
+}
+
 TEST(Recording, GivesBackWhatWasRecordedToTheByteAndMicrosecond) {
     const testing::TemporaryFolder folder;
     const auto messages = generated(4, 90, 2000);

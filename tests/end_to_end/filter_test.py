@@ -4,6 +4,7 @@ import json
 import pathlib
 import shutil
 import tempfile
+import time
 import unittest
 
 from theatron_process import Process, host, make_recording, run
@@ -47,6 +48,23 @@ class Filters(unittest.TestCase):
             told("")
             file.write_text('{"preset": "default"}')
             viewer.wait_for(lambda f: f["cameras"][0]["filter"] not in ("", "range:max_mm=900"), 20)
+
+    def test_a_recording_tells_which_filters_ran_also_when_they_changed(self):
+        file = self.folder / "recorded.json"
+        file.write_text('{"filters": [{"filter": "kalman"}]}')
+        with host(self.state, self.camera, options=("--filter", file)) as h, \
+                Process("join", h.greeting["link"], "--every", "0.1") as viewer, \
+                Process("record", h.greeting["link"], self.folder / "changes.mkv", "--seconds", "4") as recorder:
+            viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == "kalman" and f["fps"] > 0, 20)
+            time.sleep(1)
+            file.write_text('{"filters": [{"filter": "range", "max_mm": 900}]}')
+            recorder.process.wait(20)
+        code, out, errors = run("inspect", self.folder / "changes.mkv", "--json")
+        self.assertEqual(code, 0, errors)
+        filters = [change["filters"] for change in json.loads(out)["cameras"][0]["depth"]["filters"]]
+        self.assertEqual(filters[-2:], ["kalman", "range:max_mm=900"])
+        code, out, errors = run("inspect", self.folder / "changes.mkv")
+        self.assertIn("s on: range:max_mm=900", out)
 
     def test_wrong_filters_are_refused_in_one_sentence(self):
         for options, expected in ((("--filter", "best"), "no filter 'best'"),

@@ -84,6 +84,8 @@ class Recording(unittest.TestCase):
         self.assertEqual([c["depth"]["codec"] for c in seen["cameras"]], ["trvl", "trvl"])
         self.assertGreater(min(c["depth"]["frames"] for c in seen["cameras"]), 5)
         self.assertEqual([c["depth"]["filtered"] for c in seen["cameras"]], [seen["cameras"][0]["depth"]["frames"], 0])
+        named = [[(c["from_frame"], c["filters"]) for c in camera["depth"]["filters"]] for camera in seen["cameras"]]
+        self.assertEqual([list(dict(named[0]).values())[-1:], named[1]], [["kalman"], []])
         code, _, errors = run("export", self.folder / "session.mkv", "--camera", 1, "--png", self.folder / "png")
         self.assertEqual(code, 0, errors)
         originals = [read_png(self.source / "depth" / f"{n:05}.png") for n in range(FRAMES)]
