@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench_filter_scenes.h"
+#include "filter/background.h"
 #include "filter/chain_settings.h"
 
 namespace theatron::app {
@@ -25,8 +26,9 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames);
 // What a chain makes of scenes with known depth. Keys: docs/filters.md.
 nlohmann::json filter_quality(const filter::ChainSettings& settings);
 
-// The same for one clip without markings: errors, steadiness, ghosts.
-nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings,
-                                      const FilterClip& clip);
+// The same for one clip without markings: errors, steadiness, ghosts. `background`: the
+// clip's recorded empty scene, or null.
+nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings, const FilterClip& clip,
+                                      const filter::Background* background = nullptr);
 
 }  // namespace theatron::app

@@ -8,6 +8,7 @@
 #include "bench_filter.h"
 #include "bench_report.h"
 #include "bench_sequence.h"
+#include "filter_choice.h"
 #include "progress.h"
 
 namespace theatron::app {
@@ -47,6 +48,8 @@ void print_quality(const nlohmann::json& chains) {
                 100 * s["flying"].get<double>(), 100 * s["ghosts"].get<double>(),
                 100 * s["holes_filled"].get<double>(), s["holes_error_mm"].get<double>(),
                 s["depth_mbit_per_second"].get<double>());
+        if (!chain.contains("moving_boards"))
+            continue;
         std::printf("  boards that move: mean bias %.2f mm;",
                     chain["moving_boards"]["mean_bias_mm"].get<double>());
         for (const auto& b : chain["moving_boards"]["speeds"])
@@ -70,13 +73,18 @@ nlohmann::json quality_of(const Flags& flags) {
     if (flags.room)
         room = operating_room_clip(60, show_progress());
     for (const std::string& name : flags.filters) {
-        const filter::ParsedChain parsed = filter::parse_chain(name);
-        if (!parsed.problem.empty())
-            throw Error(parsed.problem);
-        nlohmann::json chain = filter_quality(parsed.settings);
+        const LoadedFilter loaded = FilterSource(name).load();
+        const bool recorded = loaded.background != nullptr;
+        if (recorded && !room)
+            throw Error("A recorded background is of one scene: it goes with --room.");
+        // The empty scene is the room's.
+        nlohmann::json chain = recorded ? nlohmann::json{{"filters", loaded.settings.spelling()},
+                                                         {"scenes", nlohmann::json::array()}}
+                                        : filter_quality(loaded.settings);
         chain["name"] = name;
         if (room)
-            chain["scenes"].push_back(filter_quality_of_clip(parsed.settings, *room));
+            chain["scenes"].push_back(
+                filter_quality_of_clip(loaded.settings, *room, loaded.background.get()));
         chains.push_back(std::move(chain));
     }
     return chains;

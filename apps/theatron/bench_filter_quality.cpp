@@ -21,8 +21,9 @@ constexpr float edge_mm = 150;
 // What is further from the truth than this hangs in the air, nearer it is noise.
 constexpr float flying_mm = 40;
 
-std::vector<DepthImage> filtered(const FilterClip& clip, const filter::ChainSettings& settings) {
-    filter::Chain chain(settings, {.size = clip.size});
+std::vector<DepthImage> filtered(const FilterClip& clip, const filter::ChainSettings& settings,
+                                 const filter::Background* background = nullptr) {
+    filter::Chain chain(settings, {.size = clip.size, .background = background});
     std::vector<DepthImage> out;
     for (const DepthImage& frame : clip.measured) {
         out.emplace_back(clip.size);
@@ -304,9 +305,9 @@ nlohmann::json crossing(const filter::ChainSettings& settings) {
 
 }  // namespace
 
-nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings,
-                                      const FilterClip& clip) {
-    const std::vector<DepthImage> images = filtered(clip, settings);
+nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings, const FilterClip& clip,
+                                      const filter::Background* background) {
+    const std::vector<DepthImage> images = filtered(clip, settings, background);
     nlohmann::json result = to_json(errors_of(clip, images));
     const double raw = temporal_sigma(clip, clip.measured), now = temporal_sigma(clip, images);
     result["scene"] = clip.name;

@@ -20,6 +20,7 @@ struct Flags {
     std::optional<int> camera;
     bool merged = false;
     bool undistort = false;
+    bool registered = false;
     bool json = false;
 };
 
@@ -59,6 +60,10 @@ void run(const Flags& flags) {
         throw Error("Only points can be merged; --merged goes with --ply.");
     if (flags.undistort && flags.png.empty())
         throw Error("Only pictures can be undistorted; --undistort goes with --png.");
+    if (flags.registered && flags.png.empty())
+        throw Error("Only pictures can be registered; --registered goes with --png.");
+    if (flags.registered && flags.undistort)
+        throw Error("Pictures are exported either --undistort or --registered.");
     const Recording recording = record::RecordingFile::open(flags.file);
     const std::vector<std::string> filters = filters_of(*recording, flags.camera);
     const auto report = [&](const char* what, std::size_t count, const std::string& place) {
@@ -82,8 +87,11 @@ void run(const Flags& flags) {
         report("ply", export_ply(source, flags.ply, flags.merged), flags.ply);
     }
     if (!flags.png.empty()) {
+        const Pictures pictures = flags.undistort    ? Pictures::undistorted
+                                  : flags.registered ? Pictures::registered
+                                                     : Pictures::recorded;
         ExportSource source = open_source(flags, recording);
-        report("png", export_png(source, flags.png, flags.undistort), flags.png);
+        report("png", export_png(source, flags.png, pictures), flags.png);
     }
     if (!flags.k4a.empty()) {
         ExportSource source = open_source(flags, recording);
@@ -103,6 +111,7 @@ void add_export_command(CLI::App& app) {
         "  theatron export operation.mkv --ply points --merged\n"
         "  theatron export operation.mkv --png pictures --camera 1\n"
         "  theatron export operation.mkv --png for_others --undistort\n"
+        "  theatron export operation.mkv --png rgbd --registered\n"
         "  theatron host --camera folder:pictures,loop=1\n"
         "  theatron export operation.mkv --camera 0 --k4a kinect.mkv");
     command->add_option("file", flags->file, "The recording")->required();
@@ -115,6 +124,9 @@ void add_export_command(CLI::App& app) {
     command->add_flag("--undistort", flags->undistort,
                       "With --png: pictures as lenses without distortion would give them, for "
                       "programs that know no other; each depth pixel is the nearest one");
+    command->add_flag("--registered", flags->registered,
+                      "With --png: the colour of each depth pixel, black where the colour camera "
+                      "does not see it");
     command->add_option("--k4a", flags->k4a,
                         "Write a file like an Azure Kinect's, as mkv:FILE reads it");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")

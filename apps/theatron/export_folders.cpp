@@ -10,6 +10,7 @@
 #include "export_formats.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
+#include "filter/color_registration.h"
 #include "filter/undistort.h"
 #include "geometry/ply.h"
 #include "video/jpeg_native.h"
@@ -38,19 +39,60 @@ fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size
     return source.cameras.size() == 1 ? folder : folder / ("camera-" + std::to_string(camera));
 }
 
+// The colour of each depth pixel.
+class ColorOfDepth {
+public:
+    explicit ColorOfDepth(const Calibration& calibration)
+        : size_(calibration.color.size),
+          registration_(calibration),
+          out_(calibration.depth.size),
+          seen_(calibration.depth.size) {}
+
+    // False if the frame has no colour. What was found is valid until the next call.
+    bool apply(const Frame& frame) {
+        if (frame.color.empty())
+            return false;
+        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
+            throw Error("A colour picture of the recording is damaged.");
+        const ColorImage& color = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
+        if (color.size != size_)
+            throw Error("The recording's colour has another size than its calibration says.");
+        registration_.apply(frame.depth.view(), color.view(), out_.view(), seen_.view());
+        return true;
+    }
+    ColorView color() const { return out_.view(); }  // black where the colour camera sees nothing
+    Rgb color_at(std::size_t pixel) const { return out_.pixels[pixel]; }
+    bool seen(std::size_t pixel) const { return seen_.pixels[pixel] != 0; }
+
+private:
+    Size size_;
+    filter::ColorRegistration registration_;
+    video::JpegDecompressor jpeg_;
+    ColorImage decoded_, out_;
+    Image<std::uint8_t> seen_;
+};
+
 class PointMaker {
 public:
     explicit PointMaker(const Calibration& calibration)
-        : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {}
+        : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {
+        if (calibration.color.size != Size{})
+            colors_.emplace(calibration);
+    }
 
     void append(const Frame& frame, std::vector<ColoredPoint>& out) {
-        const ColorImage* color = &frame.color.pixels;
-        if (frame.color.is_jpeg()) {
-            if (jpeg_.decompress(frame.color.jpeg, color_) != Status::ok)
-                throw Error("A colour picture of the recording is damaged.");
-            color = &color_;
+        const std::size_t first = out.size();
+        append_points(frame.depth.view(), rays_, {}, calibration_, out);
+        if (!colors_ || !colors_->apply(frame))
+            return;
+        ColoredPoint* point = out.data() + first;
+        for (std::size_t i = 0; i < rays_.pixels.size(); ++i) {
+            if (frame.depth.pixels[i] == 0 || rays_.pixels[i].x == no_ray)
+                continue;
+            if (colors_->seen(i))
+                point->color = colors_->color_at(i);
+            ++point;
         }
-        append_points(frame.depth.view(), rays_, color->view(), calibration_, out);
     }
 
     const Calibration& calibration() const { return calibration_; }
@@ -58,8 +100,7 @@ public:
 private:
     Calibration calibration_;
     Image<Ray> rays_;
-    video::JpegDecompressor jpeg_;
-    ColorImage color_;
+    std::optional<ColorOfDepth> colors_;
 };
 
 // One camera's pictures without the distortion of its lenses.
@@ -178,7 +219,7 @@ std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged
     return files;
 }
 
-std::size_t export_png(ExportSource& source, const fs::path& folder, bool undistort) {
+std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pictures) {
     ProgressOfAll progress(source);
     Frame frame;
     std::size_t frames = 0;
@@ -190,16 +231,26 @@ std::size_t export_png(ExportSource& source, const fs::path& folder, bool undist
         const bool has_color = calibration.color.size != Size{};
         const fs::path color = has_color ? make_folder(own / "color") : fs::path();
         std::optional<Straightener> straight;
-        if (undistort)
+        std::optional<ColorOfDepth> registered;
+        Calibration written = calibration;
+        if (pictures == Pictures::undistorted) {
             straight.emplace(calibration);
+            written = straight->calibration();
+        } else if (pictures == Pictures::registered && has_color) {
+            registered.emplace(calibration);
+            written.color = calibration.depth;
+            written.color_from_depth = {};
+        }
         files::write_file(own / "calibration.json",
-                          as_bytes(capture::write_folder_calibration(
-                              straight ? straight->calibration() : calibration)));
+                          as_bytes(capture::write_folder_calibration(written)));
         for (std::size_t n = 0; camera.offset(); ++n, ++frames) {
             camera.read(frame);
             files::write_png(depth / numbered(n, ".png"),
                              straight ? straight->depth(frame) : frame.depth.view());
-            if (straight && !frame.color.empty())
+            if (registered) {
+                if (registered->apply(frame))
+                    files::write_png(color / numbered(n, ".png"), registered->color());
+            } else if (straight && !frame.color.empty())
                 files::write_png(color / numbered(n, ".png"), straight->color(frame));
             else if (frame.color.is_jpeg())
                 files::write_file(color / numbered(n, ".jpg"), frame.color.jpeg);

@@ -21,9 +21,14 @@ struct ExportSource {
 // DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply; `merged`: one file for each
 // moment with the points of all cameras, in the room.
 std::size_t export_ply(ExportSource& source, const std::filesystem::path& folder, bool merged);
-// The layout of folder:DIR, for several cameras in DIR/camera-0 and so on; `undistort`:
-// pictures and calibration of lenses without distortion.
-std::size_t export_png(ExportSource& source, const std::filesystem::path& folder, bool undistort);
+// The layout of folder:DIR, for several cameras in DIR/camera-0 and so on.
+enum class Pictures {
+    recorded,
+    undistorted,  // pictures and calibration of lenses without distortion
+    registered,   // colour in the raster of depth; black where the colour camera sees nothing of it
+};
+std::size_t export_png(ExportSource& source, const std::filesystem::path& folder,
+                       Pictures pictures);
 // An Azure Kinect's recording, of one camera.
 std::size_t export_k4a(ExportSource& source, const std::filesystem::path& file);
 
