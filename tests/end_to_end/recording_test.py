@@ -4,11 +4,12 @@ import json
 import pathlib
 import shutil
 import signal
+import struct
 import tempfile
 import time
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, run
+from theatron_process import Process, host, make_recording, read_png, run, write_png
 
 FRAMES = 6
 
@@ -72,6 +73,53 @@ class Recording(unittest.TestCase):
         self.record("c.mkv", "--camera", f"folder:{self.folder / 'png'}")
         self.assertEqual(self.inspect("c.mkv")["cameras"][0]["calibration"],
                          self.inspect("a.mkv")["cameras"][0]["calibration"])
+
+    def board_before_a_wall(self):
+        """A red board 1 m away before a green wall at 2.5 m; the colour camera is 60 mm further right."""
+        width, height, f, baseline = 160, 120, 120.0, 0.06
+        source = self.folder / "board"
+        (source / "depth").mkdir(parents=True)
+        (source / "color").mkdir()
+        camera = {"width": width, "height": height, "fx": f, "fy": f, "cx": 79.5, "cy": 59.5}
+        (source / "calibration.json").write_text(json.dumps({
+            "depth": camera, "color": camera,
+            "color_from_depth": {"rotation": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": [-baseline, 0, 0]}}))
+
+        def on_board(x, y, eye):
+            return abs(eye + (x - 79.5) / f) < 0.2 and abs((y - 59.5) / f) < 0.2
+
+        depth = [b"".join(struct.pack(">H", 1000 if on_board(x, y, 0) else 2500) for x in range(width))
+                 for y in range(height)]
+        color = [b"".join(b"\xff\0\0" if on_board(x, y, baseline) else b"\0\xff\0" for x in range(width))
+                 for y in range(height)]
+        for n in range(2):
+            write_png(source / "depth" / f"{n:05}.png", width, height, 16, 1, depth)
+            write_png(source / "color" / f"{n:05}.png", width, height, 8, 3, color)
+        return source
+
+    def test_the_foregrounds_colour_is_not_painted_on_what_it_hides(self):
+        self.record("board.mkv", "--camera", f"folder:{self.board_before_a_wall()}", "--color-codec", "raw")
+        code, _, errors = run("export", self.folder / "board.mkv", "--ply", self.folder / "points",
+                              "--png", self.folder / "rgbd", "--registered")
+        self.assertEqual(code, 0, errors)
+        width, height, _, depth = read_png(self.folder / "rgbd" / "depth" / "00000.png")
+        color = read_png(self.folder / "rgbd" / "color" / "00000.png")
+        self.assertEqual(color[:3], (width, height, 3))
+        seen = {(near, name): 0 for near in (True, False) for name in ("red", "green", "black")}
+        for depth_row, color_row in zip(depth, color[3]):
+            for x, mm in enumerate(depth_row):
+                red, green = color_row[3 * x:3 * x + 2]
+                seen[mm == 1000, "red" if red else "green" if green else "black"] += 1
+        self.assertGreater(seen[True, "red"], 2000)
+        self.assertGreater(seen[False, "green"], 10000)
+        self.assertGreater(seen[False, "black"], 100, "wall that the board hides")
+        self.assertLess(seen[False, "red"] + seen[True, "green"], 60, "but for the board's rim")
+        # The same in the points: 15 bytes each.
+        points = (self.folder / "points" / "00000.ply").read_bytes().split(b"end_header\n", 1)[1]
+        far = [points[at + 12:at + 15] for at in range(0, len(points), 15)
+               if struct.unpack("<f", points[at + 8:at + 12])[0] > 2]
+        self.assertLess(far.count(b"\xff\0\0"), 60)
+        self.assertGreater(far.count(b"\x80\x80\x80"), 100, "not seen: grey")
 
     def test_a_session_is_recorded_as_it_comes(self):
         with host(self.folder / "state", f"folder:{self.source},loop=1", f"folder:{self.source},loop=1",
