@@ -143,6 +143,9 @@ void CameraLane::work() {
             filtered_at_ = {};
         }
     } else if (last_ && !keys_.empty() && !encoders_.empty()) {
+        // It came while nobody watched, or before the filters changed.
+        if (filtered_at_ == TimePoint{})
+            filter_frame();
         encode_frame(begin);
     }
 
@@ -170,6 +173,7 @@ void CameraLane::take_orders() {
         filter_ = orders_.filter;
         background_ = orders_.background;
         chain_.reset();
+        filtered_at_ = {};
         meter_.on_filter(filter_.spelling());
     }
     keys_.merge(orders_.keys);
