@@ -137,7 +137,7 @@ void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>
                    std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found) {
     constexpr std::uint16_t no_number = 0x6000;  // no rank has these bits, the others have
     constexpr std::uint16_t seen_before = no_rank - 1;
-    const auto [width, height] = layout.size;
+    const int width = layout.size.width, height = layout.size.height;
     found.band.resize(std::size_t(width) * tile + hn::MaxLanes(D16()));
     std::uint16_t* const band = found.band.data();
     const auto turn = [&](int y) HWY_ATTR {
