@@ -32,8 +32,9 @@ public:
     void reset_figures();
 
 private:
-    // Some frames' worth; more would only make them older.
-    static constexpr std::size_t most_waiting = 32;
+    // About what the cameras of one thread send at once. More would only make frames older,
+    // and keep the host encoding what nobody decodes in time.
+    static constexpr std::size_t most_waiting = 10;
 
     struct Worker {
         explicit Worker(const receive::Receiver::Events& events) : receiver(events) {}

@@ -108,6 +108,7 @@ struct Host::Impl {
     std::thread thread;
     // Which cameras have a region of interest; server's thread.
     std::set<std::size_t> with_region;
+    std::set<std::size_t> held;  // lanes; server's thread
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
@@ -136,6 +137,8 @@ struct Host::Impl {
     // All below on the server's thread.
     void carry_out();
     void change_settings();
+    void hold_lane(std::size_t camera);
+    void hold_lanes();
     void distribute(const send::EncodedMedia& media);
     void measure_links();
     void note_participants();
@@ -230,6 +233,7 @@ net::Server::Handler Host::Impl::handler() {
     h.now = steady_now;
     h.tick = [this] {
         measure_links();
+        hold_lanes();
         session->on_tick(steady_now());
         carry_out();
         note_participants();
@@ -304,6 +308,8 @@ void Host::Impl::carry_out() {
                 break;
             case Kind::acknowledged:
                 server->acknowledge(peer, action.bytes);
+                if (!held.empty())
+                    hold_lanes();
                 break;
             case Kind::set_ceiling:
                 server->set_ceiling(peer, double(action.bytes));
@@ -328,6 +334,35 @@ void Host::Impl::change_settings() {
     };
     for (const auto& lane : lanes)
         lane->set_settings(convert(session->depth_settings()), convert(session->color_settings()));
+    hold_lanes();
+}
+
+// While every receiver of a camera still waits for its last frame, the next is not even
+// begun: dropped after encoding, it would be missing as a reference.
+void Host::Impl::hold_lane(std::size_t camera) {
+    bool any = false, all_behind = true;
+    for (const auto& [id, participant] : session->participants()) {
+        if (!participant.joined || participant.closing)
+            continue;
+        const net::PeerId peer{std::uint32_t(id)};
+        any = true;
+        all_behind &= !participant.delivery.adapts() &&
+                      (server->is_behind(peer, depth_stream(CameraId(camera))) ||
+                       server->is_behind(peer, color_stream(CameraId(camera))));
+    }
+    const bool hold = any && all_behind;
+    if (hold == held.contains(camera))
+        return;
+    if (hold)
+        held.insert(camera);
+    else
+        held.erase(camera);
+    lanes[camera]->hold(hold);
+}
+
+void Host::Impl::hold_lanes() {
+    for (std::size_t camera = 0; camera < lanes.size(); ++camera)
+        hold_lane(camera);
 }
 
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
@@ -341,6 +376,7 @@ void Host::Impl::distribute(const send::EncodedMedia& encoded) {
         if (pushed.needs_key)
             session->on_broken_stream(header.stream, header.setting);
     }
+    hold_lane(std::size_t(camera_of(header.stream)));
 }
 
 void Host::Impl::measure_links() {

@@ -15,6 +15,7 @@ public:
         : loop_(options, progress), fps_(options.frames_per_second) {}
 
     const Calibration& calibration() const { return loop_.calibration(); }
+    std::size_t frames() const { return loop_.frames(); }
 
     std::optional<Duration> offset() override {
         if (next_ == loop_.frames())
@@ -88,6 +89,7 @@ std::unique_ptr<Camera> open_synthetic_camera(Options& options, const Progress& 
     PlaybackOptions playback;
     playback.loop = options.take_flag("loop", true);
     playback.start = options.take_int("start", 0, 0, 1'000'000);
+    const bool preload = options.take_flag("preload");
     options.require_no_problem();
 
     auto recording = std::make_unique<SyntheticRecording>(loop, progress);
@@ -96,7 +98,11 @@ std::unique_ptr<Camera> open_synthetic_camera(Options& options, const Progress& 
                 std::to_string(loop.camera);
     info.calibration = recording->calibration();
     info.frames_per_second = loop.frames_per_second;
-    return make_recorded_camera(std::move(info), std::move(recording), playback);
+    if (!preload)
+        return make_recorded_camera(std::move(info), std::move(recording), playback);
+    const std::size_t frames = recording->frames();
+    return make_recorded_camera(
+        std::move(info), std::make_unique<MemoryRecording>(*recording, frames, progress), playback);
 }
 
 }  // namespace theatron::capture

@@ -39,7 +39,12 @@ TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
         EXPECT_GT(middle, 1000);
         EXPECT_LT(middle, 3000);
     }
+    const auto preloaded =
+        open_camera("synthetic:seconds=2,fps=2,quality=quick,preload=1,cache=" + cache.string());
     fs::remove_all(cache);
+    const Capture from_memory = preloaded->next(60s);
+    ASSERT_EQ(from_memory.kind, Capture::Kind::frame);
+    EXPECT_EQ(from_memory.frame->depth.size, (Size{320, 288}));
 }
 
 TEST(SyntheticCamera, ExplainsWrongOptions) {

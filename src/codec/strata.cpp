@@ -74,21 +74,20 @@ public:
 
 private:
     void prepare(Size size);
-    bool rank(DepthView depth, Values& values);
-    bool blend_pays(Model model, const CodedPixels& coded);
-    void encode_and_count(const Model& model, std::uint16_t* pixels, const CodedPixels& coded);
+    bool blend_pays(Model model, CodedPixels coded);
+    void encode_and_count(const Model& model, const std::uint16_t* pixels,
+                          const CodedPixels& coded);
     const std::uint8_t* draw(const Region& region);
 
     Tolerance tolerance_;
     bool everywhere_ = false;
     Region region_;
 
-    // Scratch memory.
+    // Scratch memory. Where pixels were are tokens when they are coded.
     Layout layout_;
-    std::vector<std::uint16_t> pixels_, tokens_, extras_, words_, moved_;
+    std::vector<std::uint16_t> pixels_, trial_tokens_, extras_, words_, moved_;
     std::vector<std::uint8_t> region_rows_, region_steps_;
     Region drawn_;
-    DepthImage ranks_;
     RankTables tables_;
     Bytes side_, own_memory_;
     std::vector<std::uint8_t> has_extra_;
@@ -102,8 +101,7 @@ void Codec::prepare(Size size) {
     if (layout_.size == size)
         return;
     layout_ = layout_of(size);
-    // Positions outside the image are read; they stay 0.
-    pixels_.assign(layout_.coded_values(), 0);
+    pixels_.resize(layout_.coded_values());
     region_steps_.clear();
     drawn_.clear();
 }
@@ -127,7 +125,8 @@ const std::uint8_t* Codec::draw(const Region& region) {
     return region_steps_.data();
 }
 
-void Codec::encode_and_count(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
+void Codec::encode_and_count(const Model& model, const std::uint16_t* pixels,
+                             const CodedPixels& coded) {
     for (Counts& table : token_counts_.of)
         table.fill(0);
     encode_model(model, pixels, coded);
@@ -136,14 +135,8 @@ void Codec::encode_and_count(const Model& model, std::uint16_t* pixels, const Co
         counts_[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
 }
 
-// The ranks of an image, whose new values are added. False if there are too many.
-bool Codec::rank(DepthView depth, Values& values) {
-    ranks_.resize(depth.size);
-    return tables_.to_ranks(depth, values, ranks_.view());
-}
-
 // Tries both ways of predicting on 32 rows in the middle of the image.
-bool Codec::blend_pays(Model model, const CodedPixels& coded) {
+bool Codec::blend_pays(Model model, CodedPixels coded) {
     const int group = (layout_.groups - 1) / 2;
     const std::size_t at = std::size_t(group) * std::size_t(layout_.pitch);
     model.layout.size.height = std::min(lane_count, layout_.size.height - group * lane_count);
@@ -151,9 +144,11 @@ bool Codec::blend_pays(Model model, const CodedPixels& coded) {
     model.layout.steps = layout_.pitch + skew * (lane_count - 1);
     if (model.reference_depth != nullptr) {
         model.reference_depth += at * plane_stride;
-        model.reference_valid += at * plane_stride;
+        model.reference_valid += at;
     }
     model.tolerance = {};
+    trial_tokens_.resize(model.layout.coded_values());
+    coded.token = trial_tokens_.data();
     double bits[2];
     for (const bool blend : {false, true}) {
         model.blend = blend;
@@ -168,7 +163,6 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     assert(strata::is_codable(depth.size) && out.size() >= max_encoded_size(depth.size));
     prepare(depth.size);
     const std::size_t plane = layout_.plane_values();
-    tokens_.resize(layout_.coded_values());
     extras_.resize(layout_.coded_values());
     has_extra_.resize(std::size_t(layout_.steps));
     words_.resize(max_words(layout_) + 2 * word_slack);
@@ -184,14 +178,14 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (payload.delta) {
         old_values = values = before.values();
         // Too many values: begin anew.
-        if (!values.empty() && !rank(depth, values))
+        if (!values.empty() && !tables_.to_ranks(layout_, depth, values, pixels_.data()))
             payload.delta = false;
     }
     if (!payload.delta) {
         old_values.clear();
         values = find_values(depth, payload.tolerance);
         if (!values.empty())
-            rank(depth, values);
+            tables_.to_ranks(layout_, depth, values, pixels_.data());
     }
     payload.ranks = !values.empty();
     // Ranks are worth more than a tolerance, where they are used.
@@ -200,8 +194,8 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     const bool lossy = !payload.tolerance.lossless();
     if (lossy)
         payload.region = region_;
-    const DepthView coded_depth = payload.ranks ? DepthView(ranks_.view()) : depth;
-    rows_to_steps(layout_, coded_depth, pixels_.data());
+    if (!payload.ranks)
+        rows_to_steps(layout_, depth, pixels_.data());
 
     Memory after = make_memory(layout_, next != nullptr ? next->memory : own_memory_);
     Model model;
@@ -220,7 +214,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
             model.reference_depth = moved_.data();
         }
     }
-    const CodedPixels coded{tokens_.data(), extras_.data(), has_extra_.data(), &token_counts_};
+    const CodedPixels coded{pixels_.data(), extras_.data(), has_extra_.data(), &token_counts_};
     Equations equations;
     sample_equations(model, pixels_.data(), payload.ranks ? 8 : 40, equations);
     model.weights = solve(equations, payload.delta ? tap_count : intra_taps);
@@ -311,12 +305,10 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     for (std::size_t i = 0; i < stream.word_count; ++i)
         stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
 
-    tokens_.resize(layout_.coded_values());
-    if (!decode_steps(model, slots_.of(after.head->levels), stream, tokens_.data()))
+    const std::uint16_t* const depths = payload->ranks ? tables_.depths_of(values) : nullptr;
+    if (!decode_steps(model, slots_.of(after.head->levels), stream, pixels_.data()))
         return Status::malformed;
-    steps_to_rows(layout_, tokens_.data(), out);
-    if (payload->ranks)
-        tables_.from_ranks(values, out);
+    steps_to_rows(layout_, pixels_.data(), depths, out);
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/strata_kernel.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -29,19 +30,19 @@ public:
         while (delayed_steps_ < delay_ + copy_lag)
             delayed_steps_ *= 2;
         delayed_.resize(std::size_t(delayed_steps_) * kept_traces);
-        const std::size_t margin = std::size_t(plane_margin) * plane_stride;
-        const std::size_t end = model.layout.plane_values() - margin;
-        std::memset(model.depth, 0, margin * sizeof(*model.depth));
-        std::memset(model.depth + end, 0, margin * sizeof(*model.depth));
-        std::memset(model.valid, 0, margin);
-        std::memset(model.valid + end, 0, margin);
+        const std::size_t end = std::size_t(model.layout.steps + plane_margin);
+        for (const std::size_t margin : {std::size_t(0), end}) {
+            std::fill_n(model.depth + margin * plane_stride, plane_margin * plane_stride, 0);
+            std::fill_n(model.valid + margin, plane_margin, 0);
+        }
     }
 
     // Prepares the step's copies of lanes of other groups.
     Step begin(int index) {
-        const std::size_t at = std::size_t(index + plane_margin) * plane_stride + plane_origin;
+        const auto row = std::size_t(index + plane_margin);
+        const std::size_t at = row * plane_stride + plane_origin;
         Step step{model_.depth + at,
-                  model_.valid + at,
+                  model_.valid + row,
                   model_.reference_depth,
                   model_.reference_valid,
                   index,
@@ -50,22 +51,20 @@ public:
                   is_inside()};
         if (step.reference_depth != nullptr) {
             step.reference_depth += at;
-            step.reference_valid += at;
+            step.reference_valid += row;
         }
         const std::ptrdiff_t back = std::ptrdiff_t(delay_) * plane_stride;
         constexpr std::size_t front = plane_origin,
                               behind = plane_stride - plane_origin - lane_count;
         std::uint16_t* const depth = step.depth;
-        std::uint8_t* const valid = step.valid;
         if (index >= delay_) {
             std::memcpy(depth - front, depth + lane_count - front - back, front * sizeof(*depth));
-            std::memcpy(valid - front, valid + lane_count - front - back, front);
+            *step.valid = step.valid[-delay_] >> lane_count & ((1u << front) - 1);
         } else {
             std::memset(depth - front, 0, front * sizeof(*depth));
-            std::memset(valid - front, 0, front);
+            *step.valid = 0;
         }
         std::memset(depth + lane_count, 0, behind * sizeof(*depth));
-        std::memset(valid + lane_count, 0, behind);
         const std::uint16_t* above = delayed(index - delay_);
         for (int i = 0; i < kept_traces; ++i)
             traces.at(index, i)[-1] = above[i];
@@ -92,7 +91,7 @@ public:
 private:
     static constexpr int copy_lag = 4;
     static_assert(copy_lag < least_delay);
-    static constexpr int kept_traces = blend ? trace_count : triple0;
+    static constexpr int kept_traces = blend ? int(trace_count) : int(triple0);
 
     bool is_inside() const {
         const Size size = model_.layout.size;
@@ -114,10 +113,12 @@ private:
             to[i] = traces.at(index, i)[lane_count - 1];
         if (index < delay_)
             return;
-        const std::size_t from = std::size_t(index + plane_margin) * plane_stride + plane_origin;
+        const auto row = std::size_t(index + plane_margin);
+        const std::size_t from = row * plane_stride + plane_origin;
         const std::size_t copy = from + lane_count - std::size_t(delay_) * plane_stride;
         model_.depth[copy] = model_.depth[from];
-        model_.valid[copy] = model_.valid[from];
+        model_.valid[row - std::size_t(delay_)] |= (model_.valid[row] >> plane_origin & 1)
+                                                   << (plane_origin + lane_count);
     }
 
     const Model& model_;
@@ -168,7 +169,7 @@ HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
 }
 
 template <bool temporal, bool blend, bool lossy>
-void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
+void encode_steps(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded) {
     const D16 d;
     constexpr int count_lag = 2;  // steps until tokens can be read without waiting
     Walk<blend> walk(model);
@@ -184,7 +185,7 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
             if (t == 0)
                 window = begin_window<temporal>(step, lane);
             const std::size_t at = std::size_t(t) * lane_count + lane;
-            const Prediction p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
+            Prediction p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
             // Where there is no pixel stands 0, as in a hole.
             V16 depth = hn::LoadU(d, pixels + at);
             const V16 one = hn::Set(d, 1);
@@ -205,30 +206,24 @@ void encode_steps(const Model& model, std::uint16_t* pixels, const CodedPixels& 
                 has_extra |= !hn::AllFalse(d, q.is_literal);
                 token = hn::IfThenElse(q.is_literal, q.literal_token, token);
                 hn::StoreU(hn::IfThenElse(q.is_literal, q.literal, hn::LoadU(d, extra)), d, extra);
-                hn::StoreU(depth, d, pixels + at);
             } else {
                 has_extra |=
                     tokens_of(zigzag(hn::Sub(hn::Xor(difference, p.flip), p.flip)), token, extra);
             }
             token = hn::IfThenElse(is_measured, token, hole);
 
-            const V16 size = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
-            depth = hn::IfThenElse(is_measured, depth, p.depth);
-            V16 valid = hn::IfThenElseZero(is_measured, one);
-            V16 is_pixel = hn::Set(d, 0xffff);
-            V16 context = p.context;
+            Kept kept;
+            kept.residual = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
+            kept.depth = hn::IfThenElse(is_measured, depth, p.depth);
+            kept.measured = is_measured;
             if (HWY_UNLIKELY(!step.inside)) {
-                const Outside outside =
-                    outside_of(model.layout, step.position, step.group, step.depth, step.valid,
-                               window.left, window.valid[0], lane);
-                is_pixel = outside.is_pixel;
-                const auto mask = hn::MaskFromVec(is_pixel);
-                context = hn::IfThenElse(mask, context, hn::Set(d, idle_context));
-                depth = hn::IfThenElse(mask, depth, outside.depth);
-                valid = hn::IfThenElse(mask, valid, outside.valid);
+                const Outside outside = outside_of(model.layout, step.position, step.group,
+                                                   step.depth, step.valid, window.left, lane);
+                p.context = hn::IfThenElse(outside.is_pixel, p.context, hn::Set(d, idle_context));
+                keep_outside(outside, p.candidate, kept);
             }
-            hn::StoreU(hn::Add(hn::ShiftLeft<6>(context), token), d, coded.token + at);
-            keep<blend>(p.candidate, depth, size, is_pixel, valid, step, walk.traces, window, lane);
+            hn::StoreU(hn::Add(hn::ShiftLeft<6>(p.context), token), d, coded.token + at);
+            keep<blend>(p.candidate, kept, step, walk.traces, window, lane);
         }
         coded.has_extra[t] = has_extra;
         if (t >= count_lag)
@@ -263,9 +258,9 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
             if (HWY_UNLIKELY(!step.inside)) {
                 outsides[part] = outside_of(model.layout, step.position, step.group, step.depth,
-                                            step.valid, window.left, window.valid[0], lane);
-                p.context = hn::IfThenElse(hn::MaskFromVec(outsides[part].is_pixel), p.context,
-                                           hn::Set(d, idle_context));
+                                            step.valid, window.left, lane);
+                p.context =
+                    hn::IfThenElse(outsides[part].is_pixel, p.context, hn::Set(d, idle_context));
             }
         }
         if (!reader.read(predictions, tokens, codes))
@@ -273,14 +268,15 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
         for (int part = 0; part < part_count; ++part) {
             const int lane = part * part_lanes;
             const std::size_t at = std::size_t(t) * lane_count + lane;
-            const Prediction& p = predictions[part];
+            Prediction& p = predictions[part];
             const V16 token = tokens[part], code = codes[part];
             // Where there is no pixel, the token is a hole.
             const auto is_measured = hn::Gt(token, hn::Set(d, literal_low_token - 1));
 
             V16 difference = hn::Sub(hn::Xor(unzigzag(code), p.flip), p.flip);
             difference = hn::IfThenElseZero(is_measured, difference);
-            V16 size = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
+            Kept kept;
+            kept.residual = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
             V16 depth;
             if constexpr (lossy) {
                 const V16 width = step_width(model, p.depth, model.region + at);
@@ -289,7 +285,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
                     hn::And(is_measured, hn::Or(hn::Eq(token, hn::Set(d, literal_low_token)),
                                                 hn::Eq(token, hn::Set(d, literal_high_token))));
                 depth = hn::IfThenElse(is_literal, code, depth);
-                size = hn::IfThenElse(is_literal, hn::Set(d, 255), size);
+                kept.residual = hn::IfThenElse(is_literal, hn::Set(d, 255), kept.residual);
             } else {
                 depth = hn::Add(p.depth, difference);
             }
@@ -297,18 +293,11 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             const V16 hole = hn::Sub(hn::Zero(d), token);
             hn::StoreU(hn::IfThenElse(is_measured, depth, hole), d, pixels + at);
 
-            depth = hn::IfThenElse(is_measured, depth, p.depth);
-            V16 valid = hn::IfThenElseZero(is_measured, hn::Set(d, 1));
-            V16 is_pixel = hn::Set(d, 0xffff);
-            if (HWY_UNLIKELY(!step.inside)) {
-                const Outside& outside = outsides[part];
-                is_pixel = outside.is_pixel;
-                const auto mask = hn::MaskFromVec(is_pixel);
-                depth = hn::IfThenElse(mask, depth, outside.depth);
-                valid = hn::IfThenElse(mask, valid, outside.valid);
-            }
-            keep<blend>(p.candidate, depth, size, is_pixel, valid, step, walk.traces, windows[part],
-                        lane);
+            kept.depth = hn::IfThenElse(is_measured, depth, p.depth);
+            kept.measured = is_measured;
+            if (HWY_UNLIKELY(!step.inside))
+                keep_outside(outsides[part], p.candidate, kept);
+            keep<blend>(p.candidate, kept, step, walk.traces, windows[part], lane);
         }
         walk.end(t);
     }
@@ -316,7 +305,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
     return reader.at_end();
 }
 
-void encode_model(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
+void encode_model(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded) {
     const bool temporal = model.reference_depth != nullptr;
     const bool lossy = !model.tolerance.lossless();
     if (lossy) {
@@ -364,10 +353,11 @@ HWY_EXPORT(decode_steps);
 HWY_EXPORT(encode_tokens);
 HWY_EXPORT(rows_to_steps);
 HWY_EXPORT(steps_to_rows);
+HWY_EXPORT(rows_to_ranks);
 HWY_EXPORT(sample_equations);
 HWY_EXPORT(shift_ranks);
 
-void encode_model(const Model& model, std::uint16_t* pixels, const CodedPixels& coded) {
+void encode_model(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded) {
     HWY_DYNAMIC_DISPATCH(encode_model)(model, pixels, coded);
 }
 bool decode_steps(const Model& model, const SlotTable& slots, const Stream& stream,
@@ -381,8 +371,13 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
 void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
     HWY_DYNAMIC_DISPATCH(rows_to_steps)(layout, depth, pixels);
 }
-void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth) {
-    HWY_DYNAMIC_DISPATCH(steps_to_rows)(layout, pixels, depth);
+void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>* bands,
+                   std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found) {
+    HWY_DYNAMIC_DISPATCH(rows_to_ranks)(layout, depth, bands, ranks, pixels, found);
+}
+void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, const std::uint16_t* depths,
+                   MutableDepthView out) {
+    HWY_DYNAMIC_DISPATCH(steps_to_rows)(layout, pixels, depths, out);
 }
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations) {

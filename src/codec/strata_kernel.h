@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "codec/strata_layout.h"
 #include "codec/strata_tables.h"
@@ -34,13 +35,13 @@ struct Tolerance {
 };
 
 // What the model of both sides takes. Planes start plane_margin steps before
-// step 0.
+// step 0. Of `valid`, bit plane_origin + k is lane k's.
 struct Model {
     Layout layout;
     const std::uint16_t* reference_depth = nullptr;  // null: an intra frame
-    const std::uint8_t* reference_valid = nullptr;
+    const std::uint64_t* reference_valid = nullptr;
     std::uint16_t* depth = nullptr;  // receives the depth with holes filled
-    std::uint8_t* valid = nullptr;   // receives 1 where depth was measured
+    std::uint64_t* valid = nullptr;  // receives where depth was measured
     Weights weights{};
     bool blend = false;  // choose among predictors by their errors nearby
     Tolerance tolerance;
@@ -53,7 +54,7 @@ struct TokenCounts {
 };
 
 // What the model pass makes of the pixels. One value per step and lane, without
-// margins, but has_extra, which is by step.
+// margins, but has_extra, which is by step. `token` may be where the pixels are.
 struct CodedPixels {
     std::uint16_t* token = nullptr;     // context * token_count + token
     std::uint16_t* extra = nullptr;     // only where a token has further bits
@@ -61,9 +62,9 @@ struct CodedPixels {
     TokenCounts* counts = nullptr;      // is added to
 };
 
-// The model pass of the encoder. `pixels` holds the depth by step and lane, and
-// receives what the decoder will have.
-void encode_model(const Model& model, std::uint16_t* pixels, const CodedPixels& coded);
+// The model pass of the encoder. `pixels` holds the depth by step and lane, 0 outside
+// the image.
+void encode_model(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded);
 
 // Where the encoder's words go, and the states that the decoder starts from.
 struct Stream {
@@ -86,9 +87,22 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
 bool decode_steps(const Model& model, const SlotTable& slots, const Stream& stream,
                   std::uint16_t* pixels);
 
-// Rows to steps and back. `fill` is for positions outside the image.
+// Rows to steps, 0 outside the image, and back, through a table if there is one.
 void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels);
-void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth);
+void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, const std::uint16_t* depths,
+                   MutableDepthView out);
+
+// Rows to steps through a table of the rank of each depth. Depths without one have no_rank;
+// they are found, once, and marked in the table. Found are also the bands of 8 rows in
+// which no_rank or 65535 occurs. With `bands` only those are done, and nothing is found.
+inline constexpr std::uint16_t no_rank = 0x7fff;
+struct NewDepths {
+    std::vector<std::uint16_t> depths;
+    std::vector<int> bands;           // their first rows
+    std::vector<std::uint16_t> band;  // scratch memory
+};
+void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>* bands,
+                   std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found);
 
 // Sums for the linear predictor's normal equations over a sample of the pixels:
 // the upper triangle of taps by taps, then taps by target.

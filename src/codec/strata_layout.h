@@ -9,7 +9,8 @@
 //
 // Everything is therefore stored by step and lane. A "plane" keeps 40 values a
 // step: the lanes from value 4 on, in front of them copies of the two lanes above
-// the first one (rows of the 32 before), behind them one of the lane below.
+// the first one (rows of the 32 before), behind them one of the lane below. Which of
+// them were measured stands beside it, a bit for each in a number per step.
 #pragma once
 
 #include <algorithm>
@@ -38,9 +39,8 @@ struct Layout {
     // the same number + 32 would do it.
     int delay() const { return pitch - lane_count * skew; }
     std::size_t coded_values() const { return std::size_t(steps) * lane_count; }
-    std::size_t plane_values() const {
-        return std::size_t(steps + 2 * plane_margin) * plane_stride;
-    }
+    std::size_t plane_steps() const { return std::size_t(steps + 2 * plane_margin); }
+    std::size_t plane_values() const { return plane_steps() * plane_stride; }
     int step_of(int x, int y) const {
         return y / lane_count * pitch + x + row_front + skew * (y % lane_count);
     }

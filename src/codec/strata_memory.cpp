@@ -6,17 +6,18 @@
 namespace theatron::codec::strata {
 namespace {
 
+static_assert(plane_stride * 2 % sizeof(std::uint64_t) == 0);
 constexpr std::size_t head_size = (sizeof(MemoryHead) + 63) / 64 * 64;
 
 std::size_t memory_size(const Layout& layout) {
-    return head_size + layout.plane_values() * 3;
+    return head_size + layout.plane_values() * 2 + layout.plane_steps() * 8;
 }
 
 Memory parts(const Layout& layout, std::byte* bytes) {
     Memory memory;
     memory.head = reinterpret_cast<MemoryHead*>(bytes);
     memory.depth = reinterpret_cast<std::uint16_t*>(bytes + head_size);
-    memory.valid = reinterpret_cast<std::uint8_t*>(bytes + head_size + layout.plane_values() * 2);
+    memory.valid = reinterpret_cast<std::uint64_t*>(bytes + head_size + layout.plane_values() * 2);
     return memory;
 }
 

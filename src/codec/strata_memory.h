@@ -27,7 +27,7 @@ inline constexpr std::uint32_t memory_magic = 0x31a7a257;
 struct Memory {
     MemoryHead* head = nullptr;
     std::uint16_t* depth = nullptr;
-    std::uint8_t* valid = nullptr;
+    std::uint64_t* valid = nullptr;
 
     Values values() const {
         return {head->values.begin(), head->values.begin() + head->value_count};

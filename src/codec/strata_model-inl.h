@@ -7,6 +7,7 @@
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <algorithm>
+#include <cstring>
 
 #include "codec/strata_kernel.h"
 #include "hwy/highway.h"
@@ -25,8 +26,12 @@ inline constexpr int part_lanes = int(hn::MaxLanes(D16()));
 inline constexpr int part_count = lane_count / part_lanes;
 
 // What the row below needs of a step, three steps later and one lane further.
-// Only the first two where predictors are not chosen by their errors.
-enum Trace { activity_above, valid_above, triple0, triple1, triple2, triple3, trace_count };
+// Only the first where predictors are not chosen by their errors.
+enum Trace { marks_above, triple0, triple1, triple2, triple3, trace_count };
+
+// How well a pixel was predicted, at most 255, and whether it was measured, as one
+// number: sums of several, up to six in all, are sums of both.
+inline constexpr std::uint16_t measured_mark = 1 << 12;
 
 struct Traces {
     // Lanes from value trace_origin on, in front of them the lane above lane 0.
@@ -39,9 +44,9 @@ struct Traces {
 // The planes at lane 0 of a step, and where that lane is.
 struct Step {
     std::uint16_t* depth;
-    std::uint8_t* valid;
+    std::uint64_t* valid;
     const std::uint16_t* reference_depth;
-    const std::uint8_t* reference_valid;
+    const std::uint64_t* reference_valid;
     int index;
     int position, group;
     bool inside;  // all lanes are at a pixel
@@ -55,8 +60,7 @@ struct Window {
     V16 upper_left, upper8[3];  // right above, above, upper left
     V16 before, before_left;    // in the reference
     V16 before8[2];
-    V16 same_valid;
-    V16 valid[2], activity[2];    // of the last two steps
+    V16 mark[2], two_marks;       // of the last two steps, and twice that of the last
     V16 error[4], two_errors[4];  // of the last step, and of the last two together
 };
 
@@ -71,10 +75,30 @@ struct Prediction {
 HWY_INLINE V16 load(const std::uint16_t* plane, int steps_ago, int lane) {
     return hn::LoadU(D16(), plane - std::ptrdiff_t(steps_ago) * plane_stride + lane);
 }
-HWY_INLINE V16 load(const std::uint8_t* plane, int steps_ago, int lane) {
-    return hn::PromoteTo(D16(),
-                         hn::LoadU(D8(), plane - std::ptrdiff_t(steps_ago) * plane_stride + lane));
+
+// Some lanes of a step's bits, the first as the lowest bit.
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
+    return hn::Mask<D16>{static_cast<decltype(hn::Mask<D16>::raw)>(bits)};
 }
+HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
+    return mask.raw;
+}
+#else
+HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
+    std::uint8_t bytes[sizeof(bits)];
+    std::memcpy(bytes, &bits, sizeof(bits));
+    return hn::LoadMaskBits(D16(), bytes);
+}
+HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
+    // The library has no other way than through memory.
+    std::uint8_t bytes[sizeof(std::uint64_t)] = {};
+    hn::StoreMaskBits(D16(), mask, bytes);
+    std::uint64_t bits;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    return bits;
+}
+#endif
 
 HWY_INLINE V16 half_of_signed(V16 v) {
     return hn::BitCast(D16(), hn::ShiftRight<1>(hn::BitCast(S16(), v)));
@@ -82,10 +106,6 @@ HWY_INLINE V16 half_of_signed(V16 v) {
 
 HWY_INLINE V16 distance(V16 a, V16 b) {
     return hn::BitCast(D16(), hn::Abs(hn::BitCast(S16(), hn::Sub(a, b))));
-}
-
-HWY_INLINE V16 as_value(hn::Mask<D16> m) {
-    return hn::VecFromMask(D16(), m);
 }
 
 using LinearWeights = VS16[tap_count];
@@ -198,11 +218,10 @@ HWY_INLINE Window begin_window(const Step& s, int lane) {
     const V16 zero = hn::Zero(D16());
     Window w;
     w.left = w.left8 = w.far_left8 = w.upper_left = zero;
-    w.before = w.before_left = w.before8[0] = w.before8[1] = w.same_valid = zero;
+    w.before = w.before_left = w.before8[0] = w.before8[1] = zero;
     for (V16& pixel : w.upper8)
         pixel = zero;
-    for (int i = 0; i < 2; ++i)
-        w.valid[i] = w.activity[i] = zero;
+    w.mark[0] = w.mark[1] = w.two_marks = zero;
     for (int i = 0; i < 4; ++i)
         w.error[i] = w.two_errors[i] = zero;
     if constexpr (temporal) {
@@ -250,22 +269,25 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
     const V16 aside = hn::Sub(linear, p.depth);
     p.flip = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), aside)));
     const V16 how_far = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), aside)));
-    const V16 activity = hn::Add(hn::Add(w.activity[0], w.activity[0]),
-                                 hn::LoadU(d, traces.at(s.index - 3, activity_above) + lane - 1));
+    const V16 marks =
+        hn::Add(w.two_marks, hn::LoadU(d, traces.at(s.index - 3, marks_above) + lane - 1));
+    const V16 activity = hn::And(marks, hn::Set(d, measured_mark - 1));
     const V16 level = level_of(activity, how_far);
 
-    const V16 around = hn::Add(hn::Add(w.valid[0], w.valid[0]),
-                               hn::LoadU(d, traces.at(s.index - 3, valid_above) + lane - 1));
-    V16 before_valid = hn::Set(d, 3);
+    // All six of a neighbourhood are measured, and the reference there.
+    auto is_whole = hn::Gt(marks, hn::Set(d, 6 * measured_mark - 1));
+    V16 neighbourhood = hn::Add(hn::And(hn::ShiftRight<10>(marks), hn::Set(d, 7 << 2)),
+                                hn::Set(d, mixed_contexts + (temporal ? 0 : 3)));
     if constexpr (temporal) {
-        const V16 right = load(s.reference_valid, -1, lane);
-        before_valid = hn::Add(hn::Add(w.same_valid, w.same_valid),
-                               hn::And(right, load(s.reference_valid, -4, lane + 1)));
-        w.same_valid = right;
+        const int bit = plane_origin + lane;
+        const auto same = mask_of(s.reference_valid[0] >> bit);
+        const auto beside =
+            mask_of((s.reference_valid[1] >> bit) & (s.reference_valid[4] >> (bit + 1)));
+        neighbourhood = hn::Add(neighbourhood, hn::IfThenElseZero(same, hn::Set(d, 2)));
+        neighbourhood = hn::Add(neighbourhood, hn::IfThenElseZero(beside, hn::Set(d, 1)));
+        is_whole = hn::And(is_whole, hn::And(same, beside));
     }
-    const V16 neighbourhood = hn::Add(hn::ShiftLeft<2>(around), before_valid);
-    p.context = hn::IfThenElse(hn::Eq(neighbourhood, hn::Set(d, 27)), level,
-                               hn::Add(neighbourhood, hn::Set(d, mixed_contexts)));
+    p.context = hn::IfThenElse(is_whole, level, neighbourhood);
 
     w.upper_left = above;
     w.upper8[2] = w.upper8[1];
@@ -282,16 +304,16 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
 
 // What stands at the positions of some lanes, of which some are not pixels.
 struct Outside {
-    V16 is_pixel;  // all bits set where there is one
-    V16 depth, valid;
+    hn::Mask<D16> is_pixel, valid;
+    V16 depth;
 };
 
 // Left of the image stands what is above right, right of it the last pixel,
 // below it the row above. `w` as before predict.
 // (Without the whole Step, which would then have to be in memory.)
 HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
-                                const std::uint16_t* depth, const std::uint8_t* valid, V16 left,
-                                V16 valid_left, int lane) {
+                                const std::uint16_t* depth, const std::uint64_t* valid, V16 left,
+                                int lane) {
     const D16 d;
     const V16 lanes = hn::Iota(d, std::uint16_t(lane));
     V16 x = hn::Sub(hn::Set(d, std::uint16_t(position)), hn::ShiftLeft<2>(lanes));
@@ -306,48 +328,62 @@ HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
     const auto in_columns =
         hn::Lt(hn::Sub(x, hn::Set(d, row_front)), hn::Set(d, std::uint16_t(layout.size.width)));
     const auto before_row = hn::Lt(x, hn::Set(d, row_front));
-    const auto choose = [&](V16 at_left, auto plane) HWY_ATTR {
-        const V16 in_row = hn::IfThenElse(before_row, load(plane, 3, lane - 1), at_left);
-        return hn::IfThenElse(in_rows, in_row, load(plane, 4, lane - 1));
-    };
     Outside outside;
-    outside.is_pixel = as_value(hn::And(in_rows, in_columns));
-    outside.depth = choose(left, depth);
-    outside.valid = choose(valid_left, valid);
+    outside.is_pixel = hn::And(in_rows, in_columns);
+    const V16 in_row = hn::IfThenElse(before_row, load(depth, 3, lane - 1), left);
+    outside.depth = hn::IfThenElse(in_rows, in_row, load(depth, 4, lane - 1));
+    const std::uint64_t rows_bits = bits_of(in_rows), front_bits = bits_of(before_row);
+    const auto valid_at = [&](int steps_ago, int of_lane) {
+        return valid[-steps_ago] >> (plane_origin + of_lane);
+    };
+    const std::uint64_t in_row_bits =
+        (front_bits & valid_at(3, lane - 1)) | (~front_bits & valid_at(1, lane));
+    outside.valid = mask_of((rows_bits & in_row_bits) | (~rows_bits & valid_at(4, lane - 1)));
     return outside;
 }
 
-// Keeps what later steps need. `depth` is final also for holes and outside;
-// `is_pixel` has all bits set where there is a pixel.
+// What of a step's pixels is kept. `depth` is final also for holes and outside.
+struct Kept {
+    V16 depth;
+    V16 residual;            // 0 where nothing was measured
+    hn::Mask<D16> measured;  // `valid` of the plane
+};
+
+// Where there is no pixel, no predictor is wrong.
+HWY_INLINE void keep_outside(const Outside& outside, V16 (&candidate)[4], Kept& kept) {
+    kept.depth = hn::IfThenElse(outside.is_pixel, kept.depth, outside.depth);
+    kept.measured = hn::Or(hn::And(outside.is_pixel, kept.measured),
+                           hn::AndNot(outside.is_pixel, outside.valid));
+    for (V16& c : candidate)
+        c = hn::IfThenElse(outside.is_pixel, c, kept.depth);
+}
+
+// Keeps what later steps need.
 template <bool blend>
-HWY_INLINE void keep(const V16 (&candidate)[4], V16 depth, V16 residual, V16 is_pixel, V16 valid,
-                     const Step& s, Traces& traces, Window& w, int lane) {
+HWY_INLINE void keep(const V16 (&candidate)[4], const Kept& kept, const Step& s, Traces& traces,
+                     Window& w, int lane) {
     const D16 d;
     const V16 most = hn::Set(d, 255);
-    hn::StoreU(depth, d, s.depth + lane);
-    hn::StoreU(hn::DemoteTo(D8(), hn::BitCast(S16(), valid)), D8(), s.valid + lane);
+    hn::StoreU(kept.depth, d, s.depth + lane);
+    *s.valid |= bits_of(kept.measured) << (plane_origin + lane);
     if constexpr (blend) {
         for (int i = 0; i < 4; ++i) {
-            const V16 error = hn::And(hn::Min(distance(depth, candidate[i]), most), is_pixel);
+            const V16 error = hn::Min(distance(kept.depth, candidate[i]), most);
             hn::StoreU(hn::Add(error, w.two_errors[i]), d, traces.at(s.index, triple0 + i) + lane);
             w.two_errors[i] = hn::Add(error, w.error[i]);
             w.error[i] = error;
         }
     }
-    const V16 size = hn::Min(residual, most);
-    const V16 two = hn::Add(w.activity[0], w.activity[0]);
-    hn::StoreU(hn::Add(hn::Add(size, w.activity[1]), two), d,
-               traces.at(s.index, activity_above) + lane);
-    w.activity[1] = w.activity[0];
-    w.activity[0] = size;
-    const V16 two_valid = hn::Add(w.valid[0], w.valid[0]);
-    hn::StoreU(hn::Add(hn::Add(valid, w.valid[1]), two_valid), d,
-               traces.at(s.index, valid_above) + lane);
-    w.valid[1] = w.valid[0];
-    w.valid[0] = valid;
+    const V16 mark = hn::Add(hn::Min(kept.residual, most),
+                             hn::IfThenElseZero(kept.measured, hn::Set(d, measured_mark)));
+    hn::StoreU(hn::Add(hn::Add(mark, w.mark[1]), w.two_marks), d,
+               traces.at(s.index, marks_above) + lane);
+    w.mark[1] = w.mark[0];
+    w.mark[0] = mark;
+    w.two_marks = hn::Add(mark, mark);
     w.far_left8 = w.left8;
-    w.left8 = hn::ShiftLeft<3>(depth);
-    w.left = depth;
+    w.left8 = hn::ShiftLeft<3>(kept.depth);
+    w.left = kept.depth;
 }
 
 }  // namespace theatron::codec::strata::HWY_NAMESPACE

@@ -4,6 +4,7 @@
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <algorithm>
+#include <atomic>
 
 #include "codec/strata_kernel.h"
 #include "hwy/highway.h"
@@ -46,93 +47,166 @@ HWY_INLINE void transpose_tile(Load load, Store store) {
 
 #endif
 
-// Calls on_tile(x, y, at) for tiles whose first row is y and starts at x, each
+// Looks up pixels. Each is stored by itself: to put several together in a vector takes
+// compilers more instructions than all the rest. `to` may be `from`.
+HWY_INLINE void look_up(const std::uint16_t* table, const std::uint16_t* from, int count,
+                        std::uint16_t* to) {
+    const auto one = [&](int i) HWY_ATTR {
+        to[i] = table[from[i]];
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+    };
+    int i = 0;
+    for (; i + 8 <= count; i += 8) {
+        one(i), one(i + 1), one(i + 2), one(i + 3);
+        one(i + 4), one(i + 5), one(i + 6), one(i + 7);
+    }
+    for (; i < count; ++i)
+        one(i);
+}
+
+// Of 8 rows from y on: calls on_tile(x, at) for tiles whose first row starts at x, each
 // next row 4 pixels further left, and whose first step's first lane is at `at`;
-// on_pixel for the pixels outside such tiles.
+// on_pixel(x, row, at) for the pixels outside such tiles.
 template <class OnTile, class OnPixel>
-HWY_INLINE void for_tiles(const Layout& layout, OnTile on_tile, OnPixel on_pixel) {
+HWY_INLINE void for_band(const Layout& layout, int y, OnTile on_tile, OnPixel on_pixel) {
     const auto [width, height] = layout.size;
-    const int lag = skew * (tile - 1);
-    for (int y = 0; y < height; y += tile) {
+    constexpr int lag = skew * (tile - 1);
+    const int rows = std::min(tile, height - y);
+    const int lane = y % lane_count;
+    int x = lag;
+    if (rows == tile && HWY_TARGET != HWY_SCALAR) {
+        for (; x + tile <= width; x += tile)
+            on_tile(x, std::size_t(layout.step_of(x, y)) * lane_count + lane);
+    }
+    for (int row = 0; row < rows; ++row) {
+        // Tiles cover [lag - skew * row, x - skew * row) of this row.
+        const int from = x > lag ? lag - skew * row : width;
+        const int to = x > lag ? x - skew * row : width;
+        std::size_t at = std::size_t(layout.step_of(0, y + row)) * lane_count + lane + row;
+        for (int i = 0; i < from; ++i, at += lane_count)
+            on_pixel(i, row, at);
+        at += std::size_t(to - from) * lane_count;
+        for (int i = to; i < width; ++i, at += lane_count)
+            on_pixel(i, row, at);
+    }
+}
+
+// `rows` are those from y on.
+HWY_INLINE void band_to_steps(const Layout& layout, DepthView rows, int y, std::uint16_t* pixels) {
+    for_band(
+        layout, y,
+        [&]([[maybe_unused]] int x, [[maybe_unused]] std::size_t at) HWY_ATTR {
+#if HWY_TARGET != HWY_SCALAR
+            const hn::Full128<std::uint16_t> d;
+            transpose_tile([&](int i) HWY_ATTR { return hn::LoadU(d, rows.row(i) + x - skew * i); },
+                           [&](int i, auto v)
+                               HWY_ATTR { hn::StoreU(v, d, pixels + at + i * lane_count); });
+#endif
+        },
+        [&](int x, int row, std::size_t at) { pixels[at] = rows.row(row)[x]; });
+}
+
+// What stands at positions outside the image must be 0.
+HWY_INLINE void clear_outside(const Layout& layout, std::uint16_t* pixels) {
+    const int behind = row_front + layout.size.width;
+    const int rows = layout.groups * lane_count;
+    for (int y = 0; y < rows; ++y) {
+        std::uint16_t* const at =
+            pixels + std::size_t(layout.step_of(-row_front, y)) * lane_count + y % lane_count;
+        const int first = y < layout.size.height ? behind : row_front;
+        for (int i = 0; i < row_front; ++i)
+            at[std::size_t(i) * lane_count] = 0;
+        for (int i = first; i < layout.pitch; ++i)
+            at[std::size_t(i) * lane_count] = 0;
+    }
+    for (int lane = 1; lane < lane_count; ++lane) {
+        for (int t = 0; t < skew * lane; ++t)
+            pixels[std::size_t(t) * lane_count + lane] = 0;
+        for (int t = layout.groups * layout.pitch + skew * (lane - 1); t < layout.steps; ++t)
+            pixels[std::size_t(t) * lane_count + lane - 1] = 0;
+    }
+}
+
+void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
+    clear_outside(layout, pixels);
+    for (int y = 0; y < layout.size.height; y += tile)
+        band_to_steps(layout, {depth.row(y), depth.size, depth.stride}, y, pixels);
+}
+
+void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>* bands,
+                   std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found) {
+    constexpr std::uint16_t no_number = 0x6000;  // no rank has these bits, the others have
+    constexpr std::uint16_t seen_before = no_rank - 1;
+    const int width = layout.size.width, height = layout.size.height;
+    found.band.resize(std::size_t(width) * tile + hn::MaxLanes(D16()));
+    std::uint16_t* const band = found.band.data();
+    const auto turn = [&](int y) HWY_ATTR {
         const int rows = std::min(tile, height - y);
-        const int lane = y % lane_count;
-        int x = lag;
-        if (rows == tile) {
-            for (; x + tile <= width; x += tile)
-                on_tile(x, y, std::size_t(layout.step_of(x, y)) * lane_count + lane);
-        }
-        for (int row = 0; row < rows; ++row) {
-            // Tiles cover [lag - skew * row, x - skew * row) of this row.
-            const int from = x > lag ? lag - skew * row : width;
-            const int to = x > lag ? x - skew * row : width;
-            std::size_t at = std::size_t(layout.step_of(0, y + row)) * lane_count + lane + row;
-            for (int i = 0; i < width; ++i, at += lane_count) {
-                if (i == from) {
-                    i = to;
-                    at += std::size_t(to - from) * lane_count;
-                    if (i >= width)
-                        break;
-                }
-                on_pixel(i, y + row, at);
+        for (int i = 0; i < rows; ++i)
+            look_up(ranks, depth.row(y + i), width, band + i * width);
+        band_to_steps(layout, {band, layout.size}, y, pixels);
+        return rows * width;
+    };
+    if (bands != nullptr) {
+        for (const int y : *bands)
+            turn(y);
+        return;
+    }
+    clear_outside(layout, pixels);
+    const D16 d;
+    std::fill(found.band.end() - std::ptrdiff_t(hn::MaxLanes(d)), found.band.end(), 0);
+    for (int y = 0; y < height; y += tile) {
+        const int count = turn(y);
+        V16 bits = hn::Zero(d);
+        for (int i = 0; i < count; i += part_lanes)
+            bits = hn::Or(bits, hn::LoadU(d, band + i));
+        bits = hn::And(bits, hn::Set(d, no_number));
+        if (HWY_LIKELY(hn::AllTrue(d, hn::Eq(bits, hn::Zero(d)))))
+            continue;
+        found.bands.push_back(y);
+        for (int i = 0; i < count; ++i) {
+            const std::uint16_t without = depth.row(y + i / width)[i % width];
+            if (ranks[without] == no_rank) {
+                ranks[without] = seen_before;
+                found.depths.push_back(without);
             }
         }
     }
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-template <class OnPixel>
-void for_pixels(const Layout& layout, OnPixel on_pixel) {
-    for (int y = 0; y < layout.size.height; ++y) {
-        for (int x = 0; x < layout.size.width; ++x)
-            on_pixel(x, y, std::size_t(layout.step_of(x, y)) * lane_count + y % lane_count);
+void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, const std::uint16_t* depths,
+                   MutableDepthView out) {
+    for (int y = 0; y < layout.size.height; y += tile) {
+        for_band(
+            layout, y,
+            [&]([[maybe_unused]] int x, [[maybe_unused]] std::size_t at) HWY_ATTR {
+#if HWY_TARGET != HWY_SCALAR
+                const hn::Full128<std::uint16_t> d;
+                transpose_tile([&](int i)
+                                   HWY_ATTR { return hn::LoadU(d, pixels + at + i * lane_count); },
+                               [&](int i, auto v)
+                                   HWY_ATTR { hn::StoreU(v, d, out.row(y + i) + x - skew * i); });
+#endif
+            },
+            [&](int x, int row, std::size_t at) { out.row(y + row)[x] = pixels[at]; });
+        if (depths == nullptr)
+            continue;
+        for (int i = y; i < std::min(y + tile, layout.size.height); ++i)
+            look_up(depths, out.row(i), layout.size.width, out.row(i));
     }
 }
-void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
-    for_pixels(layout, [&](int x, int y, std::size_t at) { pixels[at] = depth.row(y)[x]; });
-}
-void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth) {
-    for_pixels(layout, [&](int x, int y, std::size_t at) { depth.row(y)[x] = pixels[at]; });
-}
-
-#else
-
-void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels) {
-    const hn::Full128<std::uint16_t> d;
-    for_tiles(
-        layout,
-        [&](int x, int y, std::size_t at) HWY_ATTR {
-            transpose_tile(
-                [&](int i) HWY_ATTR { return hn::LoadU(d, depth.row(y + i) + x - skew * i); },
-                [&](int i, auto v) HWY_ATTR { hn::StoreU(v, d, pixels + at + i * lane_count); });
-        },
-        [&](int x, int y, std::size_t at) { pixels[at] = depth.row(y)[x]; });
-}
-
-void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, MutableDepthView depth) {
-    const hn::Full128<std::uint16_t> d;
-    for_tiles(
-        layout,
-        [&](int x, int y, std::size_t at) HWY_ATTR {
-            transpose_tile(
-                [&](int i) HWY_ATTR { return hn::LoadU(d, pixels + at + i * lane_count); },
-                [&](int i, auto v) HWY_ATTR { hn::StoreU(v, d, depth.row(y + i) + x - skew * i); });
-        },
-        [&](int x, int y, std::size_t at) { depth.row(y)[x] = pixels[at]; });
-}
-
-#endif
 
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations) {
     // Lanes whose neighbours above are lanes of the same group.
     constexpr int first = 8, sampled = 16;
-    constexpr int stride = 17;
     const hn::CappedTag<float, sampled> d;
     const hn::Rebind<std::int32_t, decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
     const std::size_t n = hn::Lanes(d);
     const bool temporal = model.reference_depth != nullptr;
+    // Key frames are rare, and ranks leave few samples of them.
+    const int stride = temporal ? 37 : 17;
     const int taps = temporal ? tap_count : intra_taps;
     alignas(64) float sums[equation_count][hn::MaxLanes(d)] = {};
 

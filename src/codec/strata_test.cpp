@@ -306,7 +306,7 @@ struct Planes {
     explicit Planes(Size size)
         : layout(layout_of(size)),
           depth(layout.plane_values()),
-          valid(layout.plane_values()),
+          valid(layout.plane_steps()),
           pixels(layout.coded_values()),
           token(layout.coded_values()),
           extra(layout.coded_values()),
@@ -330,7 +330,7 @@ struct Planes {
 
     Layout layout;
     std::vector<std::uint16_t> depth;
-    std::vector<std::uint8_t> valid;
+    std::vector<std::uint64_t> valid;
     std::vector<std::uint16_t> pixels, token, extra;
     std::vector<std::uint8_t> has_extra;
     TokenCounts counts;
@@ -424,6 +424,28 @@ TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
     });
 }
 
+TEST(StrataKernel, EveryTargetFindsEachPixelsPlace) {
+    testing::on_every_target([&] {
+        for (const Size size : {Size{1, 1}, Size{7, 33}, Size{131, 31}, Size{132, 32},
+                                Size{133, 33}, Size{150, 64}, Size{200, 70}}) {
+            const DepthImage image = noise(size, 4);
+            const Layout layout = layout_of(size);
+            std::vector<std::uint16_t> pixels(layout.coded_values(), 0xabcd),
+                expected(layout.coded_values());
+            for (int y = 0; y < size.height; ++y) {
+                for (int x = 0; x < size.width; ++x)
+                    expected[std::size_t(layout.step_of(x, y) * lane_count + y % lane_count)] =
+                        image.view().row(y)[x];
+            }
+            rows_to_steps(layout, image.view(), pixels.data());
+            ASSERT_EQ(pixels, expected) << size.width << " x " << size.height;
+            DepthImage back(size);
+            steps_to_rows(layout, pixels.data(), nullptr, back.view());
+            ASSERT_EQ(back, image);
+        }
+    });
+}
+
 TEST(StrataValues, RanksOfNewValuesAreThoseOfATableMadeAnew) {
     std::mt19937 rng(5);
     for (const unsigned added : {0u, 1u, 24u, 25u, 300u}) {
@@ -432,22 +454,26 @@ TEST(StrataValues, RanksOfNewValuesAreThoseOfATableMadeAnew) {
             const std::uint16_t kinds[] = {0, 65535, std::uint16_t(100 + 7 * (rng() % 200))};
             depth = kinds[rng() % 3];
         }
+        const Layout layout = layout_of(image.size);
         strata::Values values = {100, 107, 5000};
         RankTables tables;
-        DepthImage ranks(image.size), again(image.size);
-        ASSERT_TRUE(tables.to_ranks(image.view(), values, ranks.view()));
+        std::vector<std::uint16_t> ranks(layout.coded_values()), again(layout.coded_values());
+        ASSERT_TRUE(tables.to_ranks(layout, image.view(), values, ranks.data()));
         for (unsigned i = 0; i < added; ++i)
             image.pixels[rng() % image.pixels.size()] = std::uint16_t(1 + rng() % 65534);
         const strata::Values before = values;
-        ASSERT_TRUE(tables.to_ranks(image.view(), values, ranks.view()));
+        ASSERT_TRUE(tables.to_ranks(layout, image.view(), values, ranks.data()));
         EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
         EXPECT_TRUE(std::includes(values.begin(), values.end(), before.begin(), before.end()));
         strata::Values same = values;
-        ASSERT_TRUE(RankTables().to_ranks(image.view(), same, again.view()));
+        ASSERT_TRUE(RankTables().to_ranks(layout, image.view(), same, again.data()));
         EXPECT_EQ(same, values);
         EXPECT_EQ(again, ranks);
-        RankTables().from_ranks(values, again.view());
-        EXPECT_EQ(again, image);
+        RankTables backward;
+        const std::uint16_t* const depths = backward.depths_of(values);
+        rows_to_steps(layout, image.view(), again.data());
+        for (std::size_t i = 0; i < ranks.size(); ++i)
+            ASSERT_EQ(depths[ranks[i]], again[i]);
     }
 }
 

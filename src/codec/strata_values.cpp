@@ -30,22 +30,6 @@ Values listed(const std::vector<std::uint8_t>& present) {
     return values;
 }
 
-constexpr std::uint16_t no_rank = 0x7fff;
-
-// Several at a time, as a loop costs as much as what is in it. `to` may be `from`.
-void look_up(const std::vector<std::uint16_t>& table, const std::uint16_t* from, int count,
-             std::uint16_t* to) {
-    constexpr int several = 8;
-    const std::uint16_t* of = table.data();
-    int i = 0;
-    for (; i + several <= count; i += several) {
-        for (int k = 0; k < several; ++k)
-            to[i + k] = of[from[i + k]];
-    }
-    for (; i < count; ++i)
-        to[i] = of[from[i]];
-}
-
 // Each depth's rank, no_rank where it has none.
 void make_ranks(const Values& values, std::vector<std::uint16_t>& ranks) {
     ranks.assign(all_depths, no_rank);
@@ -122,29 +106,16 @@ void RankTables::use(const Values& values) {
     make_ranks(values, forward_);
 }
 
-bool RankTables::to_ranks(DepthView depth, Values& values, MutableDepthView ranks) {
+bool RankTables::to_ranks(const Layout& layout, DepthView depth, Values& values,
+                          std::uint16_t* pixels) {
     use(values);
-    // Rows with ranks that are not numbers of a value: none, or that of 65535.
-    rows_again_.clear();
-    for (int y = 0; y < depth.size.height; ++y) {
-        look_up(forward_, depth.row(y), depth.size.width, ranks.row(y));
-        const std::uint16_t* row = ranks.row(y);
-        if (*std::max_element(row, row + depth.size.width) >= no_rank)
-            rows_again_.push_back(y);
-    }
-    Values added;
-    for (const int y : rows_again_) {
-        for (int x = 0; x < depth.size.width; ++x) {
-            std::uint16_t& rank = forward_[depth.row(y)[x]];
-            if (rank == no_rank) {
-                rank = 0;  // once
-                added.push_back(depth.row(y)[x]);
-            }
-        }
-    }
+    new_.depths.clear();
+    new_.bands.clear();
+    rows_to_ranks(layout, depth, nullptr, forward_.data(), pixels, new_);
+    const std::vector<std::uint16_t>& added = new_.depths;
     if (added.empty())
         return true;
-    forward_.clear();
+    forward_.clear();  // marked
     if (values.size() + added.size() > max_values)
         return false;
 
@@ -154,23 +125,19 @@ bool RankTables::to_ranks(DepthView depth, Values& values, MutableDepthView rank
     std::sort(middle, values.end());
     std::inplace_merge(values.begin(), middle, values.end());
     use(values);
-    RankShift shift(before, values);
-    for (int y = 0; y < depth.size.height; ++y)
-        shift.apply(ranks.row(y), std::size_t(depth.size.width), ranks.row(y));
-    for (const int y : rows_again_)
-        look_up(forward_, depth.row(y), depth.size.width, ranks.row(y));
+    RankShift(before, values).apply(pixels, layout.coded_values(), pixels);
+    rows_to_ranks(layout, depth, &new_.bands, forward_.data(), pixels, new_);
     return true;
 }
 
-void RankTables::from_ranks(const Values& values, MutableDepthView depth) {
+const std::uint16_t* RankTables::depths_of(const Values& values) {
     if (backward_values_ != values || backward_.empty()) {
         backward_values_ = values;
         backward_.assign(all_depths, 0);
         std::copy(values.begin(), values.end(), backward_.begin() + first_rank);
         backward_[all_depths - 1] = 65535;
     }
-    for (int y = 0; y < depth.size.height; ++y)
-        look_up(backward_, depth.row(y), depth.size.width, depth.row(y));
+    return backward_.data();
 }
 
 RankShift::RankShift(const Values& before, const Values& values) {

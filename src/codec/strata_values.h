@@ -41,22 +41,22 @@ private:
     std::vector<std::uint16_t> table_;  // of all ranks, if there are many bounds
 };
 
-// To ranks and back, with tables that are kept while the values stay the same.
+// The tables for both ways, kept while the values stay the same.
 class RankTables {
 public:
-    // Adds the values that the image has and `values` has not. 0 and 65535 stay
-    // what they are. False if there are too many values; `values` and `ranks` are
-    // then unspecified.
-    bool to_ranks(DepthView depth, Values& values, MutableDepthView ranks);
-    // Ranks without a value become 0.
-    void from_ranks(const Values& values, MutableDepthView depth);
+    // Writes an image as ranks by step and lane. Adds the values that it has and
+    // `values` has not. 0 and 65535 stay what they are. False if there are too many
+    // values; `values` and `pixels` are then unspecified.
+    bool to_ranks(const Layout& layout, DepthView depth, Values& values, std::uint16_t* pixels);
+    // The depth of each of 65536 ranks, 0 for those without a value.
+    const std::uint16_t* depths_of(const Values& values);
 
 private:
     void use(const Values& values);
 
     Values forward_values_, backward_values_;
-    std::vector<int> rows_again_;
     std::vector<std::uint16_t> forward_, backward_;
+    NewDepths new_;
 };
 
 }  // namespace theatron::codec::strata

@@ -148,6 +148,17 @@ TEST(Outbox, SendsEverythingToAFastPeer) {
     EXPECT_TRUE(outbox.empty());
 }
 
+TEST(Outbox, IsBehindWhileAFrameHasNotBegunToLeave) {
+    Outbox outbox;
+    EXPECT_FALSE(outbox.is_behind(StreamId{1}));
+    (void)outbox.push_media(frame(1, 0, true, 0, 100'000));
+    EXPECT_TRUE(outbox.is_behind(StreamId{1}));
+    EXPECT_FALSE(outbox.is_behind(StreamId{2}));
+    Bytes envelope;
+    ASSERT_TRUE(outbox.next(envelope, from_us(2000)));
+    EXPECT_FALSE(outbox.is_behind(StreamId{1}));
+}
+
 TEST(Outbox, ControlOvertakesALargeFrame) {
     Outbox outbox;
     outbox.push_media(frame(1, 0, true, 0, 100'000));

@@ -81,6 +81,12 @@ public:
 
     SendingFigures take_figures(TimePoint now);
 
+    // A frame of the stream has not begun to leave: another would only wait behind it.
+    bool is_behind(StreamId stream) const {
+        const auto lane = lanes_.find(stream);
+        return lane != lanes_.end() && !lane->second.waiting.empty();
+    }
+
     bool empty() const { return control_.empty() && !sending_ && waiting_ == 0; }
     std::size_t waiting_frames() const { return waiting_ + (sending_ ? 1 : 0); }
 

@@ -238,6 +238,11 @@ void Server::set_ceiling(PeerId peer, double bytes_per_second) {
     connection->set_ceiling(bytes_per_second);
 }
 
+bool Server::is_behind(PeerId peer, StreamId stream) const {
+    const auto found = impl_->peers.find(peer);
+    return found != impl_->peers.end() && found->second->is_behind(stream);
+}
+
 SendingFigures Server::take_figures(PeerId peer) {
     const auto found = impl_->peers.find(peer);
     return found == impl_->peers.end() ? SendingFigures{} : found->second->take_figures();

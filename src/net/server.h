@@ -62,6 +62,7 @@ public:
     void acknowledge(PeerId peer, std::uint64_t media_bytes);
     void set_ceiling(PeerId peer, double bytes_per_second);
     SendingFigures take_figures(PeerId peer);
+    bool is_behind(PeerId peer, StreamId stream) const;
     void close(PeerId peer, const std::string& why);  // after the control that is queued
 
 private:

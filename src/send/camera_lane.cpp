@@ -71,6 +71,15 @@ void CameraLane::set_filter(filter::ChainSettings settings,
     orders_.filter_changed = true;
 }
 
+void CameraLane::hold(bool held) {
+    {
+        const std::lock_guard lock(mutex_);
+        held_ = held;
+        wanted_ |= newest_.waiting();
+    }
+    begin_work();
+}
+
 void CameraLane::request_key(StreamId stream, SettingId setting) {
     const std::lock_guard lock(mutex_);
     orders_.keys.insert({stream, setting});
@@ -121,7 +130,7 @@ void CameraLane::look() {
 void CameraLane::begin_work() {
     {
         const std::lock_guard lock(mutex_);
-        if (busy_ || stopping_ || !wanted_)
+        if (busy_ || stopping_ || held_ || !wanted_)
             return;
         busy_ = true;
         wanted_ = false;
@@ -152,7 +161,8 @@ void CameraLane::work() {
     bool more;
     {
         const std::lock_guard lock(mutex_);
-        more = (std::exchange(wanted_, false) || newest_.waiting()) && !stopping_;
+        more = (wanted_ || newest_.waiting()) && !stopping_ && !held_;
+        wanted_ = wanted_ && !more;
         busy_ = more;
         // Notified under the lock: the lane may be gone as soon as it is free.
         if (!more)
@@ -229,7 +239,7 @@ void CameraLane::encode_frame(TimePoint begin) {
                     meter_.on_damaged_color();
             });
     };
-    Workers::both(encode_depth, encode_color);
+    workers_.both(encode_depth, encode_color);
     keys_.clear();
     meter_.on_stage(Stage::lane, steady_now() - begin);
 }

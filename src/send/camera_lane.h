@@ -72,6 +72,9 @@ public:
     // where a codec's error is bounded; empty: all of it. It must be strata::is_valid.
     void set_region(codec::strata::Region region);
 
+    // Begins no frame while held: nobody could take it yet. The newest one waits.
+    void hold(bool held);
+
     // The next frame, or if none comes soon the last one again, becomes a key frame.
     void request_key(StreamId stream, SettingId setting);
 
@@ -113,6 +116,7 @@ private:
     Orders orders_;
     TimePoint frame_came_;
     bool wanted_ = false;  // there is something to do although no frame has come
+    bool held_ = false;
     bool stopping_ = false;
     bool busy_ = false;  // work() is running or will
 

@@ -213,6 +213,35 @@ TEST_F(Lane, NothingIsEncodedForNobody) {
     EXPECT_TRUE(published.empty());
 }
 
+TEST_F(Lane, WhileHeldTheNewestFrameWaitsAndNoReferenceIsMissing) {
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    script->give_frame(1000);
+    ASSERT_TRUE(wait_for(1));
+    lane->hold(true);
+    script->give_frame(1001);
+    // As far apart as those of a camera are.
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    script->give_frame(1002);
+    const TimePoint deadline = steady_now() + std::chrono::seconds(20);
+    while (lane->figures().dropped[std::size_t(DropReason::newer)] == 0 && steady_now() < deadline)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lane->hold(false);
+    ASSERT_TRUE(wait_for(2));
+    const std::lock_guard lock(mutex);
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_FALSE(published[1].header.key);
+    EXPECT_EQ(published[1].header.reference, published[0].header.frame);
+    codec::DepthStreamDecoder decoder(codec::parse_depth_setting("trvl").setting);
+    DepthImage image(size);
+    for (const EncodedMedia& media : published) {
+        const wire::MediaHeader& h = media.header;
+        ASSERT_EQ(decoder.decode({h.frame, h.reference, h.temporal_layer, h.key},
+                                 wire::media_payload(*media.message), image.view()),
+                  Status::ok);
+    }
+    EXPECT_EQ(image.pixels[0], 1002);
+}
+
 TEST_F(Lane, AFailureIsToldWithItsSentence) {
     script->give({capture::Capture::Kind::failed, nullptr, "The cable is out."});
     std::unique_lock lock(mutex);

@@ -3,6 +3,7 @@
 // however many cameras there are, and one that looks after time.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <map>
@@ -29,13 +30,23 @@ public:
     // Does `work` soon, first come first served. It must not wait for other work.
     template <class Work>
     void enqueue(Work work) {
-        arena_.enqueue(std::move(work));
+        ++waiting_;
+        arena_.enqueue([this, work = std::move(work)] {
+            --waiting_;
+            work();
+        });
     }
 
     // From within work: does both, on two threads if one is idle. Nothing else is
-    // begun meanwhile, so that what is nearly done is done first.
+    // begun meanwhile, so that what is nearly done is done first. While other work
+    // waits, one after the other: nobody then waits for another thread's half.
     template <class A, class B>
-    static void both(const A& a, const B& b) {
+    void both(const A& a, const B& b) {
+        if (waiting_ > 0) {
+            a();
+            b();
+            return;
+        }
         tbb::this_task_arena::isolate([&] { tbb::parallel_invoke(a, b); });
     }
 
@@ -56,6 +67,7 @@ private:
     void look_around();
 
     const int threads_;
+    std::atomic<int> waiting_{0};
     // The library counts the calling thread, which does no work here.
     tbb::global_control limit_;
     tbb::task_arena arena_;

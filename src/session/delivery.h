@@ -44,6 +44,10 @@ public:
     // one another.
     bool lets_through(StreamId stream, int layer);
 
+    // Sends less by the ladder's steps when frames are late; without a goal for their
+    // age they are only dropped.
+    bool adapts() const { return goal_.target_latency_ms > 0; }
+
 private:
     std::vector<StepNeed> needs(const Given& given, StreamRates& rates, TimePoint now) const;
     const LadderStep* step_with_color(const std::string& codec) const;

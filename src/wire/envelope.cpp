@@ -24,7 +24,7 @@ Bytes wrap_control(ByteView control) {
 
 std::size_t wrap_chunk(ByteView media, std::size_t offset, Bytes& out) {
     assert(offset < media.size() && media.size() <= max_media_size);
-    const std::size_t size = std::min(max_chunk_size, media.size() - offset);
+    const std::size_t size = std::min(usual_chunk_size, media.size() - offset);
     out.resize(chunk_header_size);
     out[0] = kind_chunk;
     store_le(out.data() + 1, std::uint32_t(offset));

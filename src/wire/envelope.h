@@ -17,6 +17,8 @@ namespace theatron::wire {
 
 inline constexpr std::size_t max_chunk_size = 16 * 1024;  // bytes of media in one envelope
 inline constexpr std::size_t chunk_header_size = 9;
+// What we put into one: with the headers in front of it, it fills one TLS record.
+inline constexpr std::size_t usual_chunk_size = max_chunk_size - 64;
 inline constexpr std::size_t max_control_size = 64 * 1024;
 inline constexpr std::size_t max_envelope_size = max_control_size + 1;
 
