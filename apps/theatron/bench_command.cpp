@@ -323,17 +323,19 @@ void add_view(CLI::App& bench) {
                         r["gl_renderer"].get<std::string>().c_str(), r["width"].get<int>(),
                         r["height"].get<int>(), r["cameras"].get<int>(), r["views"].get<int>(),
                         flags->filter.c_str());
-            std::printf("  %-8s %8s %10s %6s %8s %11s %9s %13s %12s\n", "renderer", "PSNR dB",
-                        "in overlap", "SSIM", "holes %", "outline px", "flicker", "patterned dB",
-                        "depth-sized");
+            std::printf("  %-8s %8s %10s %6s %8s %11s %9s %13s %6s %12s %11s\n", "renderer",
+                        "PSNR dB", "in overlap", "SSIM", "holes %", "outline px", "flicker",
+                        "patterned dB", "1080p", "depth-sized", "registered");
             for (const auto& v : r["renderers"])
-                std::printf("  %-8s %8.2f %10.2f %6.3f %8.2f %11.2f %9.2f %13.2f %12.2f\n",
-                            v["name"].get<std::string>().c_str(), v["psnr_db"].get<double>(),
-                            v["psnr_overlap_db"].get<double>(), v["ssim"].get<double>(),
-                            v["holes_percent"].get<double>(), v["silhouette_px"].get<double>(),
-                            v["flicker_overlap"].get<double>(),
-                            v["psnr_patterned_db"].get<double>(),
-                            v["psnr_patterned_depth_sized_db"].get<double>());
+                std::printf(
+                    "  %-8s %8.2f %10.2f %6.3f %8.2f %11.2f %9.2f %13.2f %6.2f %12.2f %11.2f\n",
+                    v["name"].get<std::string>().c_str(), v["psnr_db"].get<double>(),
+                    v["psnr_overlap_db"].get<double>(), v["ssim"].get<double>(),
+                    v["holes_percent"].get<double>(), v["silhouette_px"].get<double>(),
+                    v["flicker_overlap"].get<double>(), v["psnr_patterned_db"].get<double>(),
+                    v["psnr_patterned_fine_db"].get<double>(),
+                    v["psnr_patterned_depth_sized_db"].get<double>(),
+                    v["psnr_patterned_registered_db"].get<double>());
         });
     });
 }

@@ -8,7 +8,9 @@
 
 #include "base/error.h"
 #include "codec/depth_codec.h"
+#include "codec/rows.h"
 #include "filter/chain.h"
+#include "filter/color_registration.h"
 #include "geometry/ray_table.h"
 #include "synthetic/operating_room.h"
 #include "synthetic/sensor_model.h"
@@ -184,6 +186,11 @@ ViewBenchCamera make_camera(const OperatingRoom& room, const synthetic::RoomMome
         camera.depth[frame] = chain.depth(truth, frame);
         camera.color[frame] = chain.color(truth, frame);
     }
+    const Calibration fine = synthetic::synthetic_camera(synthetic::Variant::room, index,
+                                                         options.cameras, options.fine_color);
+    const GroundTruth fine_truth = room.look_from(fine, {false, true, false})->render(moment);
+    camera.fine_color = chain.color(fine_truth, ViewBenchCamera::frames - 1);
+    camera.fine_model = fine.color;
     camera.exact_depth_m = std::move(truth.depth_m);
     camera.exact_color = std::move(truth.color);
     return camera;
@@ -289,14 +296,34 @@ ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
     return scene;
 }
 
-DepthSizedColor depth_sized_color(const Calibration& calibration, DepthView depth,
+namespace {
+
+ViewBenchImages without_color(const Calibration& calibration, DepthView depth) {
+    ViewBenchImages result{calibration, DepthImage(depth.size), ColorImage(depth.size)};
+    result.calibration.color = calibration.depth;
+    result.calibration.color_from_depth = {};
+    codec::copy_rows(depth, result.depth.view());
+    return result;
+}
+
+}  // namespace
+
+ViewBenchImages registered_color(const Calibration& calibration, DepthView depth, ColorView color) {
+    ViewBenchImages result = without_color(calibration, depth);
+    Image<std::uint8_t> seen(depth.size);
+    filter::ColorRegistration(calibration).apply(depth, color, result.color.view(), seen.view());
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
+        if (seen.pixels[i] == 0)
+            result.depth.pixels[i] = 0;
+    return result;
+}
+
+ViewBenchImages depth_sized_color(const Calibration& calibration, DepthView depth,
                                   ColorView color) {
     const Size size = depth.size;
     const CameraModel lens = scaled(calibration.color, color.size);
     const Image<Ray> rays = make_ray_table(calibration.depth);
-    DepthSizedColor result{calibration, ColorImage(size)};
-    result.calibration.color = calibration.depth;
-    result.calibration.color_from_depth = {};
+    ViewBenchImages result = without_color(calibration, depth);
     for (int y = 0; y < size.height; ++y) {
         // Where nothing was measured renderers may close the gap: its colour is that of a surface
         // at the last distance.

@@ -22,6 +22,9 @@ struct ViewBenchCamera {
     static constexpr int frames = 5;
     DepthImage depth[frames];
     ColorImage color[frames];
+    // The last frame's picture from a colour camera of more pixels, and that camera.
+    ColorImage fine_color;
+    CameraModel fine_model;
 };
 
 // A place to look from, and the truth.
@@ -38,6 +41,7 @@ struct ViewBenchOptions {
     int cameras = 4;               // 1 to 12
     Size picture{640, 360};        // of the exact pictures
     Size color{1280, 720};         // of the cameras' pictures
+    Size fine_color{1920, 1080};   // of a second picture, for what has fine patterns
     double exposure_stops = 0.12;  // standard deviation between cameras
     double detail = 1;             // of the generated room
     double seconds = 3;            // the moment
@@ -53,12 +57,18 @@ struct ViewBenchScene {
 ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
                                      const capture::Progress& progress);
 
-// The camera with its colour brought to the depth image's pixels by `depth`, one colour
-// for each, as drivers offer it.
-struct DepthSizedColor {
+// What a viewer gets of one camera's frame.
+struct ViewBenchImages {
     Calibration calibration;
+    DepthImage depth;
     ColorImage color;
 };
-DepthSizedColor depth_sized_color(const Calibration& calibration, DepthView depth, ColorView color);
+
+// Colour in the depth image's pixels: the picture interpolated at each depth pixel's place.
+ViewBenchImages depth_sized_color(const Calibration& calibration, DepthView depth, ColorView color);
+
+// As drivers and programs that send points do it: each depth pixel gets the one pixel of the colour
+// picture that it falls on (filter::ColorRegistration). Those that get none lose their depth.
+ViewBenchImages registered_color(const Calibration& calibration, DepthView depth, ColorView color);
 
 }  // namespace theatron::app
