@@ -9,6 +9,7 @@
 
 #include "render/cloud_passes.h"
 #include "render/color_visibility.h"
+#include "render/steady_colors.h"
 
 namespace theatron::render {
 namespace {
@@ -40,9 +41,14 @@ public:
                "mesh.vert"},
               {"cloud.glsl", "color.glsl", "torn.glsl", "fade.glsl", "blend_layer.frag"})),
           columns_(layer_program_.uniform("columns")),
-          first_camera_(layer_program_.uniform("first_camera")) {}
+          first_camera_(layer_program_.uniform("first_camera")) {
+        layer_program_.set_sampler("color_images", SteadyColors::texture_unit);
+    }
 
-    void prepare(const CloudFrame& frame) override { surfaces_.update(frame.textures); }
+    void prepare(const CloudFrame& frame) override {
+        colors_seen_.update(frame.textures);
+        surfaces_.update(frame.textures);
+    }
 
     void draw(const CloudFrame& frame) override {
         make_layers(frame.target.size, int(frame.textures.sources().size()));
@@ -71,7 +77,9 @@ private:
         glEnable(GL_DEPTH_TEST);
         layer_program_.use();
         glUniform1i(columns_, frame.textures.depth_size().width);
-        for (int layer = 0; layer < count_; ++layer) {
+        int layer = 0;
+        for (const auto& [id, source] : frame.textures.sources()) {
+            colors_seen_.bind(source);
             glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colors_->name(), 0,
                                       layer);
             glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depths_->name(), 0,
@@ -79,7 +87,7 @@ private:
             const float nothing[] = {0, 0, 0, 0}, farthest = 1;
             glClearBufferfv(GL_COLOR, 0, nothing);
             glClearBufferfv(GL_DEPTH, 0, &farthest);
-            glUniform1i(first_camera_, layer);
+            glUniform1i(first_camera_, layer++);
             frame.grid.draw(frame.textures.depth_size(), 1);
         }
     }
@@ -120,6 +128,7 @@ private:
     Program layer_program_;
     std::optional<BlendProgram> blend_program_;
     GLint columns_, first_camera_;
+    SteadyColors colors_seen_;
     SurfaceMaps surfaces_{SurfaceMaps::Kind::refined};
     Framebuffer framebuffer_;
     std::optional<Texture> colors_, depths_;

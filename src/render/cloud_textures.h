@@ -44,6 +44,8 @@ public:
     const std::map<CameraId, CloudSource>& sources() const { return sources_; }
     // The size that all layers of depth share; 0 x 0 without cameras.
     Size depth_size() const { return depth_size_; }
+    // That all layers of colour share; at least 1 x 1 with cameras.
+    Size color_size() const { return color_size_; }
     int layers() const { return layers_; }
 
     // Binds depth, rays and colour to the texture units 0, 1 and 2.

@@ -3,8 +3,10 @@
 // picture for each camera.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "render/cloud_scene.h"
 #include "render/gl.h"
 
 namespace theatron::render {
@@ -16,15 +18,17 @@ public:
     EdgeMaps();
 
     // Draws the map of one camera from refined depth (SurfaceMaps), which must be bound, and
-    // binds all maps to their unit. Changes framebuffer and viewport.
-    void draw(int camera, int layer, Size depth, int layers);
+    // binds the maps that have it to their unit. With `has_before` the map follows slowly what it
+    // was for the frame before. Changes framebuffer and viewport.
+    void draw(int camera, int layer, Size depth, int layers, bool has_before);
 
 private:
     Program find_edges_, spread_;
-    GLint camera_;
+    GLint camera_, layer_, has_before_;
     Framebuffer framebuffer_;
-    std::optional<Texture> whole_;  // of one camera, between the two steps
-    std::optional<Texture> distances_;
+    std::optional<Texture> whole_;                // of one camera, between the two steps
+    std::optional<Texture> distances_[2];         // of this frame and of the one before
+    std::array<unsigned, max_cameras> newest_{};  // which of the two is which, by layer
     Size size_;
     int layers_ = 0;
 };

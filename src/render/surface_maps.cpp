@@ -90,7 +90,7 @@ void SurfaceMaps::refine(int camera, int layer, bool has_before) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
     glActiveTexture(GL_TEXTURE0 + refined_unit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, after.name());
-    edges_->draw(camera, layer, size_, layers_);
+    edges_->draw(camera, layer, size_, layers_, has_before);
 }
 
 }  // namespace theatron::render

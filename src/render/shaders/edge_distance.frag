@@ -3,6 +3,9 @@
 // depth pixels on. What edges.frag drew is the input.
 
 uniform sampler2D whole;
+uniform sampler2DArray distances_before;  // what this shader drew for the frame before
+uniform int layer;
+uniform bool has_before;
 
 layout(location = 0) out vec4 out_distance;
 
@@ -18,5 +21,9 @@ void main() {
             if (!inside || texelFetch(whole, place, 0).r < 0.5)
                 nearest = min(nearest, length(vec2(x, y)));
         }
-    out_distance = vec4(nearest / reach);
+    float distance = nearest / reach;
+    // Gaps that come and go would make the cameras' weights flicker.
+    if (has_before)
+        distance = mix(texelFetch(distances_before, ivec3(here, layer), 0).r, distance, 0.25);
+    out_distance = vec4(distance);
 }

@@ -84,21 +84,72 @@ float smoothed(ivec2 pixel, float z) {
     return sum / weight;
 }
 
-// What stays follows its noise slowly; what moves is taken as it is.
-float steadied(ivec2 pixel, float z) {
-    if (!has_before || z == 0.0)
-        return z;
-    uint bits = texelFetch(refined_before, ivec3(pixel, layer_of(camera)), 0).r;
-    float before = uintBitsToFloat(bits);
-    // Noise grows as less light comes back.
+// How many of the eight neighbours measure this surface now.
+int support(float around[8], float z) {
+    float limit = largest_step(footprint_m(camera, z));
+    int count = 0;
+    for (int i = 0; i < 8; ++i)
+        count += int(abs(around[i] - z) < limit);
+    return count;
+}
+
+// The sensor gives no depth where light of two surfaces meets in a pixel: the nearer one
+// goes on to about the middle of those. 0 where too few neighbours agree.
+float widened(float around[8]) {
+    float nearest = 1e6;
+    for (int i = 0; i < 8; ++i)
+        if (around[i] > 0.0)
+            nearest = min(nearest, around[i]);
+    if (nearest == 1e6)
+        return 0.0;
+    float limit = largest_step(footprint_m(camera, nearest));
+    float sum = 0.0, count = 0.0;
+    for (int i = 0; i < 8; ++i)
+        if (abs(around[i] - nearest) < limit) {
+            sum += around[i];
+            count += 1.0;
+        }
+    return count >= 3.0 ? sum / count : 0.0;
+}
+
+const uint age_bits = 15u;  // the lowest bits of refined depth: frames since it was measured
+
+// What stays follows its noise slowly; what moves is taken as it is. What was there and is missing now, or jumps, is
+// kept for some frames as long as its neighbours still measure that surface.
+uint steadied(float around[8], float measured, float z) {
+    if (!has_before)
+        return floatBitsToUint(z) & ~age_bits;
+    uint bits = texelFetch(refined_before, ivec3(gl_FragCoord.xy, layer_of(camera)), 0).r;
+    float before = uintBitsToFloat(bits & ~age_bits);
+    uint age = bits & age_bits;
+    if (before == 0.0)
+        return floatBitsToUint(z) & ~age_bits;
     float noise = 0.0015 + 0.0008 * z * z;
-    float moved = smoothstep(1.0, 3.5, abs(z - before) / noise);
-    return mix(before, z, mix(0.2, 1.0, moved));
+    float change = abs(z - before) / noise;
+    if (measured == 0.0 || change > 12.0) {
+        uint longest = measured == 0.0 ? 15u : 2u;
+        if (age < longest && support(around, before) >= 3)
+            return (floatBitsToUint(before) & ~age_bits) | (age + 1u);
+    }
+    float moved = smoothstep(2.0, 6.0, change);
+    return floatBitsToUint(z == 0.0 ? 0.0 : mix(before, z, mix(0.1, 1.0, moved))) & ~age_bits;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float z = surface_m(camera, pixel);
-    z = z > 0.0 ? smoothed(pixel, straightened(pixel, z)) : filled(pixel);
-    out_depth = floatBitsToUint(steadied(pixel, z));
+    float around[8];
+    for (int i = 0; i < 8; ++i)
+        around[i] = surface_near(camera, pixel,
+                                 ivec2[8](ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0),
+                                          ivec2(1, 0), ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1))[i]);
+    float measured = surface_m(camera, pixel);
+    float z = measured;
+    if (measured > 0.0)
+        z = smoothed(pixel, straightened(pixel, measured));
+    else {
+        z = filled(pixel);
+        if (z == 0.0)
+            z = widened(around);
+    }
+    out_depth = steadied(around, measured, z);
 }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A colour picture that follows its noise slowly.
+
+uniform int layer;
+uniform bool has_before;
+uniform sampler2DArray colors_before;  // what this shader drew for the frame before
+
+layout(location = 0) out vec4 out_color;
+
+void main() {
+    ivec3 place = ivec3(gl_FragCoord.xy, layer);
+    vec3 color = texelFetch(color_images, place, 0).rgb;
+    vec3 before = texelFetch(colors_before, place, 0).rgb;
+    vec3 change = abs(color - before);
+    // The noise of sensor and compression has a deviation of two to four steps of 255.
+    float changed = smoothstep(8.0 / 255.0, 18.0 / 255.0, max(change.r, max(change.g, change.b)));
+    out_color = vec4(has_before ? mix(before, color, mix(0.15, 1.0, changed)) : color, 1.0);
+}
