@@ -8,6 +8,7 @@ uniform bool has_before;
 
 layout(location = 0) out uint out_depth;
 
+const uint age_bits = 15u;     // of refined depth: frames since it was measured
 const int reach = 8;           // pixels, to either side of a gap
 const float widest_gap = 9.0;  // pixels, from side to side
 
@@ -68,16 +69,36 @@ float straightened(ivec2 pixel, float z) {
     return z;
 }
 
-// A mean of the neighbours on the same surface. Pairs of opposite neighbours, so that
-// slopes and rims stay where they are.
+// What the sensor's deviation may be: it grows as less light comes back.
+float noise_m(float z) {
+    return 0.0015 + 0.0008 * z * z;
+}
+
+// Refined depth of the frame before, 0 where there was none. The lowest bits count frames; see steadied().
+float depth_before(ivec2 pixel) {
+    ivec2 last = textureSize(depth_images, 0).xy - 1;
+    ivec3 place = ivec3(clamp(pixel, ivec2(0), last), layer_of(camera));
+    return uintBitsToFloat(texelFetch(refined_before, place, 0).r & ~age_bits);
+}
+
+// A mean of the neighbours on the same surface. Pairs of opposite neighbours, so that slopes and rims stay
+// where they are. A pair whose middle is not here has a step in between, which is no noise; where nothing
+// moved, the frame before tells, so that noise does not decide anew each time.
 float smoothed(ivec2 pixel, float z) {
     float limit = largest_step(footprint_m(camera, z));
+    float noise = noise_m(z);
+    float before = has_before ? depth_before(pixel) : 0.0;
+    bool stayed = abs(before - z) < 2.0 * noise;
     float sum = 2.0 * z, weight = 2.0;
     for (int i = 0; i < 6; ++i) {
         ivec2 offset = ivec2[6](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0),
                                 ivec2(0, 2))[i];
         float a = surface_near(camera, pixel, offset), b = surface_near(camera, pixel, -offset);
         float w = abs(a - z) < limit && abs(b - z) < limit ? (i < 2 ? 1.5 : i < 4 ? 1.0 : 0.6) : 0.0;
+        float step = abs(a + b - 2.0 * z);
+        if (stayed)
+            step = abs(depth_before(pixel + offset) + depth_before(pixel - offset) - 2.0 * before);
+        w *= 1.0 - smoothstep(1.5 * noise, 3.0 * noise, step);
         sum += w * (a + b);
         weight += 2.0 * w;
     }
@@ -112,27 +133,40 @@ float widened(float around[8]) {
     return count >= 3.0 ? sum / count : 0.0;
 }
 
-const uint age_bits = 15u;  // the lowest bits of refined depth: frames since it was measured
+// The lowest bits of refined depth tell what happened: 0 nothing, 1 or 2 it was further or nearer than before,
+// more: for how many frames it has been missing.
+const uint went_back = 1u, came_near = 2u, longest_missing = 15u;
 
-// What stays follows its noise slowly; what moves is taken as it is. What was there and is missing now, or jumps, is
-// kept for some frames as long as its neighbours still measure that surface.
+uint remembered(float z, uint happened) {
+    return (floatBitsToUint(z) & ~age_bits) | happened;
+}
+
+// What stays follows its noise slowly; what moves is taken as it is, but a step is believed only
+// when the next frame confirms it: at edges depth flutters. What is missing is kept for some frames. Where
+// its neighbours no longer measure the old surface, nothing is kept.
 uint steadied(float around[8], float measured, float z) {
     if (!has_before)
-        return floatBitsToUint(z) & ~age_bits;
+        return remembered(z, 0u);
     uint bits = texelFetch(refined_before, ivec3(gl_FragCoord.xy, layer_of(camera)), 0).r;
     float before = uintBitsToFloat(bits & ~age_bits);
-    uint age = bits & age_bits;
+    uint happened = bits & age_bits;
     if (before == 0.0)
-        return floatBitsToUint(z) & ~age_bits;
-    float noise = 0.0015 + 0.0008 * z * z;
-    float change = abs(z - before) / noise;
-    if (measured == 0.0 || change > 12.0) {
-        uint longest = measured == 0.0 ? 15u : 2u;
-        if (age < longest && support(around, before) >= 3)
-            return (floatBitsToUint(before) & ~age_bits) | (age + 1u);
+        return remembered(z, 0u);
+    float change = (z - before) / noise_m(z);
+    bool supported = support(around, before) >= 3;
+    if (measured == 0.0) {
+        if (happened < longest_missing && supported)
+            return remembered(before, max(happened, came_near) + 1u);
+        if (z == 0.0)
+            return 0u;
     }
-    float moved = smoothstep(2.0, 6.0, change);
-    return floatBitsToUint(z == 0.0 ? 0.0 : mix(before, z, mix(0.1, 1.0, moved))) & ~age_bits;
+    const float slowly = 0.06;
+    uint direction = abs(change) < 2.0 ? 0u : change > 0.0 ? went_back : came_near;
+    bool confirmed = happened == direction;
+    if (!confirmed && (abs(change) < 12.0 || supported))
+        return remembered(abs(change) < 12.0 ? mix(before, z, slowly) : before, direction);
+    float moved = smoothstep(2.0, 6.0, abs(change));
+    return remembered(mix(before, z, mix(slowly, 1.0, moved)), direction);
 }
 
 void main() {
