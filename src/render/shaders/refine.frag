@@ -130,7 +130,7 @@ float widened(float around[8]) {
             sum += around[i];
             count += 1.0;
         }
-    return count >= 3.0 ? sum / count : 0.0;
+    return count >= 2.0 ? sum / count : 0.0;
 }
 
 // The lowest bits of refined depth tell what happened: 0 nothing, 1 or 2 it was further or nearer than before,
@@ -153,9 +153,9 @@ uint steadied(float around[8], float measured, float z) {
     if (before == 0.0)
         return remembered(z, 0u);
     float change = (z - before) / noise_m(z);
-    bool supported = support(around, before) >= 3;
+    int supporting = support(around, before);
     if (measured == 0.0) {
-        if (happened < longest_missing && supported)
+        if (happened < longest_missing && supporting >= 1)
             return remembered(before, max(happened, came_near) + 1u);
         if (z == 0.0)
             return 0u;
@@ -163,7 +163,7 @@ uint steadied(float around[8], float measured, float z) {
     const float slowly = 0.06;
     uint direction = abs(change) < 2.0 ? 0u : change > 0.0 ? went_back : came_near;
     bool confirmed = happened == direction;
-    if (!confirmed && (abs(change) < 12.0 || supported))
+    if (!confirmed && (abs(change) < 12.0 || supporting >= 3))
         return remembered(abs(change) < 12.0 ? mix(before, z, slowly) : before, direction);
     float moved = smoothstep(2.0, 6.0, abs(change));
     return remembered(mix(before, z, mix(slowly, 1.0, moved)), direction);
