@@ -188,7 +188,7 @@ ViewBenchCamera make_camera(const OperatingRoom& room, const synthetic::RoomMome
     }
     const Calibration fine = synthetic::synthetic_camera(synthetic::Variant::room, index,
                                                          options.cameras, options.fine_color);
-    const GroundTruth fine_truth = room.look_from(fine, {false, true, false})->render(moment);
+    const GroundTruth fine_truth = room.look_from(fine, {.depth = false})->render(moment);
     camera.fine_color = chain.color(fine_truth, ViewBenchCamera::frames - 1);
     camera.fine_model = fine.color;
     camera.exact_depth_m = std::move(truth.depth_m);
