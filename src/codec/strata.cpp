@@ -42,6 +42,22 @@ std::uint8_t next_age(bool delta, const Memory& before) {
     return delta ? std::uint8_t(before.head->age % period + 1) : std::uint8_t(0);
 }
 
+// What the coding of one image needs and nobody reads afterwards. It is the thread's and
+// not the codec's: codecs of many cameras that take turns would push each other's memory
+// out of the caches. Where pixels were are tokens when they are coded.
+struct Scratch {
+    std::vector<std::uint16_t> pixels, trial_tokens, extras, words, moved;
+    std::vector<std::uint8_t> has_extra;
+    TokenCounts token_counts;
+    Counts counts;
+    Frequencies frequencies;
+
+    static Scratch& of_this_thread() {
+        thread_local Scratch scratch;
+        return scratch;
+    }
+};
+
 class Codec final : public DepthCodec {
 public:
     explicit Codec(const StrataParams& params) {
@@ -83,27 +99,21 @@ private:
     bool everywhere_ = false;
     Region region_;
 
-    // Scratch memory. Where pixels were are tokens when they are coded.
     Layout layout_;
-    std::vector<std::uint16_t> pixels_, trial_tokens_, extras_, words_, moved_;
     std::vector<std::uint8_t> region_rows_, region_steps_;
     Region drawn_;
     RankTables tables_;
     Bytes side_, own_memory_;
-    std::vector<std::uint8_t> has_extra_;
-    TokenCounts token_counts_;
-    Counts counts_;
-    Frequencies frequencies_;
     Slots slots_;
 };
 
 void Codec::prepare(Size size) {
-    if (layout_.size == size)
-        return;
-    layout_ = layout_of(size);
-    pixels_.resize(layout_.coded_values());
-    region_steps_.clear();
-    drawn_.clear();
+    if (layout_.size != size) {
+        layout_ = layout_of(size);
+        region_steps_.clear();
+        drawn_.clear();
+    }
+    Scratch::of_this_thread().pixels.resize(layout_.coded_values());
 }
 
 // The region by step and lane.
@@ -127,16 +137,18 @@ const std::uint8_t* Codec::draw(const Region& region) {
 
 void Codec::encode_and_count(const Model& model, const std::uint16_t* pixels,
                              const CodedPixels& coded) {
-    for (Counts& table : token_counts_.of)
+    Scratch& scratch = Scratch::of_this_thread();
+    for (Counts& table : scratch.token_counts.of)
         table.fill(0);
     encode_model(model, pixels, coded);
-    const auto& of = token_counts_.of;
-    for (std::size_t i = 0; i < counts_.size(); ++i)
-        counts_[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
+    const auto& of = scratch.token_counts.of;
+    for (std::size_t i = 0; i < scratch.counts.size(); ++i)
+        scratch.counts[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
 }
 
 // Tries both ways of predicting on 32 rows in the middle of the image.
 bool Codec::blend_pays(Model model, CodedPixels coded) {
+    Scratch& scratch = Scratch::of_this_thread();
     const int group = (layout_.groups - 1) / 2;
     const std::size_t at = std::size_t(group) * std::size_t(layout_.pitch);
     model.layout.size.height = std::min(lane_count, layout_.size.height - group * lane_count);
@@ -147,13 +159,13 @@ bool Codec::blend_pays(Model model, CodedPixels coded) {
         model.reference_valid += at;
     }
     model.tolerance = {};
-    trial_tokens_.resize(model.layout.coded_values());
-    coded.token = trial_tokens_.data();
+    scratch.trial_tokens.resize(model.layout.coded_values());
+    coded.token = scratch.trial_tokens.data();
     double bits[2];
     for (const bool blend : {false, true}) {
         model.blend = blend;
-        encode_and_count(model, pixels_.data() + at * lane_count, coded);
-        bits[blend] = ideal_bits(counts_);
+        encode_and_count(model, scratch.pixels.data() + at * lane_count, coded);
+        bits[blend] = ideal_bits(scratch.counts);
     }
     return bits[true] < bits[false];
 }
@@ -162,10 +174,11 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
                           Reference* next) {
     assert(strata::is_codable(depth.size) && out.size() >= max_encoded_size(depth.size));
     prepare(depth.size);
+    Scratch& scratch = Scratch::of_this_thread();
     const std::size_t plane = layout_.plane_values();
-    extras_.resize(layout_.coded_values());
-    has_extra_.resize(std::size_t(layout_.steps));
-    words_.resize(max_words(layout_) + 2 * word_slack);
+    scratch.extras.resize(layout_.coded_values());
+    scratch.has_extra.resize(std::size_t(layout_.steps));
+    scratch.words.resize(max_words(layout_) + 2 * word_slack);
 
     Payload payload;
     payload.size = depth.size;
@@ -178,14 +191,14 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (payload.delta) {
         old_values = values = before.values();
         // Too many values: begin anew.
-        if (!values.empty() && !tables_.to_ranks(layout_, depth, values, pixels_.data()))
+        if (!values.empty() && !tables_.to_ranks(layout_, depth, values, scratch.pixels.data()))
             payload.delta = false;
     }
     if (!payload.delta) {
         old_values.clear();
         values = find_values(depth, payload.tolerance);
         if (!values.empty())
-            tables_.to_ranks(layout_, depth, values, pixels_.data());
+            tables_.to_ranks(layout_, depth, values, scratch.pixels.data());
     }
     payload.ranks = !values.empty();
     // Ranks are worth more than a tolerance, where they are used.
@@ -195,7 +208,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     if (lossy)
         payload.region = region_;
     if (!payload.ranks)
-        rows_to_steps(layout_, depth, pixels_.data());
+        rows_to_steps(layout_, depth, scratch.pixels.data());
 
     Memory after = make_memory(layout_, next != nullptr ? next->memory : own_memory_);
     Model model;
@@ -209,14 +222,15 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
         model.reference_depth = before.depth;
         model.reference_valid = before.valid;
         if (old_values.size() != values.size()) {
-            moved_.resize(plane);
-            RankShift(old_values, values).apply(before.depth, plane, moved_.data());
-            model.reference_depth = moved_.data();
+            scratch.moved.resize(plane);
+            RankShift(old_values, values).apply(before.depth, plane, scratch.moved.data());
+            model.reference_depth = scratch.moved.data();
         }
     }
-    const CodedPixels coded{pixels_.data(), extras_.data(), has_extra_.data(), &token_counts_};
+    const CodedPixels coded{scratch.pixels.data(), scratch.extras.data(), scratch.has_extra.data(),
+                            &scratch.token_counts};
     Equations equations;
-    sample_equations(model, pixels_.data(), payload.ranks ? 8 : 40, equations);
+    sample_equations(model, scratch.pixels.data(), payload.ranks ? 8 : 40, equations);
     model.weights = solve(equations, payload.delta ? tap_count : intra_taps);
     after.head->age = next_age(payload.delta, before);
     model.blend = after.head->age <= 1 ? blend_pays(model, coded) : before.head->blend != 0;
@@ -224,14 +238,14 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     payload.weights = model.weights;
     payload.blend = model.blend;
 
-    encode_and_count(model, pixels_.data(), coded);
+    encode_and_count(model, scratch.pixels.data(), coded);
     const Levels& old_levels = payload.delta ? before.head->levels : standard_levels();
-    choose_levels(counts_, old_levels, after.head->levels);
-    make_frequencies(after.head->levels, frequencies_);
+    choose_levels(scratch.counts, old_levels, after.head->levels);
+    make_frequencies(after.head->levels, scratch.frequencies);
 
     Stream stream;
-    stream.words = words_.data() + word_slack;
-    encode_tokens(layout_, coded, frequencies_, stream);
+    stream.words = scratch.words.data() + word_slack;
+    encode_tokens(layout_, coded, scratch.frequencies, stream);
 
     SideWriter side(side_);
     if (payload.ranks)
@@ -255,6 +269,7 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     if (payload->size != out.size)
         return Status::size_mismatch;
     prepare(out.size);
+    Scratch& scratch = Scratch::of_this_thread();
 
     Memory before;
     if (payload->delta &&
@@ -291,24 +306,24 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
         model.reference_valid = before.valid;
         if (old_values.size() != values.size()) {
             const std::size_t plane = layout_.plane_values();
-            moved_.resize(plane);
-            RankShift(old_values, values).apply(before.depth, plane, moved_.data());
-            model.reference_depth = moved_.data();
+            scratch.moved.resize(plane);
+            RankShift(old_values, values).apply(before.depth, plane, scratch.moved.data());
+            model.reference_depth = scratch.moved.data();
         }
     }
 
-    words_.resize(payload->words.size() / 2 + 2 * word_slack);
+    scratch.words.resize(payload->words.size() / 2 + 2 * word_slack);
     Stream stream;
     stream.states = payload->states;
-    stream.words = words_.data() + word_slack;
+    stream.words = scratch.words.data() + word_slack;
     stream.word_count = payload->words.size() / 2;
     for (std::size_t i = 0; i < stream.word_count; ++i)
         stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
 
     const std::uint16_t* const depths = payload->ranks ? tables_.depths_of(values) : nullptr;
-    if (!decode_steps(model, slots_.of(after.head->levels), stream, pixels_.data()))
+    if (!decode_steps(model, slots_.of(after.head->levels), stream, scratch.pixels.data()))
         return Status::malformed;
-    steps_to_rows(layout_, pixels_.data(), depths, out);
+    steps_to_rows(layout_, scratch.pixels.data(), depths, out);
     if (next != nullptr) {
         after.head->value_count = std::uint16_t(values.size());
         std::copy(values.begin(), values.end(), after.head->values.begin());

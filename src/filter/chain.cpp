@@ -7,25 +7,29 @@
 
 #include "filter/frame_gap.h"
 #include "filter/stage_rules.h"
+#include "image/scratch.h"
 
 namespace theatron::filter {
 namespace {
 
-// One filter with all that it remembers and needs while it runs.
+// One filter with all that it remembers.
 struct FlyingPixels {
     FlyingPixelRule rule;
 };
 struct Speckles {
     SpeckleRule rule;
-    SpeckleScratch scratch;
 };
 struct Holes {
     HoleRule rule;
-    HoleScratch scratch;
 };
 struct Kalman {
     KalmanRule rule;
     KalmanState state;
+};
+// What one filter hands to the next.
+struct Planes {
+    explicit Planes(Size size) : current(size), next(size) {}
+    DepthPlane current, next;
 };
 using Stage = std::variant<Limits, FlyingPixels, Speckles, Holes, Kalman>;
 
@@ -45,12 +49,8 @@ private:
     void add(const FlyingPixelParams& params) {
         stages_.push_back(FlyingPixels{rule_of(params, camera_)});
     }
-    void add(const SpeckleParams& params) {
-        stages_.push_back(Speckles{rule_of(params, camera_), SpeckleScratch(camera_.size)});
-    }
-    void add(const HoleParams& params) {
-        stages_.push_back(Holes{rule_of(params, camera_), HoleScratch(camera_.size)});
-    }
+    void add(const SpeckleParams& params) { stages_.push_back(Speckles{rule_of(params, camera_)}); }
+    void add(const HoleParams& params) { stages_.push_back(Holes{rule_of(params, camera_)}); }
     void add(const KalmanParams& params) {
         stages_.push_back(Kalman{rule_of(params, camera_), KalmanState(camera_.size)});
     }
@@ -71,14 +71,16 @@ private:
 class Chain::State {
 public:
     State(const ChainSettings& settings, const ChainCamera& camera)
-        : stages(StageMaker(camera).make(settings)), current(camera.size), next(camera.size) {}
+        : size(camera.size), stages(StageMaker(camera).make(settings)) {}
 
+    Size size;
     std::vector<Stage> stages;
-    DepthPlane current, next;
     FrameGap gap;
 
     void apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
         const FrameGap::Meaning now = gap.next(since_last_frame);
+        Planes& planes = scratch_of_this_thread<Planes>(size);
+        DepthPlane& current = planes.current;
 
         // The first stage reads the frame, a Kalman filter at the end writes it.
         std::size_t begin = 0;
@@ -98,7 +100,7 @@ public:
                                           kalman.state, out);
                 break;
             }
-            std::visit([&](auto& stage) { run(stage, last, out, now); }, stages[i]);
+            std::visit([&](auto& stage) { run(stage, planes, last, out, now); }, stages[i]);
         }
         if (!ends_with_kalman)
             copy(current.view(), out);
@@ -110,22 +112,26 @@ private:
             std::copy_n(in.row(y), in.size.width, out.row(y));
     }
 
-    void run(Limits& limits, bool, MutableDepthView, FrameGap::Meaning) {
-        apply_limits(current.view(), limits, current);
+    static void run(Limits& limits, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+        apply_limits(planes.current.view(), limits, planes.current);
     }
-    void run(FlyingPixels& stage, bool, MutableDepthView, FrameGap::Meaning) {
-        remove_flying_pixels(current, stage.rule, next);
-        std::swap(current, next);
+    static void run(FlyingPixels& stage, Planes& planes, bool, MutableDepthView,
+                    FrameGap::Meaning) {
+        remove_flying_pixels(planes.current, stage.rule, planes.next);
+        std::swap(planes.current, planes.next);
     }
-    void run(Speckles& stage, bool, MutableDepthView, FrameGap::Meaning) {
-        remove_speckles(current, stage.rule, stage.scratch);
+    static void run(Speckles& stage, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+        remove_speckles(planes.current, stage.rule,
+                        scratch_of_this_thread<SpeckleScratch>(planes.current.size()));
     }
-    void run(Holes& stage, bool, MutableDepthView, FrameGap::Meaning) {
-        fill_holes(current, stage.rule, stage.scratch);
+    static void run(Holes& stage, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+        fill_holes(planes.current, stage.rule,
+                   scratch_of_this_thread<HoleScratch>(planes.current.size()));
     }
-    void run(Kalman& stage, bool last, MutableDepthView out, FrameGap::Meaning now) {
-        apply_kalman(current, stage.rule, boost_of(stage, now), stage.state,
-                     last ? out : current.view());
+    static void run(Kalman& stage, Planes& planes, bool last, MutableDepthView out,
+                    FrameGap::Meaning now) {
+        apply_kalman(planes.current, stage.rule, boost_of(stage, now), stage.state,
+                     last ? out : planes.current.view());
     }
     static int boost_of(Kalman& stage, FrameGap::Meaning now) {
         if (now.forgets)
@@ -141,7 +147,7 @@ Chain::Chain(Chain&&) noexcept = default;
 Chain& Chain::operator=(Chain&&) noexcept = default;
 
 Size Chain::size() const {
-    return state_->current.size();
+    return state_->size;
 }
 bool Chain::off() const {
     return state_->stages.empty();

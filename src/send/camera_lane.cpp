@@ -140,8 +140,19 @@ void CameraLane::begin_work() {
 
 void CameraLane::work() {
     const TimePoint begin = steady_now();
+    std::optional<Captured> next;
+    {
+        const std::lock_guard lock(mutex_);
+        // Held since it was enqueued.
+        if (held_) {
+            wanted_ = true;
+            busy_ = false;
+            idle_.notify_all();
+            return;
+        }
+        next = newest_.take(Duration(0));
+    }
     take_orders();
-    std::optional<Captured> next = newest_.take(Duration(0));
     if (next) {
         last_ = std::move(next);
         if (!encoders_.empty()) {
