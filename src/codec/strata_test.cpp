@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 #include "codec/strata_kernel.h"
 #include "codec/strata_reference.h"
@@ -150,6 +152,33 @@ TEST(Strata, FramesMayBeSkipped) {
         ASSERT_EQ(chain.pass(image, frame % 3 == 0), Status::ok);
         ASSERT_EQ(chain.decoded, image);
     }
+}
+
+// Their scratch memory is the thread's: what one leaves in it must not reach another.
+TEST(Strata, CodecsThatTakeTurnsOnAThreadGiveTheBytesThatEachGivesAlone) {
+    const Size sizes[] = {{200, 90}, {140, 50}, {31, 70}};
+    const auto image_of = [&](std::size_t stream, unsigned frame) {
+        return stream == 1 ? disparities(sizes[stream], frame) : scene(sizes[stream], frame);
+    };
+    constexpr unsigned frames = 5;
+    std::vector<Bytes> alone[3];
+    for (std::size_t stream = 0; stream < 3; ++stream)
+        std::thread([&] {
+            Chain chain;
+            for (unsigned frame = 0; frame < frames; ++frame) {
+                EXPECT_EQ(chain.pass(image_of(stream, frame)), Status::ok);
+                alone[stream].push_back(chain.encoded);
+            }
+        }).join();
+
+    Chain chains[3];
+    for (unsigned frame = 0; frame < frames; ++frame)
+        for (std::size_t stream = 0; stream < 3; ++stream) {
+            const DepthImage image = image_of(stream, frame);
+            ASSERT_EQ(chains[stream].pass(image), Status::ok);
+            ASSERT_EQ(chains[stream].decoded, image);
+            ASSERT_EQ(chains[stream].encoded, alone[stream][frame]) << stream << ", " << frame;
+        }
 }
 
 TEST(Strata, NeverExceedsItsBound) {

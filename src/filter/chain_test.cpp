@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+#include <vector>
+
 #include "filter/test_depth.h"
 
 namespace theatron::filter {
@@ -103,6 +106,34 @@ TEST(Chain, ASecondChainWithTheSameFramesGivesTheSame) {
         const DepthImage image = two_walls({64, 48}, i / 4);
         ASSERT_EQ(applied(first, image), applied(second, image));
     }
+}
+
+// Their scratch memory is the thread's: what one leaves in it must not reach another.
+TEST(Chain, ChainsThatTakeTurnsOnAThreadGiveWhatEachGivesAlone) {
+    constexpr const char* steps = "holes+flying_pixels+speckles+kalman";
+    std::vector<Size> sizes;
+    // More of them than a thread keeps memory for.
+    for (int i = 0; i < 11; ++i)
+        sizes.push_back({40 + 7 * (i / 2), 30 + 5 * (i % 3)});
+    const auto image_of_camera = [&](std::size_t camera, unsigned frame) {
+        return two_walls(sizes[camera], unsigned(camera) + frame / 3);
+    };
+    constexpr unsigned frames = 4;
+    std::vector<std::vector<DepthImage>> alone(sizes.size());
+    for (std::size_t camera = 0; camera < sizes.size(); ++camera)
+        std::thread([&] {
+            Chain chain = make_chain(steps, sizes[camera]);
+            for (unsigned frame = 0; frame < frames; ++frame)
+                alone[camera].push_back(applied(chain, image_of_camera(camera, frame)));
+        }).join();
+
+    std::vector<Chain> chains;
+    for (const Size size : sizes)
+        chains.push_back(make_chain(steps, size));
+    for (unsigned frame = 0; frame < frames; ++frame)
+        for (std::size_t camera = 0; camera < sizes.size(); ++camera)
+            ASSERT_EQ(applied(chains[camera], image_of_camera(camera, frame)), alone[camera][frame])
+                << camera << ", " << frame;
 }
 
 }  // namespace
