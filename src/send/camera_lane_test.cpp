@@ -213,6 +213,30 @@ TEST_F(Lane, NothingIsEncodedForNobody) {
     EXPECT_TRUE(published.empty());
 }
 
+// A recorded background would else show the room in the first picture.
+TEST_F(Lane, AFrameThatCameBeforeAnybodyWatchedIsFiltered) {
+    lane->set_filter(filter::parse_chain("range:max_mm=500").settings, nullptr);
+    script->give_frame(1000);
+    const auto taken = [&] {
+        const std::lock_guard lock(script->mutex);
+        return script->waiting.empty();
+    };
+    for (int i = 0; i < 20'000 && !taken(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // For the lane to look at it and find nobody.
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    ASSERT_TRUE(wait_for(1));
+    const std::lock_guard lock(mutex);
+    const wire::MediaHeader& h = published[0].header;
+    codec::DepthStreamDecoder decoder(codec::parse_depth_setting("trvl").setting);
+    DepthImage image(size);
+    ASSERT_EQ(decoder.decode({h.frame, h.reference, h.temporal_layer, h.key},
+                             wire::media_payload(*published[0].message), image.view()),
+              Status::ok);
+    EXPECT_EQ(image.pixels, std::vector<std::uint16_t>(size.area(), 0));
+}
+
 TEST_F(Lane, WhileHeldTheNewestFrameWaitsAndNoReferenceIsMissing) {
     lane->set_settings({{SettingId{1}, "trvl"}}, {});
     script->give_frame(1000);
