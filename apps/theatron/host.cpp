@@ -342,7 +342,7 @@ void Host::Impl::change_settings() {
 void Host::Impl::hold_lane(std::size_t camera) {
     bool any = false, all_behind = true;
     for (const auto& [id, participant] : session->participants()) {
-        if (!participant.joined || participant.closing)
+        if (!participant.takes_part())
             continue;
         const net::PeerId peer{std::uint32_t(id)};
         any = true;

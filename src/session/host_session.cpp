@@ -134,14 +134,14 @@ void HostSession::set_renderer(const wire::SetRenderer& word) {
     renderer_words_.clear();
     for (auto& [id, participant] : participants_) {
         participant.renderer_word.reset();
-        if (participant.joined && !participant.closing)
+        if (participant.takes_part())
             tell_renderer(id);
     }
 }
 
 void HostSession::set_renderer(ParticipantId id, const wire::SetRenderer& word) {
     const auto found = participants_.find(id);
-    if (found == participants_.end() || !found->second.joined || found->second.closing)
+    if (found == participants_.end() || !found->second.takes_part())
         return;
     found->second.renderer_word = word;
     tell_renderer(id);
@@ -150,7 +150,7 @@ void HostSession::set_renderer(ParticipantId id, const wire::SetRenderer& word) 
 void HostSession::set_renderer(const std::string& name, const wire::SetRenderer& word) {
     renderer_words_[name] = word;
     for (auto& [id, participant] : participants_)
-        if (participant.name == name && participant.joined && !participant.closing) {
+        if (participant.name == name && participant.takes_part()) {
             participant.renderer_word.reset();
             tell_renderer(id);
         }
@@ -191,7 +191,7 @@ void HostSession::on_region(bool is_drawn) {
     if (std::exchange(region_is_drawn_, is_drawn) == is_drawn)
         return;
     for (auto& [id, participant] : participants_) {
-        if (!participant.joined || participant.closing)
+        if (!participant.takes_part())
             continue;
         set_wish(id);
         send(id, participant.delivery.message({}));
@@ -298,7 +298,7 @@ double HostSession::frames_per_second() const {
 
 void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
     const auto found = participants_.find(id);
-    if (found == participants_.end() || !found->second.joined || found->second.closing)
+    if (found == participants_.end() || !found->second.takes_part())
         return;
     Delivery& delivery = found->second.delivery;
     const Delivery::Given given{depth_.given(id), color_.given(id), frames_per_second()};
@@ -373,7 +373,7 @@ std::vector<HostSession::Action> HostSession::take_actions() {
 std::vector<ParticipantId> HostSession::receivers(StreamId stream, SettingId setting) const {
     std::vector<ParticipantId> result;
     for (const auto& [id, participant] : participants_)
-        if (participant.joined && !participant.closing &&
+        if (participant.takes_part() &&
             setting == (is_depth(stream) ? participant.depth_setting : participant.color_setting))
             result.push_back(id);
     return result;

@@ -100,6 +100,7 @@ public:
     struct Participant {
         bool joined = false;
         bool closing = false;
+        bool takes_part() const { return joined && !closing; }
         TimePoint connected;
         std::string name;
         SettingId depth_setting{}, color_setting{};
