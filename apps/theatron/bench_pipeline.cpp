@@ -17,6 +17,7 @@
 #include "base/steady_clock.h"
 #include "bench_coder.h"
 #include "child_process.h"
+#include "net/https_get.h"
 #include "process_usage.h"
 
 namespace theatron::app {
@@ -87,6 +88,17 @@ double yardstick_ms() {
     return 0;
 }
 
+// Frames that the host had no time for since it started.
+std::uint64_t dropped_by_host(const net::Link& link) {
+    const auto status = nlohmann::json::parse(net::https_get(link, "/status").body, nullptr, false);
+    if (!status.is_object())
+        throw Error("The host does not tell its status.");
+    std::uint64_t dropped = 0;
+    for (const auto& camera : status["cameras"])
+        dropped += camera["dropped_newest"].get<std::uint64_t>();
+    return dropped;
+}
+
 // Host and viewers at one moment.
 struct Look {
     TimePoint time = steady_now();
@@ -151,19 +163,23 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
     if (!greeting.is_object())
         throw Error("The host did not start; its message is above.");
 
+    const std::string link_text = greeting["link"];
+    const net::Link link = net::parse_link(link_text);
+
     std::vector<std::unique_ptr<ChildProcess>> viewers;
     for (int i = 0; i < bench.viewers; ++i)
         viewers.push_back(std::make_unique<ChildProcess>(std::vector<std::string>{
-            "join", greeting["link"].get<std::string>(), "--json", "--depth-codec",
-            bench.depth_codec, "--color-codec", bench.color_codec, "--target-latency", "0",
-            "--warmup", std::to_string(bench.warmup_seconds), "--seconds",
-            std::to_string(bench.seconds)}));
+            "join", link_text, "--json", "--depth-codec", bench.depth_codec, "--color-codec",
+            bench.color_codec, "--target-latency", "0", "--warmup",
+            std::to_string(bench.warmup_seconds), "--seconds", std::to_string(bench.seconds)}));
 
     // While the viewers measure, a little inside on both sides.
     const auto sleep_for = [](double s) {
         std::this_thread::sleep_for(seconds_to_duration(std::max(0.1, s)));
     };
-    sleep_for(bench.warmup_seconds + 0.5);
+    sleep_for(bench.warmup_seconds);
+    const std::uint64_t dropped_before = dropped_by_host(link);
+    sleep_for(0.5);
     const Look before(host, viewers);
     sleep_for(bench.seconds - 0.7);
     const Look after(host, viewers);
@@ -186,13 +202,12 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
         dropped += figures["dropped"].get<std::uint64_t>();
         memory = std::max(memory, end.peak_memory_mb);
     }
+    dropped += dropped_by_host(link) - dropped_before;
     host.interrupt();
     const ChildProcess::End host_end = host.wait();
     const auto report = nlohmann::json::parse(std::ifstream(summary_file), nullptr, false);
     if (!report.is_object())
         throw Error("The host left no report.");
-    for (const auto& camera : report["cameras"])
-        dropped += camera["dropped_newest"].get<std::uint64_t>();
 
     const double cameras = double(bench.cameras.size());
     double offered = 0;

@@ -19,12 +19,12 @@ struct PipelineBench {
 };
 
 // Runs one host and `viewers` participants as processes of their own. Returns
-// A camera takes part of a core and a viewer's threads; `cameras_possible` says how many
-// would fill the first of them.
 // {cameras,viewers,seconds,stages:[{name,p50_ms,p99_ms}],fps_min,frames_dropped,
-// mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}}; age is from captured to decoded,
+// mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}, ...}; age is from captured to decoded,
 // the worst of all streams and viewers; frames_dropped counts those that the host's
-// cameras gave and a viewer did not decode. Throws Error.
+// cameras gave after the warm-up and a viewer did not decode. A camera takes part of a core
+// and a viewer's threads; `cameras_possible` says how many would fill the first of them.
+// Throws Error.
 nlohmann::json bench_pipeline(const PipelineBench& bench);
 
 }  // namespace theatron::app
