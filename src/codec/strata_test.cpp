@@ -10,9 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "codec/strata_kernel.h"
-#include "codec/strata_reference.h"
-#include "codec/strata_values.h"
 #include "codec/test_images.h"
 #include "testing/every_target.h"
 
@@ -330,101 +327,7 @@ TEST(StrataRegion, DrawsThePixelsWhoseCentreIsInside) {
     EXPECT_EQ(drawn, std::vector<std::uint8_t>(24, 255));
 }
 
-// All that a model needs, as planes of its own.
-struct Planes {
-    explicit Planes(Size size)
-        : layout(layout_of(size)),
-          depth(layout.plane_values()),
-          valid(layout.plane_steps()),
-          pixels(layout.coded_values()),
-          token(layout.coded_values()),
-          extra(layout.coded_values()),
-          has_extra(std::size_t(layout.steps)) {}
-
-    void encode(const DepthImage& image, const Planes* before, const Weights& weights, bool blend) {
-        Model model;
-        model.layout = layout;
-        model.depth = depth.data();
-        model.valid = valid.data();
-        model.weights = weights;
-        model.blend = blend;
-        if (before != nullptr) {
-            model.reference_depth = before->depth.data();
-            model.reference_valid = before->valid.data();
-        }
-        rows_to_steps(layout, image.view(), pixels.data());
-        counts = {};
-        encode_model(model, pixels.data(), {token.data(), extra.data(), has_extra.data(), &counts});
-    }
-
-    Layout layout;
-    std::vector<std::uint16_t> depth;
-    std::vector<std::uint64_t> valid;
-    std::vector<std::uint16_t> pixels, token, extra;
-    std::vector<std::uint8_t> has_extra;
-    TokenCounts counts;
-};
-
-TEST(StrataKernel, EveryTargetEqualsTheReference) {
-    const Weights weights = {9000, -3000, 4000, -2000, 1000, 500, 12000, -4000, -3000, 2000, 1500};
-    testing::on_every_target([&] {
-        for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}}) {
-            for (const bool blend : {false, true}) {
-                Planes first(size), second(size);
-                ReferenceModel plain_first(size, weights, blend),
-                    plain_second(size, weights, blend);
-                const Planes* before = nullptr;
-                const ReferenceModel* plain_before = nullptr;
-                unsigned seed = 0;
-                for (auto [planes, plain] :
-                     {std::pair{&first, &plain_first}, std::pair{&second, &plain_second}}) {
-                    const DepthImage image =
-                        ++seed == 2 && size.width == 40 ? noise(size, seed) : scene(size, seed);
-                    planes->encode(image, before, weights, blend);
-                    const auto expected = plain->encode(image.view(), plain_before);
-                    for (int y = 0; y < size.height; ++y) {
-                        for (int x = 0; x < size.width; ++x) {
-                            const std::size_t at =
-                                std::size_t(planes->layout.step_of(x, y)) * lane_count +
-                                std::size_t(y % lane_count);
-                            const auto& e = expected[std::size_t(y * size.width + x)];
-                            ASSERT_EQ(planes->token[at], e.token) << x << ' ' << y;
-                            ASSERT_EQ(planes->extra[at], e.extra) << x << ' ' << y;
-                        }
-                    }
-                    before = planes;
-                    plain_before = plain;
-                }
-            }
-        }
-    });
-}
-
-TEST(StrataKernel, EveryTargetCountsTheTokensAndMarksFurtherBits) {
-    testing::on_every_target([&] {
-        for (const Size size : {Size{1, 1}, Size{160, 70}}) {
-            Planes planes(size);
-            planes.encode(scene(size, 3), nullptr, {}, true);
-            Counts counts{}, expected{};
-            for (std::size_t i = 0; i < counts.size(); ++i) {
-                for (const Counts& part : planes.counts.of)
-                    counts[i] += part[i];
-            }
-            for (int t = 0; t < planes.layout.steps; ++t) {
-                bool has_extra = false;
-                for (int lane = 0; lane < lane_count; ++lane) {
-                    const unsigned token = planes.token[std::size_t(t * lane_count + lane)];
-                    ++expected[token];
-                    has_extra |= extra_bits(token % token_count) > 0;
-                }
-                EXPECT_EQ(planes.has_extra[std::size_t(t)], has_extra) << "step " << t;
-            }
-            EXPECT_EQ(counts, expected);
-        }
-    });
-}
-
-TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
+TEST(Strata, EveryTargetDecodesTheBytesOfEveryOther) {
     std::vector<Bytes> encoded;
     const DepthImage images[] = {scene({170, 66}, 0), scene({170, 66}, 1), noise({170, 66}, 2)};
     testing::on_every_target([&] {
@@ -451,59 +354,6 @@ TEST(StrataKernel, EveryTargetDecodesTheBytesOfEveryOther) {
             std::swap(reference, next);
         }
     });
-}
-
-TEST(StrataKernel, EveryTargetFindsEachPixelsPlace) {
-    testing::on_every_target([&] {
-        for (const Size size : {Size{1, 1}, Size{7, 33}, Size{131, 31}, Size{132, 32},
-                                Size{133, 33}, Size{150, 64}, Size{200, 70}}) {
-            const DepthImage image = noise(size, 4);
-            const Layout layout = layout_of(size);
-            std::vector<std::uint16_t> pixels(layout.coded_values(), 0xabcd),
-                expected(layout.coded_values());
-            for (int y = 0; y < size.height; ++y) {
-                for (int x = 0; x < size.width; ++x)
-                    expected[std::size_t(layout.step_of(x, y) * lane_count + y % lane_count)] =
-                        image.view().row(y)[x];
-            }
-            rows_to_steps(layout, image.view(), pixels.data());
-            ASSERT_EQ(pixels, expected) << size.width << " x " << size.height;
-            DepthImage back(size);
-            steps_to_rows(layout, pixels.data(), nullptr, back.view());
-            ASSERT_EQ(back, image);
-        }
-    });
-}
-
-TEST(StrataValues, RanksOfNewValuesAreThoseOfATableMadeAnew) {
-    std::mt19937 rng(5);
-    for (const unsigned added : {0u, 1u, 24u, 25u, 300u}) {
-        DepthImage image(Size{50, 40});
-        for (std::uint16_t& depth : image.pixels) {
-            const std::uint16_t kinds[] = {0, 65535, std::uint16_t(100 + 7 * (rng() % 200))};
-            depth = kinds[rng() % 3];
-        }
-        const Layout layout = layout_of(image.size);
-        strata::Values values = {100, 107, 5000};
-        RankTables tables;
-        std::vector<std::uint16_t> ranks(layout.coded_values()), again(layout.coded_values());
-        ASSERT_TRUE(tables.to_ranks(layout, image.view(), values, ranks.data()));
-        for (unsigned i = 0; i < added; ++i)
-            image.pixels[rng() % image.pixels.size()] = std::uint16_t(1 + rng() % 65534);
-        const strata::Values before = values;
-        ASSERT_TRUE(tables.to_ranks(layout, image.view(), values, ranks.data()));
-        EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
-        EXPECT_TRUE(std::includes(values.begin(), values.end(), before.begin(), before.end()));
-        strata::Values same = values;
-        ASSERT_TRUE(RankTables().to_ranks(layout, image.view(), same, again.data()));
-        EXPECT_EQ(same, values);
-        EXPECT_EQ(again, ranks);
-        RankTables backward;
-        const std::uint16_t* const depths = backward.depths_of(values);
-        rows_to_steps(layout, image.view(), again.data());
-        for (std::size_t i = 0; i < ranks.size(); ++i)
-            ASSERT_EQ(depths[ranks[i]], again[i]);
-    }
 }
 
 }  // namespace

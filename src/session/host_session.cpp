@@ -370,6 +370,18 @@ std::vector<HostSession::Action> HostSession::take_actions() {
     return std::exchange(actions_, {});
 }
 
+bool HostSession::all_wait(const std::function<bool(ParticipantId)>& is_behind) const {
+    bool any = false;
+    for (const auto& [id, participant] : participants_) {
+        if (!participant.takes_part())
+            continue;
+        if (participant.delivery.adapts() || !is_behind(id))
+            return false;
+        any = true;
+    }
+    return any;
+}
+
 std::vector<ParticipantId> HostSession::receivers(StreamId stream, SettingId setting) const {
     std::vector<ParticipantId> result;
     for (const auto& [id, participant] : participants_)

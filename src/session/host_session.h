@@ -94,6 +94,10 @@ public:
     const std::vector<ActiveSetting>& depth_settings() const { return depth_.active(); }
     const std::vector<ActiveSetting>& color_settings() const { return color_.active(); }
 
+    // Whether a frame would have to wait at everybody who takes part. Who is sent less when
+    // frames are late is not waited for; with nobody there is none to wait for.
+    bool all_wait(const std::function<bool(ParticipantId)>& is_behind) const;
+
     // Who gets frames of this stream in this setting.
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "session/host_session.h"
 #include "session/renderer_choice.h"
 #include "session/viewer_session.h"
@@ -278,6 +280,30 @@ TEST_F(Host, LogsHowSomebodyDrawsWhenThatChanges) {
         if (a.kind == Kind::drawing)
             noted.push_back(a.why);
     EXPECT_EQ(noted, (std::vector<std::string>{"mesh", "ble nd", "", "splat"}));
+}
+
+TEST_F(Host, FramesWaitOnlyWhileAllAreBehindWhoDoNotAdapt) {
+    std::set<ParticipantId> behind;
+    const auto all_wait = [&] {
+        return session.all_wait([&](ParticipantId id) { return behind.contains(id); });
+    };
+    EXPECT_FALSE(all_wait()) << "nobody is there";
+    session.on_connected(dave, now);
+    behind.insert(dave);
+    EXPECT_FALSE(all_wait()) << "who has not joined does not count";
+    join(alice);
+    join(bob);
+    EXPECT_FALSE(all_wait());
+    behind.insert(alice);
+    EXPECT_FALSE(all_wait()) << "bob can take it";
+    behind.insert(bob);
+    EXPECT_TRUE(all_wait());
+    wire::ChooseDelivery goal;
+    goal.target_latency_ms = 150;
+    say(bob, goal);
+    EXPECT_FALSE(all_wait()) << "bob is sent less instead";
+    session.on_closed(bob);
+    EXPECT_TRUE(all_wait());
 }
 
 TEST(RendererChoice, TheLastWordHoldsUnlessTheHostLocksIt) {

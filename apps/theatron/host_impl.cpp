@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens on the server's thread.
+#include "host_impl.h"
+
+#include "base/log.h"
+#include "host_http.h"
+
+namespace theatron::app {
+
+net::Server::Handler Host::Impl::handler() {
+    net::Server::Handler h;
+    h.connected = [this](net::PeerId peer, const std::string& address) {
+        log::info("host", "connection", {{"id", int(peer)}, {"address", address}});
+        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
+        carry_out();
+    };
+    h.control = [this](net::PeerId peer, ByteView bytes) {
+        session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
+        carry_out();
+    };
+    // Participants do not publish yet; what they send is not asked for.
+    h.media = [this](net::PeerId peer, ByteView) {
+        server->close(peer, "media was not asked for");
+    };
+    h.closed = [this](net::PeerId peer, const std::string& why) {
+        log::info("host", "participant left", {{"id", int(peer)}, {"why", why}});
+        session->on_closed(ParticipantId(std::uint32_t(peer)));
+        carry_out();
+    };
+    h.now = steady_now;
+    h.tick = [this] {
+        measure_links();
+        hold_lanes();
+        session->on_tick(steady_now());
+        carry_out();
+        note_participants();
+    };
+    h.http = [this](const net::HttpRequest& request) {
+        return answer_http(request, http_tokens, [this] { return figures(); });
+    };
+    return h;
+}
+
+void Host::Impl::carry_out() {
+    for (const auto& action : session->take_actions()) {
+        const net::PeerId peer{std::uint32_t(action.participant)};
+        using Kind = session::HostSession::Action::Kind;
+        switch (action.kind) {
+            case Kind::send:
+                server->send_control(peer, wire::encode_control(action.message));
+                break;
+            case Kind::close:
+                log::warning("host", "participant refused",
+                             {{"id", int(peer)}, {"why", action.why}});
+                server->close(peer, action.why);
+                break;
+            case Kind::joined:
+                log::info("host", "participant joined", {{"id", int(peer)}, {"name", action.why}});
+                break;
+            case Kind::request_key: {
+                const auto camera = std::size_t(camera_of(action.key.stream));
+                if (camera < lanes.size())
+                    lanes[camera]->request_key(action.key.stream, action.key.setting);
+                break;
+            }
+            case Kind::change_settings:
+                change_settings();
+                break;
+            case Kind::acknowledged:
+                server->acknowledge(peer, action.bytes);
+                release_lanes();
+                break;
+            case Kind::set_ceiling:
+                server->set_ceiling(peer, double(action.bytes));
+                break;
+            case Kind::stepped:
+                log::info("host", "sending changed", {{"id", int(peer)}, {"to", action.why}});
+                break;
+            case Kind::drawing:
+                log::info("host", "participant draws",
+                          {{"id", int(peer)}, {"renderer", action.why}});
+                break;
+        }
+    }
+}
+
+void Host::Impl::change_settings() {
+    const auto convert = [](const std::vector<session::ActiveSetting>& settings) {
+        std::vector<send::LaneSetting> result;
+        for (const auto& s : settings)
+            result.push_back({s.id, s.codec});
+        return result;
+    };
+    for (const auto& lane : lanes)
+        lane->set_settings(convert(session->depth_settings()), convert(session->color_settings()));
+    hold_lanes();
+}
+
+// While every receiver of a camera still waits for its last frame, the next is not even
+// begun: dropped after encoding, it would be missing as a reference.
+void Host::Impl::hold_lane(std::size_t camera) {
+    const bool hold = session->all_wait([&](ParticipantId id) {
+        const net::PeerId peer{std::uint32_t(id)};
+        return server->is_behind(peer, depth_stream(CameraId(camera))) ||
+               server->is_behind(peer, color_stream(CameraId(camera)));
+    });
+    if (hold == held.contains(camera))
+        return;
+    if (hold)
+        held.insert(camera);
+    else
+        held.erase(camera);
+    lanes[camera]->hold(hold);
+}
+
+void Host::Impl::hold_lanes() {
+    for (std::size_t camera = 0; camera < lanes.size(); ++camera)
+        hold_lane(camera);
+}
+
+// An acknowledgement can only end a wait.
+void Host::Impl::release_lanes() {
+    for (const std::size_t camera : std::vector(held.begin(), held.end()))
+        hold_lane(camera);
+}
+
+void Host::Impl::distribute(const send::EncodedMedia& encoded) {
+    const wire::MediaHeader& header = encoded.header;
+    net::Media media{encoded.message,  header.stream,         header.setting, header.frame,
+                     header.reference, header.temporal_layer, header.key,     {}};
+    for (const ParticipantId receiver :
+         session->on_media(header, encoded.message->size(), steady_now())) {
+        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), media);
+        dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
+        if (pushed.needs_key)
+            session->on_broken_stream(header.stream, header.setting);
+    }
+    hold_lane(std::size_t(camera_of(header.stream)));
+}
+
+void Host::Impl::measure_links() {
+    for (const auto& [id, participant] : session->participants()) {
+        const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
+        session->on_link(id, {f.bytes_per_second, f.round_trip, f.delay, f.dropped}, steady_now());
+    }
+}
+
+void Host::Impl::note_participants() {
+    std::vector<HostFigures::Participant> list;
+    for (const auto& [id, participant] : session->participants())
+        if (participant.joined)
+            list.push_back({id, participant.name, participant.delivery.step().what,
+                            participant.report, participant.renderer});
+    participants = list.size();
+    const std::lock_guard lock(figures_mutex);
+    participant_figures = std::move(list);
+    dropped_slow_figures = dropped_slow;
+}
+
+HostFigures Host::Impl::figures() const {
+    const std::lock_guard lock(figures_mutex);
+    HostFigures figures;
+    figures.name = name;
+    figures.seconds = to_seconds(steady_now() - begun);
+    for (const auto& lane : lanes) {
+        const auto dropped = dropped_slow_figures.find(lane->id());
+        figures.cameras.push_back(
+            {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
+    }
+    figures.participants = participant_figures;
+    return figures;
+}
+
+}  // namespace theatron::app
