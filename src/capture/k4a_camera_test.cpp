@@ -226,7 +226,8 @@ TEST_F(K4aCamera, CapturedIsWhenThePictureCameByWhicheverClock) {
             const FrameTimes& times = capture.frame->times;
             EXPECT_LE(times.captured, times.delivered) << clock;
             EXPECT_GT(times.captured, times.delivered - 10s) << clock;
-            EXPECT_GT(times.captured, before) << clock;
+            // Quick pictures may share one of the wall clock's milliseconds.
+            EXPECT_GE(times.captured, before) << clock;
             before = times.captured;
         }
     }
