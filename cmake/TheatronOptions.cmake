@@ -7,6 +7,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 set(THEATRON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for example address,undefined")
+set(THEATRON_MODULES "" CACHE STRING "Only these modules of src, in the order of their dependencies, and no programs")
 option(THEATRON_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(THEATRON_CUDA "Build the CUDA kernels (needs nvcc)" OFF)
 
@@ -44,6 +45,13 @@ if(NOT EMSCRIPTEN)
   find_package(Threads REQUIRED)
   find_package(GTest REQUIRED)
   find_package(PkgConfig REQUIRED)
+endif()
+
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # Vectors whose length the compiler does not know cannot be members of a class; NEON's can.
+  # GCC makes constructors for the machine's plain instruction set: it must be Highway's.
+  add_compile_options(-march=armv8-a+crypto)
+  add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 endif()
 
 if(EMSCRIPTEN)

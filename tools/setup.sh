@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages of packages.txt that are missing. Needs root or sudo only then.
+# Installs the packages that are missing of a list beside this file. Needs root or sudo only then.
+# Usage: setup.sh [LIST=packages.txt]
 set -euo pipefail
 cd "$(dirname "$0")"
 
-mapfile -t wanted < <(grep -vE '^\s*(#|$)' packages.txt)
+mapfile -t wanted < <(grep -vE '^\s*(#|$)' "${1:-packages.txt}")
 missing=()
 for package in "${wanted[@]}"; do
-    state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
-    [ "$state" = installed ] || missing+=("$package")
+    # A line for each kind of machine that it is installed for.
+    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
 done
 [ ${#missing[@]} -gt 0 ] || exit 0
 

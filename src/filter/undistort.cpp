@@ -24,12 +24,15 @@ Undistortion::Undistortion(const CameraModel& from, const CameraModel& to)
         for (int x = 0; x < to.size.width; ++x) {
             const auto ray = unproject(to, {double(x), double(y)});
             const auto pixel = ray ? project(from, {ray->x, ray->y, 1}) : std::nullopt;
-            if (!pixel || !(pixel->x >= 0 && pixel->x <= from.size.width - 1) ||
-                !(pixel->y >= 0 && pixel->y <= from.size.height - 1))
+            if (!pixel || !(std::abs(pixel->x) <= from.size.width) ||
+                !(std::abs(pixel->y) <= from.size.height))
                 continue;
-            sources_[std::size_t(y) * std::size_t(to.size.width) + std::size_t(x)] = {
-                std::int32_t(std::lround(pixel->x * one)),
-                std::int32_t(std::lround(pixel->y * one))};
+            // The border belongs to the image on whichever side of it the last bit fell.
+            const Source source{std::int32_t(std::lround(pixel->x * one)),
+                                std::int32_t(std::lround(pixel->y * one))};
+            if (source.x >= 0 && source.x <= (from.size.width - 1) * one && source.y >= 0 &&
+                source.y <= (from.size.height - 1) * one)
+                sources_[std::size_t(y) * std::size_t(to.size.width) + std::size_t(x)] = source;
         }
 }
 
