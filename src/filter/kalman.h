@@ -43,27 +43,24 @@ struct KalmanPixel {
 };
 
 struct KalmanState {
-    explicit KalmanState(Size size)
-        : depth(size), estimate(size), gain(size), row({size.width, 1}) {}
+    explicit KalmanState(Size size) : depth(size), estimate(size), gain(size) {}
     void clear() {
         depth.clear();
         estimate.clear();
         gain.clear();
     }
     DepthPlane depth, estimate, gain;
-    DepthPlane row;  // what apply_kalman_to_supported() is at
 };
 
-// One frame. `boost` is added to all gains: what was missed meanwhile.
-void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
-                  MutableDepthView out);
+// One frame; the result is the state's depth. `boost` is added to all gains: what was
+// missed meanwhile.
+void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state);
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
-                            KalmanState& state, MutableDepthView out);
+                            KalmanState& state);
 
-// The same behind remove_flying_pixels(), in one go over the image. `out` is not `in`.
+// The same behind remove_flying_pixels(), in one go over the image.
 void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
-                               const KalmanRule& rule, int boost, KalmanState& state,
-                               MutableDepthView out);
+                               const KalmanRule& rule, int boost, KalmanState& state);
 
 inline constexpr int most_noise = 448;        // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256
