@@ -22,7 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 class KalmanLanes {
 public:
     KalmanLanes(const KalmanRule& rule, int boost)
-        : noise_constant_(u(rule.noise_constant)),
+        : keeps_rest_(boost == 0),
+          noise_constant_(u(rule.noise_constant)),
           noise_squared_(u(rule.noise_squared)),
           most_noise_(u(most_noise)),
           least_dead_band_noise_(i(least_dead_band_noise)),
@@ -56,13 +57,23 @@ public:
             floor_[times - 1] = i(larger(rule.least_gain, trend_gain(times)));
     }
 
-    // Advances the state of a row's pixels. All rows may be read and written to the
-    // end of the last vector. Not inlined: compilers would make the constants anew
-    // for each vector, which takes as long as the work itself.
-    HWY_NOINLINE void step(const std::uint16_t* measured, std::uint16_t* depth,
-                           std::uint16_t* estimate, std::uint16_t* gain, int width) const {
-        for (int x = 0; x < width; x += int(hn::Lanes(du)))
-            step(hn::LoadU(du, measured + x), depth + x, estimate + x, gain + x);
+    // Advances the state of row `y`. `measured` may be read to the row's padded width.
+    // Not inlined: compilers would make the constants anew for each vector, which takes
+    // as long as the work itself.
+    HWY_NOINLINE void step(const std::uint16_t* measured, KalmanState& state, int y) const {
+        std::uint16_t* depth = state.depth.row(y);
+        std::uint16_t* estimate = state.estimate.row(y);
+        std::uint16_t* gain = state.gain.row(y);
+        std::uint8_t* at_rest = state.at_rest_row(y);
+        const int width = state.depth.padded_width();
+        for (int x = 0; x < width; ++at_rest) {
+            const bool was_at_rest = *at_rest != 0 && keeps_rest_;
+            bool all_at_rest = true;
+            for (const int end = x + KalmanState::block; x < end; x += int(hn::Lanes(du)))
+                all_at_rest &= step(hn::LoadU(du, measured + x), depth + x, estimate + x, gain + x,
+                                    was_at_rest);
+            *at_rest = all_at_rest;
+        }
     }
 
 private:
@@ -77,15 +88,15 @@ private:
     // With it the threshold is at most that of the largest trend: 127.
     static constexpr int most_trend_at_rest = (128 << 16) / most_noise - 1;
 
-    HWY_INLINE void step(VU measured, std::uint16_t* depth_at, std::uint16_t* estimate_at,
-                         std::uint16_t* gain_at) const {
+    // True if all gains are at rest now. If they `were_at_rest` they are not read.
+    HWY_INLINE bool step(VU measured, std::uint16_t* depth_at, std::uint16_t* estimate_at,
+                         std::uint16_t* gain_at, bool were_at_rest) const {
         const auto depth = hn::LoadU(du, depth_at);
         // The sensor's blind corners, and where the background is gone.
         const auto absent = hn::Eq(hn::Or(measured, depth), hn::Zero(du));
         if (hn::AllTrue(du, absent))
-            return;
+            return true;
         const auto estimate = hn::LoadU(du, estimate_at);
-        const auto gains = hn::LoadU(du, gain_at);
 
         const auto squared = hn::MulHigh(depth, depth);
         const auto noise = hn::Min(
@@ -110,24 +121,34 @@ private:
             du,
             hn::Gt(hn::Min(hn::BitCast(di, measured), hn::BitCast(di, depth)), least_usual_depth_));
         const auto jumps = hn::RebindMask(du, hn::Gt(hn::Abs(difference), reset));
+        const auto goes_on = hn::AndNot(jumps, hn::Or(usual, absent));
+        const auto moves = hn::RebindMask(
+            du, hn::Gt(hn::Abs(trend), hn::BitCast(di, hn::MulHigh(noise, trend_at_rest_))));
+        const auto follow_at_rest = [&]() HWY_ATTR {
+            const auto moved = moved_by(innovation, rest, shifted_gain_at_rest_);
+            const auto step = step_of(moved, dead_band);
+            hn::StoreU(hn::Add(depth, hn::BitCast(du, step)), du, depth_at);
+            hn::StoreU(estimate_of(moved, step, trend), du, estimate_at);
+        };
+        if (were_at_rest && hn::AllTrue(du, hn::AndNot(moves, goes_on))) {
+            follow_at_rest();
+            return true;
+        }
+
+        const auto gains = hn::LoadU(du, gain_at);
         const auto was_there = hn::Eq(hn::And(gains, missing_bits_), hn::Zero(du));
-        if (hn::AllTrue(du, hn::AndNot(jumps, hn::And(hn::Or(usual, absent), was_there)))) {
-            const auto moves =
-                hn::Gt(hn::Abs(trend), hn::BitCast(di, hn::MulHigh(noise, trend_at_rest_)));
+        if (hn::AllTrue(du, hn::And(goes_on, was_there))) {
             const auto low_gain = hn::Eq(hn::And(gains, low_byte_), gains_at_rest_);
-            if (hn::AllTrue(du, hn::AndNot(hn::RebindMask(du, moves), hn::Or(low_gain, absent)))) {
-                const auto moved = moved_by(innovation, rest, shifted_gain_at_rest_);
-                const auto step = step_of(moved, dead_band);
-                hn::StoreU(hn::Add(depth, hn::BitCast(du, step)), du, depth_at);
-                hn::StoreU(estimate_of(moved, step, trend), du, estimate_at);
-                return;
+            if (hn::AllTrue(du, hn::AndNot(moves, hn::Or(low_gain, absent)))) {
+                follow_at_rest();
+                return true;
             }
             const Follow follow(*this, innovation, rest, trend, noise, gains, dead_band);
             const auto next_gains = hn::Or(follow.gain, hn::And(gains, hold_bits_));
             hn::StoreU(hn::Add(depth, hn::BitCast(du, follow.step)), du, depth_at);
             hn::StoreU(follow.estimate, du, estimate_at);
             hn::StoreU(hn::IfThenZeroElse(absent, next_gains), du, gain_at);
-            return;
+            return false;
         }
 
         const Follow follow(*this, innovation, rest, trend, noise, gains, dead_band);
@@ -160,6 +181,7 @@ private:
         const auto measured_gain = hn::IfThenElse(follows, hn::Or(follow.gain, next_hold),
                                                   hn::IfThenElseZero(is_measured, fresh_gain_));
         hn::StoreU(hn::IfThenElse(held, hn::Add(gains, one_missing_), measured_gain), du, gain_at);
+        return false;
     }
 
     // followed(), with any gain.
@@ -207,6 +229,7 @@ private:
                          low_byte_);
     }
 
+    bool keeps_rest_;
     VU noise_constant_, noise_squared_, most_noise_;
     VI least_dead_band_noise_, moving_dead_band_;
     VI reset_sigmas_;
@@ -224,8 +247,7 @@ private:
 void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state) {
     const KalmanLanes kalman(rule, boost);
     for (int y = 0; y < in.size().height; ++y)
-        kalman.step(in.row(y), state.depth.row(y), state.estimate.row(y), state.gain.row(y),
-                    in.padded_width());
+        kalman.step(in.row(y), state, y);
 }
 
 void supported_kalman_rows(const DepthPlane& in, const FlyingPixelRule& flying,
@@ -237,8 +259,7 @@ void supported_kalman_rows(const DepthPlane& in, const FlyingPixelRule& flying,
         std::uint16_t* measured = row.row(0);
         for (int x = 0; x < in.padded_width(); x += int(hn::Lanes(d)))
             hn::StoreU(supported(in.row(y) + x, in.pitch()), d, measured + x);
-        kalman.step(measured, state.depth.row(y), state.estimate.row(y), state.gain.row(y),
-                    in.padded_width());
+        kalman.step(measured, state, y);
     }
 }
 
