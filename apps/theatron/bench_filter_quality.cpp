@@ -25,10 +25,8 @@ std::vector<DepthImage> filtered(const FilterClip& clip, const filter::ChainSett
                                  const filter::Background* background = nullptr) {
     filter::Chain chain(settings, {.size = clip.size, .background = background});
     std::vector<DepthImage> out;
-    for (const DepthImage& frame : clip.measured) {
-        out.emplace_back(clip.size);
-        chain.apply(frame.view(), out.back().view(), frame_time);
-    }
+    for (const DepthImage& frame : clip.measured)
+        out.push_back(copy_of(chain.apply(frame.view(), frame_time)));
     return out;
 }
 

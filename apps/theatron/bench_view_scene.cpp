@@ -152,9 +152,7 @@ private:
     }
 
     DepthImage filtered(const DepthImage& depth) {
-        DepthImage clean(depth.size);
-        filters_.apply(depth.view(), clean.view(), std::chrono::microseconds(33333));
-        return clean;
+        return copy_of(filters_.apply(depth.view(), std::chrono::microseconds(33333)));
     }
 
     static DepthImage transported(const DepthImage& depth) {

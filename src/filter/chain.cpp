@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "filter/frame_gap.h"
@@ -71,39 +72,48 @@ private:
 class Chain::State {
 public:
     State(const ChainSettings& settings, const ChainCamera& camera)
-        : size(camera.size), stages(StageMaker(camera).make(settings)) {}
+        : size(camera.size), stages(StageMaker(camera).make(settings)) {
+        if (!stages.empty() && !std::holds_alternative<Kalman>(stages.back()))
+            result.emplace(size);
+    }
 
     Size size;
     std::vector<Stage> stages;
     FrameGap gap;
+    std::optional<DepthPlane> result;  // where the last stage keeps none
 
-    void apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
+    DepthView apply(DepthView in, Duration since_last_frame) {
+        if (stages.empty())
+            return in;
         const FrameGap::Meaning now = gap.next(since_last_frame);
         Planes& planes = scratch_of_this_thread<Planes>(size);
-        DepthPlane& current = planes.current;
 
-        // The first stage reads the frame, a Kalman filter at the end writes it.
+        // The first stage reads the frame, a Kalman filter at the end keeps the result.
         std::size_t begin = 0;
-        if (!stages.empty() && std::holds_alternative<Limits>(stages.front()))
-            apply_limits(in, std::get<Limits>(stages[begin++]), current);
-        else
-            copy(in, current.view());
-        const bool ends_with_kalman =
-            !stages.empty() && std::holds_alternative<Kalman>(stages.back());
-        for (std::size_t i = begin; i < stages.size(); ++i) {
-            const bool last = i + 1 == stages.size();
+        if (auto* limits = std::get_if<Limits>(&stages.front())) {
+            apply_limits(in, *limits, planes.current);
+            ++begin;
+        } else {
+            copy(in, planes.current.view());
+        }
+        auto* const last = std::get_if<Kalman>(&stages.back());
+        const std::size_t end = stages.size() - (last != nullptr ? 1 : 0);
+        for (std::size_t i = begin; i < end; ++i) {
             // The two in one go where nothing comes in between.
             const auto* flying = std::get_if<FlyingPixels>(&stages[i]);
-            if (flying && i + 2 == stages.size() && ends_with_kalman) {
-                Kalman& kalman = std::get<Kalman>(stages.back());
-                apply_kalman_to_supported(current, flying->rule, kalman.rule, boost_of(kalman, now),
-                                          kalman.state, out);
-                break;
+            if (flying && last && i + 1 == end) {
+                apply_kalman_to_supported(planes.current, flying->rule, last->rule,
+                                          boost_of(*last, now), last->state);
+                return std::as_const(last->state.depth).view();
             }
-            std::visit([&](auto& stage) { run(stage, planes, last, out, now); }, stages[i]);
+            std::visit([&](auto& stage) { run(stage, planes, now); }, stages[i]);
         }
-        if (!ends_with_kalman)
-            copy(current.view(), out);
+        if (last) {
+            apply_kalman(planes.current, last->rule, boost_of(*last, now), last->state);
+            return std::as_const(last->state.depth).view();
+        }
+        copy(planes.current.view(), result->view());
+        return std::as_const(*result).view();
     }
 
 private:
@@ -112,26 +122,24 @@ private:
             std::copy_n(in.row(y), in.size.width, out.row(y));
     }
 
-    static void run(Limits& limits, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+    static void run(Limits& limits, Planes& planes, FrameGap::Meaning) {
         apply_limits(planes.current.view(), limits, planes.current);
     }
-    static void run(FlyingPixels& stage, Planes& planes, bool, MutableDepthView,
-                    FrameGap::Meaning) {
+    static void run(FlyingPixels& stage, Planes& planes, FrameGap::Meaning) {
         remove_flying_pixels(planes.current, stage.rule, planes.next);
         std::swap(planes.current, planes.next);
     }
-    static void run(Speckles& stage, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+    static void run(Speckles& stage, Planes& planes, FrameGap::Meaning) {
         remove_speckles(planes.current, stage.rule,
                         scratch_of_this_thread<SpeckleScratch>(planes.current.size()));
     }
-    static void run(Holes& stage, Planes& planes, bool, MutableDepthView, FrameGap::Meaning) {
+    static void run(Holes& stage, Planes& planes, FrameGap::Meaning) {
         fill_holes(planes.current, stage.rule,
                    scratch_of_this_thread<HoleScratch>(planes.current.size()));
     }
-    static void run(Kalman& stage, Planes& planes, bool last, MutableDepthView out,
-                    FrameGap::Meaning now) {
-        apply_kalman(planes.current, stage.rule, boost_of(stage, now), stage.state,
-                     last ? out : planes.current.view());
+    static void run(Kalman& stage, Planes& planes, FrameGap::Meaning now) {
+        apply_kalman(planes.current, stage.rule, boost_of(stage, now), stage.state);
+        copy(stage.state.depth.view(), planes.current.view());
     }
     static int boost_of(Kalman& stage, FrameGap::Meaning now) {
         if (now.forgets)
@@ -153,9 +161,9 @@ bool Chain::off() const {
     return state_->stages.empty();
 }
 
-void Chain::apply(DepthView in, MutableDepthView out, Duration since_last_frame) {
-    assert(in.size == size() && out.size == size());
-    state_->apply(in, out, since_last_frame);
+DepthView Chain::apply(DepthView in, Duration since_last_frame) {
+    assert(in.size == size());
+    return state_->apply(in, since_last_frame);
 }
 
 }  // namespace theatron::filter

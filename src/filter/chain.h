@@ -24,13 +24,15 @@ public:
     Chain& operator=(Chain&&) noexcept;
 
     Size size() const;
-    bool off() const;  // apply() copies
+    bool off() const;  // apply() returns its input
 
-    // Filters one frame. Both views have the chain's size and do not overlap.
+    // Filters one frame, which has the chain's size, and returns what became of it. The
+    // result is the chain's, where a filter remembers it for the next frame anyway: it is
+    // valid until the next call and as long as the chain, or, if the chain is off, `in`.
     // `since_last_frame` is the time since the frame of the call before, by the
     // frames' capture times: after a pause the past counts less, after a second
     // or a step back in time nothing. It does not matter for the first frame.
-    void apply(DepthView in, MutableDepthView out, Duration since_last_frame);
+    DepthView apply(DepthView in, Duration since_last_frame);
 
 private:
     class State;

@@ -27,25 +27,32 @@ public:
         : size_(size),
           padded_width_(padded_width_of(size)),
           pitch_(pitch_of(size)),
-          pixels_(std::size_t(pitch_) * std::size_t(size.height + 2)) {}
+          vectors_(std::size_t(pitch_) * std::size_t(size.height + 2) / margin) {}
 
     Size size() const { return size_; }
     int padded_width() const { return padded_width_; }
     std::ptrdiff_t pitch() const { return pitch_; }
 
-    std::uint16_t* row(int y) { return pixels_.data() + (y + 1) * pitch_ + margin; }
-    const std::uint16_t* row(int y) const { return pixels_.data() + (y + 1) * pitch_ + margin; }
+    std::uint16_t* row(int y) { return vectors_.front().pixels + (y + 1) * pitch_ + margin; }
+    const std::uint16_t* row(int y) const {
+        return vectors_.front().pixels + (y + 1) * pitch_ + margin;
+    }
 
     MutableDepthView view() { return {row(0), size_, pitch_}; }
     DepthView view() const { return {row(0), size_, pitch_}; }
 
-    void clear() { std::fill(pixels_.begin(), pixels_.end(), std::uint16_t(0)); }
+    void clear() { std::fill(vectors_.begin(), vectors_.end(), Vector{}); }
 
 private:
+    // Rows begin where a vector begins: one that lies across two cache lines costs two.
+    struct alignas(2 * margin) Vector {
+        std::uint16_t pixels[margin] = {};
+    };
+
     Size size_;
     int padded_width_;
     std::ptrdiff_t pitch_;
-    std::vector<std::uint16_t> pixels_;
+    std::vector<Vector> vectors_;
 };
 
 }  // namespace theatron::filter

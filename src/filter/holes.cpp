@@ -192,21 +192,21 @@ public:
                                          hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))));
     }
 
-    // Once, as the last: the median, or 0 at an edge. Of `more_than` 2, 4 and 6
-    // neighbours.
-    template <class Masks>
-    HWY_INLINE Pixels median_off_edge(const Masks& more_than, Tolerance tolerance) {
-        // The best network for eight; of its result only the first four are used.
+    // Once, as the last: the median, or 0 at an edge.
+    HWY_INLINE Pixels median_off_edge(Tolerance tolerance) {
+        // The best network for eight. Of what it does for the last of them the compiler
+        // leaves out what is not used.
         sort_pair(n0_, n2_), sort_pair(n1_, n3_), sort_pair(n4_, n6_), sort_pair(n5_, n7_);
         sort_pair(n0_, n4_), sort_pair(n1_, n5_), sort_pair(n2_, n6_), sort_pair(n3_, n7_);
         sort_pair(n0_, n1_), sort_pair(n2_, n3_), sort_pair(n4_, n5_), sort_pair(n6_, n7_);
         sort_pair(n2_, n4_), sort_pair(n3_, n5_);
         sort_pair(n1_, n4_), sort_pair(n3_, n6_);
-        sort_pair(n1_, n2_), sort_pair(n3_, n4_);
-        auto median = n0_;
-        median = hn::IfThenElse(more_than[0], n1_, median);
-        median = hn::IfThenElse(more_than[1], n2_, median);
-        median = hn::IfThenElse(more_than[2], n3_, median);
+        sort_pair(n1_, n2_), sort_pair(n3_, n4_), sort_pair(n5_, n6_);
+        // Where there are more than 2, 4, 6 neighbours the third, fifth, seventh is one.
+        const auto no_neighbour = hn::Set(dg, 0xffff);
+        auto median = hn::IfThenElse(hn::Eq(n2_, no_neighbour), n0_, n1_);
+        median = hn::IfThenElse(hn::Eq(n4_, no_neighbour), median, n2_);
+        median = hn::IfThenElse(hn::Eq(n6_, no_neighbour), median, n3_);
         return hn::IfThenZeroElse(beyond(tolerance, n0_), hn::Add(median, hn::Set(dg, 1)));
     }
 
@@ -222,41 +222,22 @@ private:
     Pixels furthest_;
 };
 
-// For each byte the places of its bits, in order.
-struct BitPlaces {
-    constexpr BitPlaces() {
-        for (int byte = 0; byte < 256; ++byte)
-            for (int bit = 0; bit < 8; ++bit)
-                if ((byte >> bit & 1) != 0)
-                    place[byte][count[byte]++] = std::uint8_t(bit);
-    }
-    std::uint8_t place[256][8] = {};
-    std::uint8_t count[256] = {};
-};
-constexpr BitPlaces bit_places;
-
 // Lists the groups in which a bit is set, without branches: they follow no pattern.
 HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range image,
                               HoleScratch::Groups& groups) {
-    const hn::ScalableTag<std::uint8_t> db;
+    const hn::CappedTag<HoleScratch::Group, 16> dp;
+    const hn::Rebind<std::uint8_t, decltype(dp)> db;
+    const std::ptrdiff_t lanes = hn::Lanes(dp);
     const std::uint8_t* bytes = bytes_of(s, bits);
     const std::ptrdiff_t size = 8 * (image.end - image.begin);
-    std::uint8_t* present = s.group_bits.data();
-    // Beyond the image's last row is a margin without bits.
-    for (std::ptrdiff_t i = 0; i < size; i += std::ptrdiff_t(hn::Lanes(db)))
-        hn::StoreMaskBits(db, hn::Ne(hn::LoadU(db, bytes + i), hn::Zero(db)), present + i / 8);
-
-    const hn::CappedTag<std::uint32_t, 8> d32;
-    const hn::Rebind<std::uint8_t, decltype(d32)> d8;
     HoleScratch::Group* next = groups.places.data();
-    for (std::ptrdiff_t i = 0; i < size / 8; ++i) {
-        const std::uint8_t byte = present[i];
-        const auto first = hn::Set(d32, std::uint32_t(8 * i));
-        for (std::size_t k = 0; k < 8; k += hn::Lanes(d32))
-            hn::StoreU(
-                hn::Add(first, hn::PromoteTo(d32, hn::LoadU(d8, bit_places.place[byte] + k))), d32,
-                next + k);
-        next += bit_places.count[byte];
+    auto places = hn::Iota(dp, 0);
+    // Beyond the image's last row is a margin without bits.
+    for (std::ptrdiff_t i = 0; i < size; i += lanes) {
+        const auto listed = hn::Ne(hn::PromoteTo(dp, hn::LoadU(db, bytes + i)), hn::Zero(dp));
+        hn::StoreU(hn::Compress(places, listed), dp, next);
+        next += hn::CountTrue(dp, listed);
+        places = hn::Add(places, hn::Set(dp, HoleScratch::Group(lanes)));
     }
     groups.count = std::size_t(next - groups.places.data());
     // The last vector is filled up with the image's first pixels.
@@ -272,8 +253,7 @@ HWY_INLINE Count sum(hn::Vec<decltype(dw)> a, hn::Vec<decltype(dw)> b, hn::Vec<d
     return {hn::Xor(either, c), hn::Or(hn::And(a, b), hn::And(either, c))};
 }
 
-// Counts the neighbours that are known: which open pixels have enough of them, and
-// which of them is the median.
+// Counts the neighbours that are known: which open pixels have enough of them.
 void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
     const std::ptrdiff_t row = s.words_per_row();
     const std::uint64_t* known = s.known.data();
@@ -313,36 +293,17 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
         next(bit8, least8);
         hn::StoreU(hn::And(open, enough), dw, s.candidate.data() + i);
         hn::StoreU(hn::AndNot(enough, open), dw, s.open.data() + i);
-        const auto more = hn::Or(bit4, bit8);
-        hn::StoreU(hn::Or(more, hn::And(bit1, bit2)), dw, s.more_than[0].data() + i);
-        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::Or(bit1, bit2))), dw, s.more_than[1].data() + i);
-        hn::StoreU(hn::Or(bit8, hn::And(bit4, hn::And(bit1, bit2))), dw, s.more_than[2].data() + i);
     });
-}
-
-// The bits of the groups of one vector.
-HWY_INLINE hn::Mask<decltype(dg)> load_bits(const std::uint8_t* bits,
-                                            const HoleScratch::Group* groups) {
-    std::uint8_t together[8] = {};  // LoadMaskBits may read a word
-    for (std::size_t g = 0; g < groups_per_vector; ++g)
-        together[g] = bits[groups[g]];
-    return hn::LoadMaskBits(dg, together);
 }
 
 // Fills one ring of pixels: the candidates. Those at an edge stay as they are, as
 // more neighbours leave an edge an edge. False if nothing was filled.
 bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
     std::uint16_t* pixels = pixels_of(depth);
-    const std::uint8_t* more_than[3];
-    for (int i = 0; i < 3; ++i)
-        more_than[i] = bytes_of(s, s.more_than[i]);
     const HoleScratch::Groups& groups = s.some;
     for (std::size_t i = 0; i < groups.count; i += groups_per_vector) {
         RimLanes rim(pixels, depth.pitch(), &groups.places[i]);
-        const hn::Mask<decltype(dg)> masks[3] = {load_bits(more_than[0], &groups.places[i]),
-                                                 load_bits(more_than[1], &groups.places[i]),
-                                                 load_bits(more_than[2], &groups.places[i])};
-        const auto median = rim.median_off_edge(masks, tolerance);
+        const auto median = rim.median_off_edge(tolerance);
         hn::StoreU(median, dg, s.depth.data() + 8 * i);
         hn::StoreMaskBits(dg, hn::Ne(median, hn::Zero(dg)), s.filled.data() + i);
     }
@@ -353,11 +314,8 @@ bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
     for (std::size_t i = 0; i < groups.count; ++i) {
         const HoleScratch::Group group = groups.places[i];
         const std::uint8_t filled = s.filled[i] & wanted[group];
-        std::uint16_t* pixel = pixels + 8 * std::size_t(group);
-        hn::StoreU(
-            hn::IfThenElse(hn::LoadMaskBits(eight, &filled),
-                           hn::LoadU(eight, s.depth.data() + 8 * i), hn::LoadU(eight, pixel)),
-            eight, pixel);
+        hn::BlendedStore(hn::LoadU(eight, s.depth.data() + 8 * i), hn::LoadMaskBits(eight, &filled),
+                         eight, pixels + 8 * std::size_t(group));
         known[group] |= filled;
         any |= filled;
     }
@@ -422,13 +380,13 @@ void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
     for (int i = 0; i < rule.iterations; ++i)
         spread_edges(s, image);
     const std::uint8_t* edges = bytes_of(s, s.edge);
+    std::uint16_t* pixels = pixels_of(depth);
     const hn::CappedTag<std::uint16_t, 8> eight;
     list_groups(s, s.edge, image, s.some);
     for (std::size_t i = 0; i < s.some.count; ++i) {
         const HoleScratch::Group group = s.some.places[i];
-        std::uint16_t* pixel = pixels_of(depth) + 8 * std::size_t(group);
-        const auto edge = hn::LoadMaskBits(eight, edges + group);
-        hn::StoreU(hn::IfThenZeroElse(edge, hn::LoadU(eight, pixel)), eight, pixel);
+        hn::BlendedStore(hn::Zero(eight), hn::LoadMaskBits(eight, edges + group), eight,
+                         pixels + 8 * std::size_t(group));
     }
 }
 
@@ -446,16 +404,14 @@ HoleScratch::HoleScratch(Size size) : words_per_row_(DepthPlane::pitch_of(size) 
     const std::size_t words =
         std::size_t(words_per_row_) * std::size_t(size.height + 2 * margin_rows) + 2 * slack;
     hole.assign(words, ~std::uint64_t(0));
-    for (Bits* bits : {&may_fill, &open, &known, &candidate, &more_than[0], &more_than[1],
-                       &more_than[2], &edge, &work})
+    for (Bits* bits : {&may_fill, &open, &known, &candidate, &edge, &work})
         bits->assign(words, 0);
-    // Whole vectors of groups are written, and whole words of flags.
+    // Whole vectors are written.
     constexpr std::size_t more = 16;
     const std::size_t most_groups =
         std::size_t(8 * words_per_row_) * std::size_t(size.height) + more;
     for (Groups* groups : {&all, &some})
         groups->places.resize(most_groups);
-    group_bits.resize(most_groups / 8 + more);
     depth.resize(8 * most_groups);
     filled.resize(most_groups);
 }

@@ -36,13 +36,12 @@ public:
     static constexpr std::ptrdiff_t slack = 8;  // words, readable before and after
     using Bits = std::vector<std::uint64_t>;
 
-    Bits hole;          // not measured; the margins too
-    Bits may_fill;      // by the shape of the holes
-    Bits open;          // of these, not yet looked at
-    Bits known;         // measured or filled
-    Bits candidate;     // what an iteration looks at
-    Bits more_than[3];  // so many known neighbours: 2, 4, 6
-    Bits edge;          // what is near an edge
+    Bits hole;       // not measured; the margins too
+    Bits may_fill;   // by the shape of the holes
+    Bits open;       // of these, not yet looked at
+    Bits known;      // measured or filled
+    Bits candidate;  // what an iteration looks at
+    Bits edge;       // what is near an edge
     Bits work;
 
     // Eight pixels side by side, a byte of bits, in which a bit is set: the byte's
@@ -52,10 +51,9 @@ public:
         std::vector<Group> places;
         std::size_t count = 0;
     };
-    Groups all, some;                      // all that may be filled; what one iteration looks at
-    std::vector<std::uint8_t> group_bits;  // a bit per group of the image
-    std::vector<std::uint16_t> depth;      // of some groups: what they may be filled with, and
-    std::vector<std::uint8_t> filled;      // where
+    Groups all, some;                  // all that may be filled; what one iteration looks at
+    std::vector<std::uint16_t> depth;  // of some groups: what they may be filled with, and
+    std::vector<std::uint8_t> filled;  // where
 
 private:
     std::ptrdiff_t words_per_row_;

@@ -2,7 +2,8 @@
 #include "filter/kalman.h"
 
 #include <cassert>
-#include <cstring>
+
+#include "image/scratch.h"
 
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -16,116 +17,63 @@ HWY_BEFORE_NAMESPACE();
 namespace theatron::filter::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// kalman_step() for a vector of pixels; the names are the same.
+// kalman_step() for vectors of pixels; the names are the same. Where all pixels of a
+// vector have long been still less is to be done.
 class KalmanLanes {
 public:
     KalmanLanes(const KalmanRule& rule, int boost)
-        : noise_constant_(hn::Set(du, std::uint16_t(rule.noise_constant))),
-          noise_squared_(hn::Set(du, std::uint16_t(rule.noise_squared))),
-          reset_sigmas_(hn::Set(di, std::int16_t(rule.reset_sigmas << 10))),
-          trend_(hn::Set(du, std::uint16_t(rule.trend))),
-          least_gain_(hn::Set(di, std::int16_t(rule.least_gain))),
-          gain_at_rest_(hn::Set(di, std::int16_t(larger(rule.least_gain, gain_at_rest)))),
+        : keeps_rest_(boost == 0),
+          noise_constant_(u(rule.noise_constant)),
+          noise_squared_(u(rule.noise_squared)),
+          most_noise_(u(most_noise)),
+          least_dead_band_noise_(i(least_dead_band_noise)),
+          moving_dead_band_(i(moving_dead_band)),
+          reset_sigmas_(i(rule.reset_sigmas << 10)),
+          trend_(u(rule.trend)),
+          trend_at_rest_(u(smaller(8 * rule.trend, most_trend_at_rest))),
+          old_trend_share_(i(7 << 4)),
+          new_trend_share_(i(1 << 11)),
+          most_trend_(i(127)),
+          least_trend_(i(-127)),
+          least_gain_(i(rule.least_gain)),
+          most_gain_(i(255)),
+          shifted_gain_at_rest_(i(larger(rule.least_gain, gain_at_rest) << 7)),
           // With a boost no gain is at rest.
-          gains_at_rest_(hn::Set(
-              du, std::uint16_t(boost > 0 ? 0xffff : larger(rule.least_gain, gain_at_rest)))),
-          twice_least_gain_(hn::Set(du, std::uint16_t(2 * rule.least_gain))),
-          most_hold_(hn::Set(du, std::uint16_t(rule.most_hold << 12))),
-          fresh_gain_(hn::Set(
-              du,
-              std::uint16_t(gain_after_reset | (smaller(hold_after_reset, rule.most_hold) << 12)))),
-          boost_(hn::Set(di, std::int16_t(smaller(boost, 255)))) {
+          gains_at_rest_(u(boost > 0 ? 0xffff : larger(rule.least_gain, gain_at_rest))),
+          twice_least_gain_(u(2 * rule.least_gain)),
+          most_hold_(u(rule.most_hold << 12)),
+          fresh_gain_(u(gain_after_reset | (smaller(hold_after_reset, rule.most_hold) << 12))),
+          boost_(i(smaller(boost, 255))),
+          unit_(i(1 << 10)),
+          least_usual_depth_(i(3)),
+          low_byte_(u(0xff)),
+          hold_bits_(u(0xf000)),
+          missing_bits_(u(0x0f00)),
+          one_missing_(u(0x0100)),
+          two_to_hold_(u(0x2000)),
+          half_range_(u(0x8000)),
+          least_signed_(i(-0x7fff)) {
         for (int times = 1; times <= trend_steps; ++times)
-            floor_[times - 1] =
-                hn::Set(di, std::int16_t(larger(rule.least_gain, trend_gain(times))));
+            floor_[times - 1] = i(larger(rule.least_gain, trend_gain(times)));
     }
 
-    // Advances the state of the pixels at these places, and returns their depth.
-    HWY_INLINE auto step(hn::Vec<hn::ScalableTag<std::uint16_t>> measured, std::uint16_t* depth_at,
-                         std::uint16_t* estimate_at, std::uint16_t* gain_at) const {
-        const auto depth = hn::LoadU(du, depth_at);
-        const auto zero = hn::Zero(du);
-        // The sensor's blind corners, and where the background is gone.
-        if (hn::AllTrue(du, hn::Eq(hn::Or(measured, depth), zero)))
-            return zero;
-        const auto estimate = hn::LoadU(du, estimate_at);
-        const auto gains = hn::LoadU(du, gain_at);
-
-        const auto squared = hn::MulHigh(depth, depth);
-        const auto noise =
-            hn::Min(hn::SaturatedAdd(noise_constant_, hn::MulHigh(squared, noise_squared_)),
-                    hn::Set(du, most_noise));
-        const auto noise_i = hn::BitCast(di, noise);
-        // (reset_sigmas * noise + 16) >> 5
-        const auto reset = hn::BitCast(du, hn::MulFixedPoint15(noise_i, reset_sigmas_));
-        const auto distance =
-            hn::Or(hn::SaturatedSub(measured, depth), hn::SaturatedSub(depth, measured));
-        const auto jump = hn::Gt(distance, reset);
-
-        // From here on for a measured pixel that is no jump; what becomes of others is
-        // thrown away. Shifts with rounding are multiplications.
-        const auto rest = hn::ShiftRight<8>(hn::BitCast(di, estimate));
-        const auto innovation =
-            hn::Sub(hn::BitCast(di, hn::ShiftLeft<estimate_bits>(hn::Sub(measured, depth))), rest);
-        auto trend = hn::Add(
-            hn::MulFixedPoint15(hn::BitCast(di, hn::ShiftLeft<8>(estimate)), hn::Set(di, 7 << 4)),
-            hn::MulFixedPoint15(innovation, hn::Set(di, 1 << 11)));
-        trend = hn::Min(hn::Max(trend, hn::Set(di, -127)), hn::Set(di, 127));
-        const auto size = hn::Abs(trend);
-        const auto threshold = hn::BitCast(di, hn::MulHigh(hn::ShiftLeft<3>(noise), trend_));
-        const auto moving = hn::Gt(size, threshold);
-        const auto dead_band =
-            hn::ShiftRight<2>(hn::Max(noise_i, hn::Set(di, least_dead_band_noise)));
-
-        // Most pixels have long been still: their gains stay as they are.
-        const auto is_measured = hn::Ne(measured, zero);
-        const auto restless = hn::Or(jump, hn::RebindMask(du, moving));
-        const auto at_rest = hn::Eq(hn::And(gains, hn::Set(du, 0x0fff)), gains_at_rest_);
-        if (hn::AllTrue(du, hn::AndNot(restless, hn::And(is_measured, at_rest)))) {
-            const Followed pixel =
-                followed(depth, rest, innovation, trend, gain_at_rest_, dead_band);
-            hn::StoreU(pixel.depth, du, depth_at);
-            hn::StoreU(pixel.estimate, du, estimate_at);
-            return pixel.depth;
+    // Advances the state of row `y`. `measured` may be read to the row's padded width.
+    // Not inlined: compilers would make the constants anew for each vector, which takes
+    // as long as the work itself.
+    HWY_NOINLINE void step(const std::uint16_t* measured, KalmanState& state, int y) const {
+        std::uint16_t* depth = state.depth.row(y);
+        std::uint16_t* estimate = state.estimate.row(y);
+        std::uint16_t* gain = state.gain.row(y);
+        std::uint8_t* at_rest = state.at_rest_row(y);
+        const int width = state.depth.padded_width();
+        for (int x = 0; x < width; ++at_rest) {
+            const bool was_at_rest = *at_rest != 0 && keeps_rest_;
+            bool all_at_rest = true;
+            for (const int end = x + KalmanState::block; x < end; x += int(hn::Lanes(du)))
+                all_at_rest &= step(hn::LoadU(du, measured + x), depth + x, estimate + x, gain + x,
+                                    was_at_rest);
+            *at_rest = all_at_rest;
         }
-
-        const auto old_gain = hn::And(gains, hn::Set(du, 0xff));
-        auto floor = hn::IfThenElse(moving, floor_[0], least_gain_);
-        auto beyond = threshold;
-        for (int times = 2; times <= trend_steps; ++times) {
-            beyond = hn::Add(beyond, threshold);
-            floor = hn::IfThenElse(hn::Gt(size, beyond), floor_[times - 1], floor);
-        }
-        const auto gain =
-            hn::Max(hn::Min(hn::Add(hn::BitCast(di, old_gain), boost_), hn::Set(di, 255)), floor);
-        const Followed pixel =
-            followed(depth, rest, innovation, trend, gain,
-                     hn::IfThenElse(moving, hn::Set(di, moving_dead_band), dead_band));
-        const auto gain_u = hn::BitCast(du, gain);
-        const auto next_gain = hn::Max(hn::Sub(gain_u, hn::ShiftRight<9>(hn::Mul(gain_u, gain_u))),
-                                       hn::BitCast(du, least_gain_));
-
-        // Numbers of frames stay where they are: in the highest bits.
-        const auto missing = hn::And(hn::ShiftLeft<4>(gains), hn::Set(du, 0xf000));
-        const auto hold = hn::And(gains, hn::Set(du, 0xf000));
-        const auto longer =
-            hn::Min(hn::Max(hold, hn::SaturatedAdd(missing, hn::Set(du, 0x2000))), most_hold_);
-        const auto grows = hn::AndNot(hn::Gt(old_gain, twice_least_gain_), hn::Ne(missing, zero));
-        const auto next_hold = hn::IfThenElse(grows, longer, hold);
-
-        // One of four: followed, begun anew, held, gone. What was not known has no hold.
-        const auto follows = hn::AndNot(jump, hn::Ne(hn::Min(measured, depth), zero));
-        const auto held = hn::AndNot(is_measured, hn::Lt(missing, hold));
-        const auto next_depth =
-            hn::IfThenElse(held, depth, hn::IfThenElse(follows, pixel.depth, measured));
-        hn::StoreU(next_depth, du, depth_at);
-        hn::StoreU(hn::IfThenElse(held, estimate, hn::IfThenElseZero(follows, pixel.estimate)), du,
-                   estimate_at);
-        const auto measured_gain = hn::IfThenElse(follows, hn::Or(next_gain, next_hold),
-                                                  hn::IfThenElseZero(is_measured, fresh_gain_));
-        hn::StoreU(hn::IfThenElse(held, hn::Add(gains, hn::Set(du, 1 << 8)), measured_gain), du,
-                   gain_at);
-        return next_depth;
     }
 
 private:
@@ -135,83 +83,183 @@ private:
     static constexpr DI di{};
     using VU = hn::Vec<DU>;
     using VI = hn::Vec<DI>;
+    static VU u(int value) { return hn::Set(du, std::uint16_t(value)); }
+    static VI i(int value) { return hn::Set(di, std::int16_t(value)); }
+    // With it the threshold is at most that of the largest trend: 127.
+    static constexpr int most_trend_at_rest = (128 << 16) / most_noise - 1;
 
-    struct Followed {
-        VU depth, estimate;
-    };
-    static HWY_INLINE Followed followed(VU depth, VI rest, VI innovation, VI trend, VI gain,
-                                        VI dead_band) {
-        // (innovation * gain + 128) >> 8
-        const auto moved = hn::Add(rest, hn::MulFixedPoint15(innovation, hn::ShiftLeft<7>(gain)));
-        // (moved + 16) >> 5
-        const auto step = hn::IfThenElseZero(hn::Gt(hn::Abs(moved), dead_band),
-                                             hn::MulFixedPoint15(moved, hn::Set(di, 1 << 10)));
-        const auto left = hn::Sub(moved, hn::ShiftLeft<estimate_bits>(step));
+    // True if all gains are at rest now. If they `were_at_rest` they are not read.
+    HWY_INLINE bool step(VU measured, std::uint16_t* depth_at, std::uint16_t* estimate_at,
+                         std::uint16_t* gain_at, bool were_at_rest) const {
+        const auto depth = hn::LoadU(du, depth_at);
+        // The sensor's blind corners, and where the background is gone.
+        const auto absent = hn::Eq(hn::Or(measured, depth), hn::Zero(du));
+        if (hn::AllTrue(du, absent))
+            return true;
+        const auto estimate = hn::LoadU(du, estimate_at);
+
+        const auto squared = hn::MulHigh(depth, depth);
+        const auto noise = hn::Min(
+            hn::SaturatedAdd(noise_constant_, hn::MulHigh(squared, noise_squared_)), most_noise_);
+        const auto noise_i = hn::BitCast(di, noise);
+        // (reset_sigmas * noise + 16) >> 5. Shifts with rounding are multiplications.
+        const auto reset = hn::MulFixedPoint15(noise_i, reset_sigmas_);
+        const auto difference = hn::BitCast(di, hn::Sub(measured, depth));
+        // From here on for a measured pixel that is no jump; what becomes of others is
+        // thrown away.
+        const auto rest = hn::ShiftRight<8>(hn::BitCast(di, estimate));
+        const auto innovation = hn::Sub(hn::ShiftLeft<estimate_bits>(difference), rest);
+        const auto trend = hn::Add(
+            hn::MulFixedPoint15(hn::BitCast(di, hn::ShiftLeft<8>(estimate)), old_trend_share_),
+            hn::MulFixedPoint15(innovation, new_trend_share_));
+        const auto dead_band = hn::ShiftRight<2>(hn::Max(noise_i, least_dead_band_noise_));
+
+        // Most often all pixels that are there were there before, and go on. Their depths are
+        // neither so small nor so large that 15 bits do not suffice. Absent pixels are all 0
+        // and stay it.
+        const auto usual = hn::RebindMask(
+            du,
+            hn::Gt(hn::Min(hn::BitCast(di, measured), hn::BitCast(di, depth)), least_usual_depth_));
+        const auto jumps = hn::RebindMask(du, hn::Gt(hn::Abs(difference), reset));
+        const auto goes_on = hn::AndNot(jumps, hn::Or(usual, absent));
+        const auto moves = hn::RebindMask(
+            du, hn::Gt(hn::Abs(trend), hn::BitCast(di, hn::MulHigh(noise, trend_at_rest_))));
+        const auto follow_at_rest = [&]() HWY_ATTR {
+            const auto moved = moved_by(innovation, rest, shifted_gain_at_rest_);
+            const auto step = step_of(moved, dead_band);
+            hn::StoreU(hn::Add(depth, hn::BitCast(du, step)), du, depth_at);
+            hn::StoreU(estimate_of(moved, step, trend), du, estimate_at);
+        };
+        if (were_at_rest && hn::AllTrue(du, hn::AndNot(moves, goes_on))) {
+            follow_at_rest();
+            return true;
+        }
+
+        const auto gains = hn::LoadU(du, gain_at);
+        const auto was_there = hn::Eq(hn::And(gains, missing_bits_), hn::Zero(du));
+        if (hn::AllTrue(du, hn::And(goes_on, was_there))) {
+            const auto low_gain = hn::Eq(hn::And(gains, low_byte_), gains_at_rest_);
+            if (hn::AllTrue(du, hn::AndNot(moves, hn::Or(low_gain, absent)))) {
+                follow_at_rest();
+                return true;
+            }
+            const Follow follow(*this, innovation, rest, trend, noise, gains, dead_band);
+            const auto next_gains = hn::Or(follow.gain, hn::And(gains, hold_bits_));
+            hn::StoreU(hn::Add(depth, hn::BitCast(du, follow.step)), du, depth_at);
+            hn::StoreU(follow.estimate, du, estimate_at);
+            hn::StoreU(hn::IfThenZeroElse(absent, next_gains), du, gain_at);
+            return false;
+        }
+
+        const Follow follow(*this, innovation, rest, trend, noise, gains, dead_band);
+        const auto zero = hn::Zero(du);
+        // Numbers of frames stay where they are: in the highest bits.
+        const auto missing = hn::And(hn::ShiftLeft<4>(gains), hold_bits_);
+        const auto hold = hn::And(gains, hold_bits_);
+        const auto longer =
+            hn::Min(hn::Max(hold, hn::SaturatedAdd(missing, two_to_hold_)), most_hold_);
+        const auto grows =
+            hn::AndNot(hn::Gt(hn::And(gains, low_byte_), twice_least_gain_), hn::Ne(missing, zero));
+        const auto next_hold = hn::IfThenElse(grows, longer, hold);
+
+        // One of four: followed, begun anew, held, gone. What was not known has no hold.
+        const auto is_measured = hn::Ne(measured, zero);
+        const auto distance =
+            hn::Or(hn::SaturatedSub(measured, depth), hn::SaturatedSub(depth, measured));
+        const auto follows = hn::AndNot(hn::Gt(distance, hn::BitCast(du, reset)),
+                                        hn::Ne(hn::Min(measured, depth), zero));
+        const auto held = hn::AndNot(is_measured, hn::Lt(missing, hold));
         // Less half the range, to add signed numbers with saturation.
-        const auto half = hn::Set(du, 0x8000);
-        const auto next = hn::Max(hn::SaturatedAdd(hn::BitCast(di, hn::Xor(depth, half)), step),
-                                  hn::Set(di, -0x7fff));
-        return {hn::Xor(hn::BitCast(du, next), half),
-                hn::Or(hn::BitCast(du, hn::ShiftLeft<8>(left)),
-                       hn::And(hn::BitCast(du, trend), hn::Set(du, 0xff)))};
+        const auto stepped =
+            hn::Max(hn::SaturatedAdd(hn::BitCast(di, hn::Xor(depth, half_range_)), follow.step),
+                    least_signed_);
+        const auto followed = hn::Xor(hn::BitCast(du, stepped), half_range_);
+        hn::StoreU(hn::IfThenElse(held, depth, hn::IfThenElse(follows, followed, measured)), du,
+                   depth_at);
+        hn::StoreU(hn::IfThenElse(held, estimate, hn::IfThenElseZero(follows, follow.estimate)), du,
+                   estimate_at);
+        const auto measured_gain = hn::IfThenElse(follows, hn::Or(follow.gain, next_hold),
+                                                  hn::IfThenElseZero(is_measured, fresh_gain_));
+        hn::StoreU(hn::IfThenElse(held, hn::Add(gains, one_missing_), measured_gain), du, gain_at);
+        return false;
     }
 
-    VU noise_constant_, noise_squared_;
+    // followed(), with any gain.
+    struct Follow {
+        HWY_INLINE Follow(const KalmanLanes& k, VI innovation, VI rest, VI any_trend, VU noise,
+                          VU gains, VI still_dead_band) {
+            const auto trend = hn::Min(hn::Max(any_trend, k.least_trend_), k.most_trend_);
+            const auto size = hn::Abs(trend);
+            const auto threshold = hn::BitCast(di, hn::MulHigh(hn::ShiftLeft<3>(noise), k.trend_));
+            const auto moving = hn::Gt(size, threshold);
+            auto floor = hn::IfThenElse(moving, k.floor_[0], k.least_gain_);
+            auto beyond = threshold;
+            for (int times = 2; times <= trend_steps; ++times) {
+                beyond = hn::Add(beyond, threshold);
+                floor = hn::IfThenElse(hn::Gt(size, beyond), k.floor_[times - 1], floor);
+            }
+            const auto old_gain = hn::BitCast(di, hn::And(gains, k.low_byte_));
+            const auto new_gain =
+                hn::Max(hn::Min(hn::Add(old_gain, k.boost_), k.most_gain_), floor);
+            const auto shifted_gain = hn::ShiftLeft<7>(new_gain);
+            const auto moved = moved_by(innovation, rest, shifted_gain);
+            step = k.step_of(moved, hn::IfThenElse(moving, k.moving_dead_band_, still_dead_band));
+            estimate = k.estimate_of(moved, step, trend);
+            // gain * gain >> 9
+            const auto fall = hn::MulHigh(hn::BitCast(du, shifted_gain), hn::BitCast(du, new_gain));
+            gain =
+                hn::BitCast(du, hn::Max(hn::Sub(new_gain, hn::BitCast(di, fall)), k.least_gain_));
+        }
+        VI step;
+        VU estimate, gain;
+    };
+
+    // rest + ((innovation * gain + 128) >> 8)
+    static HWY_INLINE VI moved_by(VI innovation, VI rest, VI shifted_gain) {
+        return hn::Add(rest, hn::MulFixedPoint15(innovation, shifted_gain));
+    }
+    // (moved + 16) >> 5, or 0
+    HWY_INLINE VI step_of(VI moved, VI dead_band) const {
+        return hn::IfThenElseZero(hn::Gt(hn::Abs(moved), dead_band),
+                                  hn::MulFixedPoint15(moved, unit_));
+    }
+    HWY_INLINE VU estimate_of(VI moved, VI step, VI trend) const {
+        const auto left = hn::Sub(moved, hn::ShiftLeft<estimate_bits>(step));
+        return hn::OrAnd(hn::BitCast(du, hn::ShiftLeft<8>(left)), hn::BitCast(du, trend),
+                         low_byte_);
+    }
+
+    bool keeps_rest_;
+    VU noise_constant_, noise_squared_, most_noise_;
+    VI least_dead_band_noise_, moving_dead_band_;
     VI reset_sigmas_;
-    VU trend_;
-    VI least_gain_, gain_at_rest_;
+    VU trend_, trend_at_rest_;
+    VI old_trend_share_, new_trend_share_, most_trend_, least_trend_;
+    VI least_gain_, most_gain_, shifted_gain_at_rest_;
     VU gains_at_rest_, twice_least_gain_, most_hold_, fresh_gain_;
-    VI boost_;
+    VI boost_, unit_, least_usual_depth_;
+    VU low_byte_, hold_bits_, missing_bits_, one_missing_, two_to_hold_;
+    VU half_range_;
+    VI least_signed_;
     VI floor_[trend_steps];
 };
 
-class KalmanRows {
-public:
-    KalmanRows(const KalmanRule& rule, int boost, KalmanState& state, MutableDepthView out)
-        : kalman_(rule, boost), state_(state), out_(out) {}
-
-    // `measured`: the row, readable to the end of the last vector.
-    HWY_INLINE void step(const std::uint16_t* measured, int y) const {
-        const hn::ScalableTag<std::uint16_t> d;
-        const int lanes = int(hn::Lanes(d)), width = out_.size.width;
-        std::uint16_t* depth = state_.depth.row(y);
-        std::uint16_t* estimate = state_.estimate.row(y);
-        std::uint16_t* gain = state_.gain.row(y);
-        std::uint16_t* out = out_.row(y);
-        int x = 0;
-        for (; x + lanes <= width; x += lanes)
-            hn::StoreU(kalman_.step(hn::LoadU(d, measured + x), depth + x, estimate + x, gain + x),
-                       d, out + x);
-        if (x < width) {
-            kalman_.step(hn::LoadU(d, measured + x), depth + x, estimate + x, gain + x);
-            std::memcpy(out + x, depth + x, std::size_t(width - x) * sizeof(*depth));
-        }
-    }
-
-private:
-    KalmanLanes kalman_;
-    KalmanState& state_;
-    MutableDepthView out_;
-};
-
-void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
-                 MutableDepthView out) {
-    const KalmanRows rows(rule, boost, state, out);
+void kalman_rows(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state) {
+    const KalmanLanes kalman(rule, boost);
     for (int y = 0; y < in.size().height; ++y)
-        rows.step(in.row(y), y);
+        kalman.step(in.row(y), state, y);
 }
 
 void supported_kalman_rows(const DepthPlane& in, const FlyingPixelRule& flying,
-                           const KalmanRule& rule, int boost, KalmanState& state,
-                           MutableDepthView out) {
+                           const KalmanRule& rule, int boost, KalmanState& state, DepthPlane& row) {
     const hn::ScalableTag<std::uint16_t> d;
-    const KalmanRows rows(rule, boost, state, out);
+    const KalmanLanes kalman(rule, boost);
     const SupportLanes supported(flying);
     for (int y = 0; y < in.size().height; ++y) {
-        std::uint16_t* row = state.row.row(0);
+        std::uint16_t* measured = row.row(0);
         for (int x = 0; x < in.padded_width(); x += int(hn::Lanes(d)))
-            hn::StoreU(supported(in.row(y) + x, in.pitch()), d, row + x);
-        rows.step(row, y);
+            hn::StoreU(supported(in.row(y) + x, in.pitch()), d, measured + x);
+        kalman.step(measured, state, y);
     }
 }
 
@@ -224,17 +272,16 @@ namespace theatron::filter {
 HWY_EXPORT(kalman_rows);
 HWY_EXPORT(supported_kalman_rows);
 
-void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
-                  MutableDepthView out) {
-    assert(in.size() == out.size && in.size() == state.depth.size());
-    HWY_DYNAMIC_DISPATCH(kalman_rows)(in, rule, boost, state, out);
+void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state) {
+    assert(in.size() == state.depth.size());
+    HWY_DYNAMIC_DISPATCH(kalman_rows)(in, rule, boost, state);
 }
 
 void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
-                               const KalmanRule& rule, int boost, KalmanState& state,
-                               MutableDepthView out) {
-    assert(in.size() == out.size && in.size() == state.depth.size());
-    HWY_DYNAMIC_DISPATCH(supported_kalman_rows)(in, flying, rule, boost, state, out);
+                               const KalmanRule& rule, int boost, KalmanState& state) {
+    assert(in.size() == state.depth.size());
+    auto& row = scratch_of_this_thread<DepthPlane>({in.size().width, 1});
+    HWY_DYNAMIC_DISPATCH(supported_kalman_rows)(in, flying, rule, boost, state, row);
 }
 
 }  // namespace theatron::filter

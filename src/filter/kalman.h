@@ -17,6 +17,10 @@
 // 16-bit integers throughout, so that all variants agree.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "filter/depth_plane.h"
 #include "filter/flying_pixels.h"
 #include "filter/rules.h"
@@ -42,28 +46,42 @@ struct KalmanPixel {
     std::uint16_t gain = 0;      // of 256 (low byte); frames missing and to hold (4 bits each)
 };
 
-struct KalmanState {
+class KalmanState {
+public:
     explicit KalmanState(Size size)
-        : depth(size), estimate(size), gain(size), row({size.width, 1}) {}
+        : depth(size),
+          estimate(size),
+          gain(size),
+          at_rest_(std::size_t(depth.padded_width() / block) * std::size_t(size.height)) {}
     void clear() {
         depth.clear();
         estimate.clear();
         gain.clear();
+        std::fill(at_rest_.begin(), at_rest_.end(), std::uint8_t(0));
     }
     DepthPlane depth, estimate, gain;
-    DepthPlane row;  // what apply_kalman_to_supported() is at
+
+    // For each block of so many pixels of a row, whether their gains are known to have
+    // fallen as far as they do: then these need not be fetched. Only apply_kalman() keeps
+    // this, so that it does not take turns with the reference on one state.
+    static constexpr int block = DepthPlane::margin;
+    std::uint8_t* at_rest_row(int y) {
+        return at_rest_.data() + std::ptrdiff_t(y) * (depth.padded_width() / block);
+    }
+
+private:
+    std::vector<std::uint8_t> at_rest_;
 };
 
-// One frame. `boost` is added to all gains: what was missed meanwhile.
-void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state,
-                  MutableDepthView out);
+// One frame; the result is the state's depth. `boost` is added to all gains: what was
+// missed meanwhile.
+void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state);
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
-                            KalmanState& state, MutableDepthView out);
+                            KalmanState& state);
 
-// The same behind remove_flying_pixels(), in one go over the image. `out` is not `in`.
+// The same behind remove_flying_pixels(), in one go over the image.
 void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
-                               const KalmanRule& rule, int boost, KalmanState& state,
-                               MutableDepthView out);
+                               const KalmanRule& rule, int boost, KalmanState& state);
 
 inline constexpr int most_noise = 448;        // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256

@@ -104,15 +104,15 @@ TEST(FilterKernels, TheLargestHolesEqualTheirDefinition) {
 
 // Frames that drift, jump and lose pixels, one after the other.
 template <class Frame>
-void expect_equal_states(Size size, const KalmanRule& rule, Frame frame) {
+void expect_equal_states(Size size, const KalmanRule& rule, Frame frame, int frames = 24,
+                         int boost_every = 7) {
     KalmanState state(size), expected_state(size);
-    DepthImage out(size), expected(size);
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < frames; ++i) {
         const DepthPlane in = plane_of(frame(i));
-        const int boost = i % 7 == 6 ? 40 * i : 0;
-        apply_kalman(in, rule, boost, state, out.view());
-        apply_kalman_reference(in, rule, boost, expected_state, expected.view());
-        ASSERT_EQ(out, expected) << "frame " << i;
+        const int boost = i % boost_every == boost_every - 1 ? 40 * i : 0;
+        apply_kalman(in, rule, boost, state);
+        apply_kalman_reference(in, rule, boost, expected_state);
+        ASSERT_EQ(image_of(state.depth), image_of(expected_state.depth)) << "frame " << i;
         ASSERT_EQ(image_of(state.estimate), image_of(expected_state.estimate)) << "frame " << i;
         ASSERT_EQ(image_of(state.gain), image_of(expected_state.gain)) << "frame " << i;
     }
@@ -135,6 +135,40 @@ TEST(FilterKernels, KalmanEqualsItsDefinition) {
                 expect_equal_states(size, rule, [&](int i) { return extremes(size, unsigned(i)); });
             }
         }
+    });
+}
+
+// Vectors of pixels that have long been still, at all distances; then some move, jump
+// or go.
+TEST(FilterKernels, KalmanAtRestEqualsItsDefinition) {
+    constexpr int depths[] = {2000, 1,    2,    3,      4,      5,      80,     281, 3200, 7300,
+                              7400, 7500, 8192, 0x7ffd, 0x7fff, 0x8001, 0xffff, 0,   1000};
+    const Size size{167, 38};
+    on_every_target([&] {
+        for (const KalmanRule& rule : {KalmanRule{}, KalmanRule{1023, 0xffff, 20, 0xffff, 30, 15},
+                                       KalmanRule{16, 34000, 5, 4096, 0, 0}})
+            expect_equal_states(
+                size, rule,
+                [&](int i) {
+                    DepthImage image(size);
+                    std::mt19937 random{unsigned(i)};
+                    const unsigned one_in = i < 40 ? 0 : i % 3 == 0 ? 20 : 200;
+                    for (int y = 0; y < size.height; ++y)
+                        for (int x = 0; x < size.width; ++x) {
+                            const int depth = depths[unsigned(x / 64 + y) % std::size(depths)];
+                            std::uint16_t& pixel = image.view().row(y)[x];
+                            pixel = std::uint16_t(depth);
+                            if (one_in == 0 || depth == 0 || random() % one_in != 0)
+                                continue;
+                            constexpr int changes[] = {1,   -1, 2,   -2,     30,
+                                                       -30, 66, -66, 0x8000, 0xfffd};
+                            const int change = changes[random() % std::size(changes)];
+                            pixel = random() % 5 == 0 ? std::uint16_t(0)
+                                                      : std::uint16_t(depth + change);
+                        }
+                    return image;
+                },
+                70, 61);
     });
 }
 

@@ -153,7 +153,7 @@ void remove_speckles_reference(DepthPlane& depth, const SpeckleRule& rule) {
 }
 
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
-                            KalmanState& state, MutableDepthView out) {
+                            KalmanState& state) {
     for_each_pixel(in.size(), [&](int x, int y) {
         const KalmanPixel before{state.depth.row(y)[x], state.estimate.row(y)[x],
                                  state.gain.row(y)[x]};
@@ -161,7 +161,6 @@ void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int bo
         state.depth.row(y)[x] = after.depth;
         state.estimate.row(y)[x] = after.estimate;
         state.gain.row(y)[x] = after.gain;
-        out.row(y)[x] = after.depth;
     });
 }
 

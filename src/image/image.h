@@ -2,6 +2,7 @@
 // Images that own their pixels.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "image/view.h"
@@ -30,5 +31,13 @@ struct Image {
 
 using DepthImage = Image<std::uint16_t>;
 using ColorImage = Image<Rgb>;
+
+// A copy of the pixels that a view shows.
+inline DepthImage copy_of(DepthView view) {
+    DepthImage image(view.size);
+    for (int y = 0; y < view.size.height; ++y)
+        std::copy_n(view.row(y), view.size.width, image.view().row(y));
+    return image;
+}
 
 }  // namespace theatron

@@ -201,7 +201,7 @@ void CameraLane::take_orders() {
     orders_.keys.clear();
 }
 
-// Leaves the frame's depth in filtered_, if there is a filter.
+// Shows the frame's depth in filtered_, if there is a filter.
 void CameraLane::filter_frame() {
     filtered_at_ = {};
     if (filter_.off())
@@ -213,11 +213,10 @@ void CameraLane::filter_frame() {
         camera.depth_unit_mm = info_.calibration.depth_unit_mm;
         camera.background = background_.get();
         chain_ = std::make_unique<filter::Chain>(filter_, camera);
-        filtered_.resize(frame.depth.size);
     }
     const TimePoint begin = steady_now();
     const TimePoint captured = frame.times.captured;
-    chain_->apply(frame.depth.view(), filtered_.view(), captured - filtered_captured_);
+    filtered_ = chain_->apply(frame.depth.view(), captured - filtered_captured_);
     filtered_captured_ = captured;
     filtered_at_ = steady_now();
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
@@ -232,7 +231,7 @@ void CameraLane::encode_frame(TimePoint begin) {
     header.delivered = frame.times.delivered;
     header.filtered = filtered_at_;
     const bool filtered = filtered_at_ != TimePoint{};
-    const DepthView depth = filtered ? std::as_const(filtered_).view() : frame.depth.view();
+    const DepthView depth = filtered ? filtered_ : frame.depth.view();
 
     const auto timed = [this](Stage stage, const auto& encode) {
         const TimePoint start = steady_now();

@@ -128,7 +128,7 @@ private:
     std::unique_ptr<filter::Chain> chain_;
     filter::ChainSettings filter_;
     std::shared_ptr<const filter::Background> background_;
-    DepthImage filtered_;  // of last_, if there is a chain
+    DepthView filtered_;  // of last_, if there is a chain, which it belongs to
     TimePoint filtered_at_, filtered_captured_;
 
     // Only in look().

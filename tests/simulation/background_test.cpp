@@ -49,13 +49,12 @@ TEST_F(RecordedBackground, LeavesPeopleAndPatientAndTakesTheRoomAway) {
     for (const char* line : {"background", "default+background"}) {
         filter::Chain chain(filter::parse_chain(line).settings,
                             {.size = background.nearest.size, .background = &background});
-        DepthImage out(background.nearest.size);
         double people = 0, kept = 0, behind = 0, left = 0;
         // Frames whose noise the background has not seen.
         for (int i = frames / 2; i < frames; ++i) {
             room.read(std::size_t(i), frame);
             exact.read(std::size_t(i), truth);
-            chain.apply(frame.depth.view(), out.view(), 83ms);
+            const DepthImage out = copy_of(chain.apply(frame.depth.view(), 83ms));
             for (std::size_t p = 0; p < out.pixels.size(); ++p) {
                 if (frame.depth.pixels[p] == 0 || truth.depth.pixels[p] == 0)
                     continue;
