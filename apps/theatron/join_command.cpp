@@ -97,15 +97,9 @@ struct OffscreenPicture {
     // What is new, also what the host said about drawing.
     void take(Participant& participant) {
         scene.take(participant);
-        try {
-            if (const auto word = participant.take_renderer_word()) {
-                if (!word->renderer.empty())
-                    check_renderer_choice(word->renderer);
-                renderer.follow(*word);
-            }
-        } catch (const Error& error) {
-            std::fprintf(stderr, "The host wants another way of drawing. %s\n", error.what());
-        }
+        if (const auto word = participant.take_renderer_word())
+            if (const std::string problem = follow_host(renderer, *word); !problem.empty())
+                std::fprintf(stderr, "%s\n", problem.c_str());
         participant.tell_renderer(drawn_with());
     }
 
@@ -291,9 +285,11 @@ void add_join_command(CLI::App& app) {
                         "Write the clouds' depth in that picture, in millimetres, into this 16-bit "
                         "PNG file");
     command
-        ->add_option("--renderer", flags->renderer,
-                     join_names(renderer_choices()) +
-                         "; auto is blend for two cameras and more. The host may set another")
+        ->add_option(
+            "--renderer", flags->renderer,
+            join_names(renderer_choices()) +
+                "; auto is blend for two cameras and more, in a window whatever keeps up. The "
+                "host may set another")
         ->capture_default_str();
     command->add_option("--size", flags->size, "Size of the window or of the picture")
         ->capture_default_str();

@@ -2,6 +2,7 @@
 #include "live_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "participant_figures.h"
 #include "xr/font_native.h"
@@ -32,15 +33,26 @@ std::vector<CameraId> LiveScene::take(Participant& participant) {
     }
     update_room(cameras);
     std::vector<CameraId> updated;
-    for (const auto& frame : participant.take_frames()) {
-        const ColorView color = frame->color ? frame->color->view() : ColorView{};
+    for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.
-        if (clouds_.upload(frame->camera, frame->depth.view(), color) == Status::ok) {
+        if (upload(*frame) == Status::ok) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
-    }
     return updated;
+}
+
+Status LiveScene::upload(const receive::CameraFrame& frame) {
+    return clouds_.upload(frame.camera, frame.depth.view(),
+                          frame.color ? frame.color->view() : ColorView{});
+}
+
+void LiveScene::set_depth_step(int step) {
+    if (step == std::exchange(depth_step_, step))
+        return;
+    clouds_.set_depth_step(step);
+    for (const auto& [camera, frame] : newest_)
+        (void)upload(*frame);
 }
 
 void LiveScene::update_room(const std::vector<Participant::Camera>& cameras) {

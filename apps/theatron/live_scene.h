@@ -27,6 +27,9 @@ public:
     // is new.
     std::vector<CameraId> take(Participant& participant);
 
+    // See render::CloudScene; what the cameras show stays.
+    void set_depth_step(int step);
+
     // Lets cameras that stand still fade, and others come back. True while it changes
     // what is seen.
     bool fade(const Participant& participant, TimePoint now);
@@ -44,6 +47,7 @@ public:
                            const std::string& renderer, bool with_room);
 
 private:
+    Status upload(const receive::CameraFrame& frame);
     void update_room(const std::vector<Participant::Camera>& cameras);
     const render::SceneFrame* room_for(const render::CameraView& view);
 
@@ -52,6 +56,7 @@ private:
     room::VirtualRoom room_;
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
+    int depth_step_ = 1;
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;
