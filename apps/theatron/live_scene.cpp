@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "participant_figures.h"
+#include "region_text.h"
 #include "xr/font_native.h"
 
 namespace theatron::app {
@@ -29,6 +31,7 @@ std::vector<CameraId> LiveScene::take(Participant& participant) {
             clouds_.set_camera(camera.description.id, camera.calibration);
             calibrations_[camera.description.id] = camera.calibration;
         }
+        cut_people(cameras);
         generation_ = generation;
     }
     update_room(cameras);
@@ -53,6 +56,22 @@ void LiveScene::set_depth_step(int step) {
     clouds_.set_depth_step(step);
     for (const auto& [camera, frame] : newest_)
         (void)upload(*frame);
+}
+
+// Heads stay where the options say. A host that comes back with other cameras is no error.
+void LiveScene::cut_people(const std::vector<Participant::Camera>& cameras) {
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera.description.name);
+    for (const SeenPerson& person : people_) {
+        try {
+            const std::size_t number = find_camera(person.camera, names);
+            clouds_.set_cut(cameras[number].description.id, person.cut());
+        } catch (const Error&) {
+            if (generation_ == 0)
+                throw;
+        }
+    }
 }
 
 void LiveScene::update_room(const std::vector<Participant::Camera>& cameras) {

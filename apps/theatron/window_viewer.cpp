@@ -32,7 +32,7 @@ std::string next_name(const std::vector<std::string>& names, const std::string& 
 WindowViewer::WindowViewer(Options options)
     : options_(std::move(options)),
       window_("Theatron", options_.size),
-      scene_(options_.room),
+      scene_(options_.room, options_.people),
       choice_(options_.renderer),
       pace_(xr::automatic_ways(1, options_.scale)),
       participant_(with_callbacks(options_.join)) {}

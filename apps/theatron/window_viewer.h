@@ -27,6 +27,7 @@ public:
         Size size{1280, 720};
         ViewChoice view;
         RoomChoice room;
+        std::vector<SeenPerson> people;
         std::string renderer = "auto";
         double scale = 0;    // of the window's pixels to draw; 0: as there is time for
         double seconds = 0;  // end this long after the first picture; 0: never
