@@ -248,7 +248,7 @@ void add_pipeline(CLI::App& bench) {
 
 void add_render(CLI::App& bench) {
     struct Flags {
-        int cameras = 4;
+        int cameras = 4, depth_step = 1;
         std::string json;
     };
     const auto flags = std::make_shared<Flags>();
@@ -258,11 +258,18 @@ void add_render(CLI::App& bench) {
     command->add_option("--cameras", flags->cameras, "Generated cameras")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
+    command
+        ->add_option("--depth-step", flags->depth_step,
+                     "Draw the depth pixels of every so many columns and rows only, as a window "
+                     "does that is too slow otherwise")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 8));
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
         RenderBench b;
         b.cameras = generated_render_cameras(flags->cameras);
+        b.depth_step = flags->depth_step;
         const nlohmann::json r = bench_render(b);
         report(r, flags->json, [&] {
             std::printf("%s, %dx%d, %d camera(s)\n", r["gl_renderer"].get<std::string>().c_str(),

@@ -135,6 +135,7 @@ nlohmann::json bench_render(const RenderBench& bench) {
     std::vector<std::vector<double>> frame_ms(renderers.size()), upload_ms(renderers.size());
     {
         CloudScene scene;
+        scene.set_depth_step(bench.depth_step);
         for (int i = 0; i < count; ++i)
             scene.set_camera(CameraId(i), bench.cameras[std::size_t(i)].calibration);
         const Calibration& first = bench.cameras.front().calibration;
@@ -167,11 +168,9 @@ nlohmann::json bench_render(const RenderBench& bench) {
         rows.push_back({{"name", renderers[r]},
                         {"frame_ms", median(frame_ms[r])},
                         {"upload_ms", median(upload_ms[r])}});
-    return {{"gl_renderer", context.renderer_name()},
-            {"width", bench.picture.width},
-            {"height", bench.picture.height},
-            {"cameras", count},
-            {"renderers", rows}};
+    return {{"gl_renderer", context.renderer_name()}, {"width", bench.picture.width},
+            {"height", bench.picture.height},         {"cameras", count},
+            {"depth_step", bench.depth_step},         {"renderers", rows}};
 }
 
 }  // namespace theatron::app

@@ -26,6 +26,7 @@ struct RenderBench {
     std::vector<RenderBenchCamera> cameras;
     Size picture{1280, 720};
     std::vector<std::string> renderers;  // none: all there are
+    int depth_step = 1;  // see render::CloudScene::set_depth_step; the check has all
     int repetitions = 15;
 };
 
@@ -34,9 +35,9 @@ struct RenderBench {
 // it: at least 95 % of its depth pixels within 5 mm and two pixels, in their colour. The
 // bare grid is held to it, too.
 //
-// Returns {gl_renderer, width, height, cameras, renderers: [{name, frame_ms, upload_ms}]}:
-// medians of the wall clock around glFinish, uploads per camera (depth and colour). The row
-// bare_grid is the yardstick: the least that draws the depth images as surfaces.
+// Returns {gl_renderer, width, height, cameras, depth_step, renderers: [{name, frame_ms,
+// upload_ms}]}: medians of the wall clock around glFinish, uploads per camera (depth and colour).
+// The row bare_grid is the yardstick: the least that draws the depth images as surfaces.
 //
 // Throws Error for an unknown renderer, no camera, a renderer that draws wrongly, GL
 // errors, and where there is no GL.

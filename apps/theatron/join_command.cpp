@@ -12,6 +12,7 @@
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/png_file.h"
+#include "head_text.h"
 #include "input_lines.h"
 #include "participant.h"
 #include "participant_figures.h"
@@ -36,6 +37,7 @@ struct Flags {
     std::string size = "1280x720";
     std::string view = "camera:0";
     std::string room = "on", quality = "auto";
+    std::vector<std::string> people, myself;
     bool stereo = false;
     double seconds = 0;
     double warmup = 0;
@@ -90,22 +92,16 @@ struct OffscreenPicture {
         : size(parse_size(flags.size)),
           view(parse_view(flags.view)),
           renderer(flags.renderer),
-          scene(parse_room(flags)) {
+          scene(parse_room(flags), parse_seen_people(flags.people, flags.myself)) {
         check_renderer_choice(flags.renderer);
     }
 
     // What is new, also what the host said about drawing.
     void take(Participant& participant) {
         scene.take(participant);
-        try {
-            if (const auto word = participant.take_renderer_word()) {
-                if (!word->renderer.empty())
-                    check_renderer_choice(word->renderer);
-                renderer.follow(*word);
-            }
-        } catch (const Error& error) {
-            std::fprintf(stderr, "The host wants another way of drawing. %s\n", error.what());
-        }
+        if (const auto word = participant.take_renderer_word())
+            if (const std::string problem = follow_host(renderer, *word); !problem.empty())
+                std::fprintf(stderr, "%s\n", problem.c_str());
         participant.tell_renderer(drawn_with());
     }
 
@@ -190,8 +186,9 @@ void run(const Flags& flags) {
     if (flags.window()) {
         check_renderer_choice(flags.renderer);
         WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
-                             parse_room(flags), flags.renderer,
-                             parse_render_scale(flags.render_scale), flags.seconds});
+                             parse_room(flags), parse_seen_people(flags.people, flags.myself),
+                             flags.renderer, parse_render_scale(flags.render_scale),
+                             flags.seconds});
         catch_stop_signals();
         viewer.run();
         return;
@@ -277,7 +274,8 @@ void add_join_command(CLI::App& app) {
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
         "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
         "--json\n"
-        "  theatron join LINK --target-latency 250 --max-mbit 15");
+        "  theatron join LINK --target-latency 250 --max-mbit 15\n"
+        "  theatron join LINK --person 1=0.2:1.65:-0.4,reach=1 --myself 0=0:1.7:0.5,yaw=180");
     command->add_option("link", flags->link, "The link that the host printed")->required();
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->capture_default_str();
@@ -291,9 +289,11 @@ void add_join_command(CLI::App& app) {
                         "Write the clouds' depth in that picture, in millimetres, into this 16-bit "
                         "PNG file");
     command
-        ->add_option("--renderer", flags->renderer,
-                     join_names(renderer_choices()) +
-                         "; auto is blend for two cameras and more. The host may set another")
+        ->add_option(
+            "--renderer", flags->renderer,
+            join_names(renderer_choices()) +
+                "; auto is blend for two cameras and more, in a window whatever keeps up. The "
+                "host may set another")
         ->capture_default_str();
     command->add_option("--size", flags->size, "Size of the window or of the picture")
         ->capture_default_str();
@@ -314,6 +314,19 @@ void add_join_command(CLI::App& app) {
                      "graphics card draws. The clouds are the same in both")
         ->capture_default_str()
         ->check(CLI::IsMember({"auto", "low", "high"}));
+    command
+        ->add_option("--person", flags->people,
+                     "CAMERA=X:Y:Z, a person seen by that camera (number from 0 or name) and where "
+                     "in the room their head is, in metres: of this camera only what is near them "
+                     "is drawn. Behind it ,yaw=DEGREES (0 looks along -z, 90 along -x), "
+                     "pitch=DEGREES (up) and reach=METRES from the body's middle (1.1). Repeat for "
+                     "more cameras")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--myself", flags->myself,
+                     "The same for a camera that sees yourself: also your head and what is right "
+                     "before your eyes is left out; hands stay")
+        ->allow_extra_args(false);
     command->add_flag("--stereo", flags->stereo,
                       "With --offscreen: what the left and the right eye see, beside each other");
     command->add_option("--seconds", flags->seconds,

@@ -2,8 +2,11 @@
 #include "live_scene.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/error.h"
 #include "participant_figures.h"
+#include "region_text.h"
 #include "xr/font_native.h"
 
 namespace theatron::app {
@@ -28,19 +31,47 @@ std::vector<CameraId> LiveScene::take(Participant& participant) {
             clouds_.set_camera(camera.description.id, camera.calibration);
             calibrations_[camera.description.id] = camera.calibration;
         }
+        cut_people(cameras);
         generation_ = generation;
     }
     update_room(cameras);
     std::vector<CameraId> updated;
-    for (const auto& frame : participant.take_frames()) {
-        const ColorView color = frame->color ? frame->color->view() : ColorView{};
+    for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.
-        if (clouds_.upload(frame->camera, frame->depth.view(), color) == Status::ok) {
+        if (upload(*frame) == Status::ok) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
-    }
     return updated;
+}
+
+Status LiveScene::upload(const receive::CameraFrame& frame) {
+    return clouds_.upload(frame.camera, frame.depth.view(),
+                          frame.color ? frame.color->view() : ColorView{});
+}
+
+void LiveScene::set_depth_step(int step) {
+    if (step == std::exchange(depth_step_, step))
+        return;
+    clouds_.set_depth_step(step);
+    for (const auto& [camera, frame] : newest_)
+        (void)upload(*frame);
+}
+
+// Heads stay where the options say. A host that comes back with other cameras is no error.
+void LiveScene::cut_people(const std::vector<Participant::Camera>& cameras) {
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera.description.name);
+    for (const SeenPerson& person : people_) {
+        try {
+            const std::size_t number = find_camera(person.camera, names);
+            clouds_.set_cut(cameras[number].description.id, person.cut());
+        } catch (const Error&) {
+            if (generation_ == 0)
+                throw;
+        }
+    }
 }
 
 void LiveScene::update_room(const std::vector<Participant::Camera>& cameras) {

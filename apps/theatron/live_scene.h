@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "head_text.h"
 #include "participant.h"
 #include "render/room_picture.h"
 #include "room/virtual_room.h"
@@ -21,11 +22,15 @@ struct RoomChoice {
 // Use from one thread, with the same GL context current.
 class LiveScene {
 public:
-    explicit LiveScene(RoomChoice choice) : choice_(choice) {}
+    explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})
+        : choice_(choice), people_(std::move(people)) {}
 
     // Takes over what is new: cameras and frames. Returns the cameras whose picture
-    // is new.
+    // is new. Throws Error if somebody is to be seen by a camera that the host never had.
     std::vector<CameraId> take(Participant& participant);
+
+    // See render::CloudScene; what the cameras show stays.
+    void set_depth_step(int step);
 
     // Lets cameras that stand still fade, and others come back. True while it changes
     // what is seen.
@@ -44,14 +49,18 @@ public:
                            const std::string& renderer, bool with_room);
 
 private:
+    Status upload(const receive::CameraFrame& frame);
+    void cut_people(const std::vector<Participant::Camera>& cameras);
     void update_room(const std::vector<Participant::Camera>& cameras);
     const render::SceneFrame* room_for(const render::CameraView& view);
 
     RoomChoice choice_;
+    std::vector<SeenPerson> people_;
     render::CloudScene clouds_;
     room::VirtualRoom room_;
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
+    int depth_step_ = 1;
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;

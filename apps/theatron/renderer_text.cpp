@@ -42,6 +42,17 @@ std::string renderer_for(const std::string& choice, std::size_t cameras) {
     return cameras >= 2 ? "blend" : "mesh";
 }
 
+std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word) {
+    try {
+        if (!word.renderer.empty())
+            check_renderer_choice(word.renderer);
+    } catch (const Error& e) {
+        return std::string("The host wants another way of drawing. ") + e.what();
+    }
+    choice.follow(word);
+    return {};
+}
+
 RendererText parse_renderer(const std::string& text) {
     std::istringstream in(text);
     std::vector<std::string> words;

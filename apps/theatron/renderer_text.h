@@ -6,19 +6,24 @@
 #include <string>
 #include <vector>
 
+#include "session/renderer_choice.h"
 #include "wire/control.h"
 
 namespace theatron::app {
 
-// "blend" for two cameras and more, "mesh" for one.
+// "blend" for two cameras and more, "mesh" for one; in a window simpler where that is too slow.
 inline constexpr const char* automatic = "auto";
 
 // All that may be chosen: render::renderer_names() and "auto".
 std::vector<std::string> renderer_choices();
 // Throws Error that names the choices if this is none of them.
 void check_renderer_choice(const std::string& name);
-// The renderer that a choice means for so many cameras.
+// The renderer that a choice means for so many cameras, where time does not matter.
 std::string renderer_for(const std::string& choice, std::size_t cameras);
+
+// Follows what the host said if there is such a renderer. If not nothing changes, and a sentence
+// for the person is returned.
+std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word);
 
 // What a host says: "blend", "2 mesh", "Dr. A mesh lock", "all auto", "all free".
 struct RendererText {

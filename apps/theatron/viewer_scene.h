@@ -14,9 +14,10 @@ namespace theatron::app {
 // Use from one thread.
 class ViewerScene {
 public:
-    explicit ViewerScene(RoomChoice room = {}) : scene_(room) {}
+    explicit ViewerScene(RoomChoice room = {}, std::vector<SeenPerson> people = {})
+        : scene_(room, std::move(people)) {}
 
-    // Takes over what is new: cameras and frames.
+    // Takes over what is new: cameras and frames. Throws as LiveScene does.
     void take(Participant& participant) { (void)scene_.take(participant); }
 
     bool has_picture() const { return scene_.has_picture(); }

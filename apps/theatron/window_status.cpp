@@ -70,6 +70,18 @@ std::string common(const nlohmann::json& cameras, const char* field) {
     return text.empty() ? "none" : text;
 }
 
+// "blend (auto)", "mesh, set by host, coarser".
+std::string drawing_text(const OnScreen& screen) {
+    std::string text = screen.way.renderer;
+    if (screen.renderer_by == OnScreen::By::program)
+        text += " (auto)";
+    if (screen.renderer_by == OnScreen::By::host)
+        text += ", set by host";
+    if (screen.way.scale < 1 || screen.way.depth_step > 1)
+        text += ", coarser";
+    return text;
+}
+
 }  // namespace
 
 std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen) {
@@ -102,9 +114,7 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
     } else if (screen.has_picture) {
         facts.push_back(age);
     }
-    const bool reduced = screen.scale < 1;
-    facts.push_back({"Drawing", screen.renderer + (screen.renderer_locked ? ", set by host" : "") +
-                                    (reduced ? ", coarser" : "")});
+    facts.push_back({"Drawing", drawing_text(screen)});
     facts.push_back({"Help", "F1"});
     return facts;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "participant.h"
+#include "xr/drawing_pace.h"
 #include "xr/overlay_native.h"
 
 namespace theatron::app {
@@ -15,10 +16,9 @@ struct OnScreen {
     bool has_picture = false;
     std::optional<double> age_ms;  // of what is shown, now
     double drawn_per_second = 0;
-    std::string renderer;
-    bool renderer_locked = false;  // by the host
-    double scale = 1;              // of the window's pixels, drawn on each side
-    std::string address;           // of the host
+    xr::DrawingWay way;
+    enum class By { person, program, host } renderer_by = By::person;
+    std::string address;  // of the host
 };
 
 std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen);

@@ -32,8 +32,9 @@ std::string next_name(const std::vector<std::string>& names, const std::string& 
 WindowViewer::WindowViewer(Options options)
     : options_(std::move(options)),
       window_("Theatron", options_.size),
-      scene_(options_.room),
+      scene_(options_.room, options_.people),
       choice_(options_.renderer),
+      pace_(xr::automatic_ways(1, options_.scale)),
       participant_(with_callbacks(options_.join)) {}
 
 Participant::Options WindowViewer::with_callbacks(Participant::Options join) {
@@ -79,6 +80,7 @@ void WindowViewer::run() {
             updated_.insert(camera);
             scene_changed_ = true;
         }
+        choose_pace();  // for the cameras that there are now
         fading_ = scene_.fade(participant_, now);
         scene_changed_ = scene_changed_ || fading_;
         find_view();
@@ -154,10 +156,10 @@ void WindowViewer::obey(const xr::KeyPress& key) {
 void WindowViewer::choose_renderer() {
     if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
         return note("The host has set this way of drawing: " + choice_.renderer(), choice_shown);
-    scale_.forget();
-    scene_changed_ = true;
-    const bool as_drawn = choice_.renderer() == renderer();
-    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + renderer()), choice_shown);
+    choose_pace();
+    const bool as_drawn = choice_.renderer() == way().renderer;
+    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer),
+         choice_shown);
 }
 
 void WindowViewer::follow_host() {
@@ -165,28 +167,25 @@ void WindowViewer::follow_host() {
     if (!word)
         return;
     const session::RendererChoice before = choice_;
-    try {
-        if (!word->renderer.empty())
-            check_renderer_choice(word->renderer);
-        choice_.follow(*word);
-    } catch (const Error& e) {
-        return note(std::string("The host wants another way of drawing. ") + e.what(),
-                    remark_shown);
-    }
+    if (const std::string problem = app::follow_host(choice_, *word); !problem.empty())
+        return note(problem, remark_shown);
     if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
         note(choice_.locked() || !before.locked()
                  ? "The host has set the way of drawing: " + choice_.renderer()
                  : "The way of drawing is yours again.",
              remark_shown);
-    if (choice_.renderer() == before.renderer())
-        return;
-    scale_.forget();
-    scene_changed_ = true;
+    choose_pace();
 }
 
-// What is drawn with now.
-std::string WindowViewer::renderer() const {
-    return renderer_for(choice_.renderer(), scene_.calibrations().size());
+// Begins anew where there are other ways to draw than before.
+void WindowViewer::choose_pace() {
+    auto ways = choice_.renderer() == automatic
+                    ? xr::automatic_ways(scene_.calibrations().size(), options_.scale)
+                    : xr::ways_of(choice_.renderer(), options_.scale);
+    if (ways == pace_.ways())
+        return;
+    pace_ = xr::DrawingPace(std::move(ways));
+    scene_changed_ = true;
 }
 
 // Throws Error if that camera does not exist or sent nothing yet.
@@ -286,10 +285,11 @@ void WindowViewer::update_texts(TimePoint now) {
         screen.age_ms = since > 500 ? *age_at_presentation_ + since : ages_.percentile(0.5);
     }
     screen.drawn_per_second = drawn_.per_second(now);
-    screen.renderer = renderer();
-    screen.renderer_locked = choice_.locked();
-    participant_.tell_renderer(screen.renderer);
-    screen.scale = options_.scale > 0 ? options_.scale : scale_.scale();
+    screen.way = way();
+    screen.renderer_by = choice_.locked()                  ? OnScreen::By::host
+                         : choice_.renderer() == automatic ? OnScreen::By::program
+                                                           : OnScreen::By::person;
+    participant_.tell_renderer(screen.way.renderer);
     screen.address = options_.join.link.host + ":" + std::to_string(options_.join.link.port);
 
     xr::OverlayContent texts;
@@ -306,15 +306,15 @@ void WindowViewer::update_texts(TimePoint now) {
     next_texts_ = now + texts_every;
 
     const std::string host = status.host_name.empty() ? screen.address : status.host_name;
-    const std::string title = host + " - " + screen.renderer + " - Theatron";
+    const std::string title = host + " - " + screen.way.renderer + " - Theatron";
     if (title != title_)
         window_.set_title(title_ = title);
 }
 
 void WindowViewer::draw_scene() {
-    const double scale = options_.scale > 0 ? options_.scale : scale_.scale();
-    const render::DrawTarget target = picture_.begin(window_.pixels(), scale);
-    const std::string wanted = renderer();
+    const render::DrawTarget target = picture_.begin(window_.pixels(), way().scale);
+    const std::string& wanted = way().renderer;
+    scene_.set_depth_step(way().depth_step);
     try {
         scene_.draw(view(), target, wanted);
         working_renderer_ = wanted;
@@ -324,6 +324,7 @@ void WindowViewer::draw_scene() {
             throw;
         note(e.what(), remark_shown);
         choice_.follow({working_renderer_, choice_.locked()});
+        choose_pace();
     }
 }
 
@@ -339,7 +340,7 @@ void WindowViewer::draw(TimePoint begin) {
         return;
 
     const TimePoint end = steady_now();
-    scale_.add(end - begin);
+    pace_.add(end, end - begin);
     drawn_.add(end);
     ++pictures_;
     if (updated_.empty())

@@ -14,8 +14,8 @@
 #include "view_choice.h"
 #include "window_status.h"
 #include "xr/desktop_window_native.h"
+#include "xr/drawing_pace.h"
 #include "xr/overlay_native.h"
-#include "xr/render_scale.h"
 #include "xr/scaled_picture_native.h"
 
 namespace theatron::app {
@@ -27,6 +27,7 @@ public:
         Size size{1280, 720};
         ViewChoice view;
         RoomChoice room;
+        std::vector<SeenPerson> people;
         std::string renderer = "auto";
         double scale = 0;    // of the window's pixels to draw; 0: as there is time for
         double seconds = 0;  // end this long after the first picture; 0: never
@@ -45,7 +46,8 @@ private:
     void note(const std::string& text, Duration length);
     void choose_renderer();
     void follow_host();
-    std::string renderer() const;
+    void choose_pace();
+    const xr::DrawingWay& way() const { return pace_.way(); }
     void go_home(const ViewChoice& choice);
     void find_view();
     std::string camera_text(CameraId camera) const;
@@ -74,7 +76,7 @@ private:
     // What is drawn.
     session::RendererChoice choice_;
     std::string working_renderer_;
-    xr::RenderScale scale_;
+    xr::DrawingPace pace_;
     xr::OverlayContent texts_;
     std::string notice_, title_;
     TimePoint notice_until_, next_texts_;

@@ -35,12 +35,15 @@ struct CloudCut {
 // the head is turned.
 Vec3 body_middle(const Pose& room_from_head);
 
+// How far a body reaches from its middle.
+inline constexpr double usual_reach_m = 1.1;
+
 // Another person, as their cameras see them: what is further than `reach_m` from the body's middle
 // is the room behind.
-CloudCut other_person(const Pose& room_from_head, double reach_m = 1.1);
+CloudCut other_person(const Pose& room_from_head, double reach_m = usual_reach_m);
 
 // Oneself: the headset, the head and what is so near before the eyes that it hides all else. Hands
 // at work stay.
-CloudCut oneself(const Pose& room_from_head, double reach_m = 1.1);
+CloudCut oneself(const Pose& room_from_head, double reach_m = usual_reach_m);
 
 }  // namespace theatron::render

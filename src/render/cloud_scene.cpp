@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_scene.h"
 
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "render/cloud_passes.h"
 #include "render/cloud_textures.h"
 #include "render/color_balance.h"
 #include "render/color_visibility.h"
+#include "render/fewer_points.h"
 #include "render/render_target.h"
 
 namespace theatron::render {
@@ -53,6 +56,8 @@ void check_renderer_name(std::string_view name) {
 }
 
 struct CloudScene::Parts {
+    std::map<CameraId, Calibration> calibrations;  // of the images as they come
+    int depth_step = 1;
     CloudTextures textures;
     ColorBalance balance;
     CameraBlock cameras;
@@ -80,7 +85,10 @@ CloudScene::CloudScene(CloudScene&&) noexcept = default;
 CloudScene& CloudScene::operator=(CloudScene&&) noexcept = default;
 
 void CloudScene::set_camera(CameraId camera, const Calibration& calibration) {
-    parts_->textures.set_camera(camera, calibration);
+    Calibration drawn = calibration;
+    drawn.depth = every_nth(calibration.depth, parts_->depth_step);
+    parts_->textures.set_camera(camera, drawn);
+    parts_->calibrations[camera] = calibration;
 }
 
 void CloudScene::set_presence(CameraId camera, double presence) {
@@ -91,16 +99,38 @@ void CloudScene::set_cut(CameraId camera, const CloudCut& cut) {
     parts_->textures.set_cut(camera, cut);
 }
 
+void CloudScene::set_depth_step(int step) {
+    if (step == parts_->depth_step)
+        return;
+    // All else as it was when new: textures and maps have another size now.
+    const auto before = std::exchange(parts_, std::make_unique<Parts>());
+    parts_->depth_step = step;
+    parts_->balance = std::move(before->balance);
+    for (const auto& [camera, calibration] : before->calibrations) {
+        const CloudSource& source = before->textures.sources().at(camera);
+        set_camera(camera, calibration);
+        set_presence(camera, source.presence);
+        set_cut(camera, source.cut);
+        parts_->textures.set_color_gain(camera, source.color_gain);
+    }
+}
+
 void CloudScene::remove_camera(CameraId camera) {
+    parts_->calibrations.erase(camera);
     parts_->textures.remove_camera(camera);
     parts_->balance.remove(camera);
 }
 
 Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
-    const Status status = parts_->textures.upload(camera, depth, color);
+    const auto known = parts_->calibrations.find(camera);
+    if (known == parts_->calibrations.end() || depth.size != known->second.depth.size)
+        return Status::size_mismatch;
+    const Status status =
+        parts_->depth_step == 1
+            ? parts_->textures.upload(camera, depth, color)
+            : parts_->textures.upload(camera, every_nth(depth, parts_->depth_step).view(), color);
     if (status == Status::ok)
-        parts_->balance.add(camera, parts_->textures.sources().at(camera).calibration, depth,
-                            color);
+        parts_->balance.add(camera, known->second, depth, color);
     return status;
 }
 

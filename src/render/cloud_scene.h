@@ -72,6 +72,11 @@ public:
     // transparent; in the other renderers more and more of its pixels are left out. 1 when added.
     void set_presence(CameraId camera, double presence);
 
+    // Draws the depth pixels of every `step`-th column and row only, from 1, which is all of them:
+    // for machines that would be too slow otherwise. Colour stays as sharp as it is. After a
+    // change clouds are empty until their images are uploaded again.
+    void set_depth_step(int step);
+
     // Which part of a camera's cloud is shown; all of it when added.
     void set_cut(CameraId camera, const CloudCut& cut);
 

@@ -397,6 +397,58 @@ TEST_P(CloudSceneTest, DepthUnitsAreThoseOfTheCalibration) {
     EXPECT_EQ(render(own_view(calibration)).depth_mm.view().row(10)[10], wall_mm / 4);
 }
 
+// An odd size: the last column and row have no partner.
+TEST_P(CloudSceneTest, WithFewerPointsEverythingStaysInItsPlace) {
+    Calibration calibration = real_calibration();
+    calibration.depth.size = {95, 71};
+    show(calibration);
+    const CameraView view = own_view(calibration);
+    const Picture all = render(view);
+    scene->set_depth_step(2);
+    EXPECT_EQ(count_drawn(render(view)), 0);
+    show(calibration);
+    const Picture fewer = render(view);
+    int same = 0, seen = 0, differ = 0;
+    for (int y = 2; y < 69; ++y)
+        for (int x = 2; x < 93; ++x) {
+            const int want = all.depth_mm.view().row(y)[x];
+            const int got = fewer.depth_mm.view().row(y)[x];
+            seen += want > 0;
+            if (want == 0 || std::abs(got - want) > 5)
+                continue;
+            ++same;
+            // Colours tell places in the colour picture.
+            const Rgb a = all.color.view().row(y)[x], b = fewer.color.view().row(y)[x];
+            differ += std::abs(a.r - b.r) > 4 || std::abs(a.g - b.g) > 4;
+        }
+    EXPECT_GT(same, 0.85 * seen);
+    EXPECT_LT(differ, 0.05 * same);
+    EXPECT_NE(fewer.depth_mm.pixels, all.depth_mm.pixels);
+
+    scene->set_depth_step(1);
+    show(calibration);
+    EXPECT_EQ(render(view).depth_mm.pixels, all.depth_mm.pixels);
+}
+
+TEST_P(CloudSceneTest, WithFewerPointsPresenceAndCutsStay) {
+    const Calibration calibration = simple_calibration();
+    show(calibration);
+    CloudCut board_only;
+    board_only.keep = {calibration.room_from_camera * Vec3{0, 0, 1.2}, 0.5};
+    scene->set_cut(first_camera, board_only);
+    scene->set_depth_step(2);
+    show(calibration);
+    const auto farthest = [&] {
+        const auto picture = render(own_view(calibration)).depth_mm;
+        return *std::max_element(picture.pixels.begin(), picture.pixels.end());
+    };
+    EXPECT_NEAR(farthest(), step_mm, 50);
+    scene->set_presence(first_camera, 0);
+    scene->set_depth_step(3);
+    show(calibration);
+    EXPECT_EQ(farthest(), 0);
+}
+
 TEST(CloudScene, RefusesImagesOfAnotherSizeThanCalibrated) {
     test_context();
     CloudScene scene;

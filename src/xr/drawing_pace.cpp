@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/drawing_pace.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace theatron::xr {
+namespace {
+
+constexpr Duration too_slow = 40ms;
+// What a better way is expected to take before it is tried: clearly less.
+constexpr Duration has_room = 30ms;
+// Where pictures take so long that nobody would wait for a whole window of them, two decide: the
+// quicker one, as the first of a new way also makes programs.
+constexpr std::size_t least = 2;
+constexpr Duration impatience = 600ms;
+// What saves less than this share of the time only looks worse.
+constexpr double worthwhile = 0.85;
+// An attempt to go up that fails is seen, so the next one waits twice as long.
+constexpr Duration first_patience = 2s, longest_patience = 256s;
+// One that has held so long has not failed.
+constexpr Duration held = 60s;
+
+}  // namespace
+
+std::vector<DrawingWay> automatic_ways(std::size_t cameras, double scale) {
+    std::vector<DrawingWay> ways;
+    const double full = scale > 0 ? scale : 1;
+    if (cameras >= 2)
+        for (const int step : {1, 2})
+            ways.push_back({"blend", step, full});
+    for (const int step : {1, 2, 3})
+        ways.push_back({"mesh", step, full});
+    if (scale <= 0)
+        for (const double fewer : {0.7, 0.5})
+            ways.push_back({"mesh", 3, fewer});
+    return ways;
+}
+
+std::vector<DrawingWay> ways_of(const std::string& renderer, double scale) {
+    if (scale > 0)
+        return {{renderer, 1, scale}};
+    std::vector<DrawingWay> ways;
+    for (const double each : {1.0, 0.75, 0.5, 0.35})
+        ways.push_back({renderer, 1, each});
+    return ways;
+}
+
+DrawingPace::DrawingPace(std::vector<DrawingWay> ways)
+    : ways_(std::move(ways)), patience_(first_patience) {
+    assert(!ways_.empty());
+}
+
+void DrawingPace::add(TimePoint now, Duration drawing) {
+    if (changed_at_ == TimePoint{})
+        changed_at_ = now;
+    times_[count_++] = drawing;
+    sum_ += drawing;
+    const Duration median = median_when_enough();
+    if (median == Duration{})
+        return;
+    if (trying_)
+        judge_trial(median, now);
+    if (trying_)
+        return;
+    if (came_up_ && now - changed_at_ > held) {
+        came_up_ = false;
+        patience_ = first_patience;
+    }
+    if (median > too_slow)
+        leave_slow_way(median, now);
+    else if (better_way_fits(median, now)) {
+        const std::size_t better = left_.back().way;
+        left_.pop_back();
+        nothing_helps_ = false;
+        go_to(better, now);
+        came_up_ = true;
+    }
+}
+
+// 0 where there are too few yet.
+Duration DrawingPace::median_when_enough() {
+    if (count_ < window && (count_ < least || sum_ <= impatience))
+        return {};
+    const auto middle = times_.begin() + std::ptrdiff_t((count_ - 1) / 2);
+    std::nth_element(times_.begin(), middle, times_.begin() + std::ptrdiff_t(count_));
+    count_ = 0;
+    sum_ = {};
+    return std::max(*middle, Duration{1});
+}
+
+void DrawingPace::go_to(std::size_t way, TimePoint now) {
+    current_ = way;
+    changed_at_ = now;
+    came_up_ = false;
+    count_ = 0;
+    sum_ = {};
+}
+
+void DrawingPace::leave_slow_way(Duration median, TimePoint now) {
+    if (current_ + 1 == ways_.size() || nothing_helps_)
+        return;
+    if (came_up_)
+        patience_ = std::min(2 * patience_, longest_patience);
+    trying_ = true;
+    tried_from_ = current_;
+    before_ = median;
+    go_to(current_ + 1, now);
+}
+
+// Whether it helps to draw so instead of as before.
+void DrawingPace::judge_trial(Duration median, TimePoint now) {
+    const double times_as_long = double(before_.count()) / double(median.count());
+    if (times_as_long * worthwhile >= 1) {
+        trying_ = false;
+        left_.push_back({tried_from_, times_as_long});
+    } else if (current_ + 1 < ways_.size()) {
+        go_to(current_ + 1, now);
+    } else {
+        trying_ = false;
+        nothing_helps_ = true;
+        go_to(tried_from_, now);
+    }
+}
+
+bool DrawingPace::better_way_fits(Duration median, TimePoint now) const {
+    return !left_.empty() && now - changed_at_ >= patience_ &&
+           double(median.count()) * left_.back().times_as_long < double(has_room.count());
+}
+
+}  // namespace theatron::xr

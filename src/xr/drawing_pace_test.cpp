@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/drawing_pace.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <string>
+
+namespace theatron::xr {
+namespace {
+
+// How long a machine needs for a picture drawn this way.
+using Machine = std::function<Duration(const DrawingWay&)>;
+
+// A viewer in front of a machine, whose cameras give 30 pictures a second.
+struct Viewer {
+    explicit Viewer(std::vector<DrawingWay> ways) : pace(std::move(ways)) {}
+
+    const DrawingWay& watch(const Machine& machine, Duration length) {
+        for (const TimePoint end = now + length; now < end;) {
+            const DrawingWay way = pace.way();
+            const Duration drawing = machine(way);
+            now += std::max(drawing, Duration(33ms));
+            pace.add(now, drawing);
+            changes += pace.way() != way;
+            used.insert(pace.way().renderer);
+        }
+        return pace.way();
+    }
+
+    DrawingPace pace;
+    TimePoint now{};
+    int changes = 0;
+    std::set<std::string> used;
+};
+
+Duration times(Duration of, double factor) {
+    return Duration(std::int64_t(double(of.count()) * factor));
+}
+
+// The time grows with the work as on a driver that computes all on the processor.
+Machine machine(Duration points, Duration pixels) {
+    return [=](const DrawingWay& way) {
+        const double work = way.renderer == "blend" ? 2 : way.renderer == "mesh" ? 1 : 0.9;
+        return times(points, work / (way.depth_step * way.depth_step)) +
+               times(pixels, way.scale * way.scale);
+    };
+}
+
+constexpr Duration minute = 60s;
+
+TEST(DrawingPace, AFastMachineDrawsTheBestPicture) {
+    Viewer viewer(automatic_ways(2, 0));
+    const DrawingWay best{"blend", 1, 1};
+    EXPECT_EQ(viewer.watch(machine(4ms, 5ms), minute), best);
+    EXPECT_EQ(viewer.watch(machine(14ms, 11ms), minute), best);
+    EXPECT_EQ(viewer.changes, 0);
+}
+
+TEST(DrawingPace, OneCameraIsDrawnAsAMesh) {
+    for (const DrawingWay& way : automatic_ways(1, 0))
+        EXPECT_EQ(way.renderer, "mesh");
+}
+
+TEST(DrawingPace, ASlowerMachineGetsTheNextBestThatKeepsUp) {
+    const auto best_for = [](const Machine& machine) {
+        return Viewer(automatic_ways(2, 0)).watch(machine, minute);
+    };
+    EXPECT_EQ(best_for(machine(25ms, 10ms)), (DrawingWay{"blend", 2, 1}));
+    EXPECT_EQ(best_for(machine(100ms, 10ms)), (DrawingWay{"mesh", 2, 1}));
+    EXPECT_EQ(best_for(machine(200ms, 10ms)), (DrawingWay{"mesh", 3, 1}));
+    EXPECT_EQ(best_for(machine(60ms, 90ms)), (DrawingWay{"mesh", 3, 0.5}));
+    // A graphics card to which points are nothing and blending is much.
+    EXPECT_EQ(best_for([](const DrawingWay& way) { return way.renderer == "blend" ? 60ms : 20ms; }),
+              (DrawingWay{"mesh", 1, 1}));
+}
+
+TEST(DrawingPace, AVerySlowMachineIsHelpedSoon) {
+    Viewer viewer(automatic_ways(2, 0));
+    EXPECT_EQ(viewer.watch(machine(200ms, 20ms), 5s).renderer, "mesh");
+}
+
+TEST(DrawingPace, AChosenRendererStays) {
+    for (const char* renderer : {"splat", "disc", "mesh", "blend"}) {
+        Viewer viewer(ways_of(renderer, 0));
+        const DrawingWay way = viewer.watch(machine(20ms, 200ms), minute);
+        EXPECT_EQ(way.renderer, renderer);
+        EXPECT_EQ(way.depth_step, 1);
+        EXPECT_LT(way.scale, 1);
+        EXPECT_EQ(viewer.used, std::set<std::string>{renderer});
+    }
+}
+
+TEST(DrawingPace, AChosenScaleStays) {
+    for (auto ways : {automatic_ways(2, 0.6), ways_of("blend", 0.6)}) {
+        Viewer viewer(ways);
+        EXPECT_EQ(viewer.watch(machine(300ms, 300ms), minute).scale, 0.6);
+    }
+}
+
+TEST(DrawingPace, WhatDoesNotHelpIsNotDone) {
+    Viewer pixels_are_free(ways_of("splat", 0)), nothing_helps(automatic_ways(2, 0));
+    EXPECT_EQ(pixels_are_free.watch(machine(100ms, 5ms), minute), (DrawingWay{"splat", 1, 1}));
+    EXPECT_EQ(nothing_helps.watch([](const DrawingWay&) { return Duration(90ms); }, minute),
+              (DrawingWay{"blend", 1, 1}));
+}
+
+TEST(DrawingPace, TheBestPictureComesBackWhenThereIsTimeAgain) {
+    Viewer viewer(automatic_ways(2, 0));
+    EXPECT_NE(viewer.watch(machine(150ms, 60ms), minute).renderer, "blend");
+    EXPECT_EQ(viewer.watch(machine(8ms, 5ms), minute), (DrawingWay{"blend", 1, 1}));
+}
+
+TEST(DrawingPace, DoesNotSwingToAndFro) {
+    for (const Duration points : {12ms, 16ms, 20ms, 30ms, 38ms, 45ms, 80ms, 160ms, 400ms})
+        for (const Duration pixels : {2ms, 10ms, 25ms, 60ms}) {
+            Viewer viewer(automatic_ways(2, 0));
+            viewer.watch(machine(points, pixels), 30s);
+            viewer.changes = 0;
+            viewer.watch(machine(points, pixels), 10 * minute);
+            EXPECT_EQ(viewer.changes, 0) << points.count() << " " << pixels.count();
+        }
+}
+
+// A GPU in whose queue pictures pile up only while the viewer moves: at rest it seems quick.
+TEST(DrawingPace, WhatFailsAgainAndAgainIsTriedEverLessOften) {
+    Viewer viewer(automatic_ways(2, 0));
+    const Machine moving = [](const DrawingWay& way) {
+        return way.renderer == "blend" ? 60ms : 20ms;
+    };
+    const Machine resting = [](const DrawingWay&) { return 4ms; };
+    const auto changes_in_ten_minutes = [&] {
+        const int before = viewer.changes;
+        for (int i = 0; i < 100; ++i) {
+            viewer.watch(moving, 3s);
+            viewer.watch(resting, 3s);
+        }
+        return viewer.changes - before;
+    };
+    EXPECT_LE(changes_in_ten_minutes(), 30);
+    EXPECT_LE(changes_in_ten_minutes(), 8);
+}
+
+TEST(DrawingPace, OneSlowPictureChangesNothing) {
+    Viewer viewer(automatic_ways(2, 0));
+    int i = 0;
+    viewer.watch([&](const DrawingWay&) { return ++i % 8 == 0 ? Duration(2s) : Duration(10ms); },
+                 minute);
+    EXPECT_EQ(viewer.changes, 0);
+}
+
+}  // namespace
+}  // namespace theatron::xr
