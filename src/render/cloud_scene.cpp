@@ -8,6 +8,7 @@
 #include "render/cloud_textures.h"
 #include "render/color_balance.h"
 #include "render/color_visibility.h"
+#include "render/depth_offsets.h"
 #include "render/render_target.h"
 
 namespace theatron::render {
@@ -55,6 +56,7 @@ void check_renderer_name(std::string_view name) {
 struct CloudScene::Parts {
     CloudTextures textures;
     ColorBalance balance;
+    DepthOffsets offsets;
     CameraBlock cameras;
     ColorVisibility visibility;
     GridMesh grid;
@@ -94,13 +96,16 @@ void CloudScene::set_cut(CameraId camera, const CloudCut& cut) {
 void CloudScene::remove_camera(CameraId camera) {
     parts_->textures.remove_camera(camera);
     parts_->balance.remove(camera);
+    parts_->offsets.remove(camera);
 }
 
 Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
     const Status status = parts_->textures.upload(camera, depth, color);
-    if (status == Status::ok)
-        parts_->balance.add(camera, parts_->textures.sources().at(camera).calibration, depth,
-                            color);
+    if (status == Status::ok) {
+        const Calibration& calibration = parts_->textures.sources().at(camera).calibration;
+        parts_->balance.add(camera, calibration, depth, color);
+        parts_->offsets.add(camera, calibration, depth, color);
+    }
     return status;
 }
 
@@ -118,6 +123,9 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     if (parts_->balance.update())
         for (const auto& [id, source] : parts_->textures.sources())
             parts_->textures.set_color_gain(id, parts_->balance.gain(id));
+    if (parts_->offsets.update())
+        for (const auto& [id, source] : parts_->textures.sources())
+            parts_->textures.set_depth_offset(id, parts_->offsets.offset_m(id));
     const CloudFrame frame{parts_->textures, view, target, parts_->grid};
     parts_->cameras.bind(frame);
     parts_->visibility.update(parts_->textures);
