@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/color_visibility.h"
+
 namespace theatron::render {
 namespace {
 
@@ -92,7 +94,8 @@ Image<Ray> sample_rays(const CameraModel& depth) {
 
 void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView depth,
                        ColorView color) {
-    if (!color.pixels || calibration.color.size == Size{})
+    // Colour registered to depth lies where its sender put it, up to half a pixel away.
+    if (!color.pixels || calibration.color.size == Size{} || !may_be_hidden(calibration))
         return;
     Camera& camera = cameras_[id];
     const bool moved = camera.calibration != calibration;

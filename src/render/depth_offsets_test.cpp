@@ -99,6 +99,15 @@ TEST_F(DepthOffsetsTest, ACameraAloneHasNone) {
     EXPECT_EQ(offsets.offset_m(CameraId(0)), 0);
 }
 
+TEST_F(DepthOffsetsTest, ColorThatIsRegisteredToDepthTellsNothing) {
+    for (int i = 0; i < 3; ++i) {
+        Images here = images(100 * i, 0.004, 30);
+        here.calibration.color_from_depth = {};
+        offsets.add(CameraId(i), here.calibration, here.depth.view(), here.color.view());
+    }
+    EXPECT_FALSE(offsets.update());
+}
+
 TEST_F(DepthOffsetsTest, FollowsSlowly) {
     for (int i = 0; i < 3; ++i)
         show(i, 0);

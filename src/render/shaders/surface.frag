@@ -80,7 +80,9 @@ void main() {
     float quality = quality_at(camera, pixel, point, steepness, color.z);
     vec2 place = color.xy / max(cameras[camera].color_image.xy, vec2(1.0));
     // What is hidden is there all the same: the next camera's shadow may begin where this one's ends.
+    // It may fall back as it did, but never rises in front of what other cameras measure.
     vec2 shift = goes_on_behind * hidden;
+    z += max(dot(shift, steepness), 0.0) * footprint_m(camera, z);
     out_surface.x = floatBitsToUint(z);
     out_surface.y = packUnorm2x16((place + 0.5) / 2.0);
     uvec2 quarters = uvec2(4.0 * shift + 8.0);
