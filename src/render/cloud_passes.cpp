@@ -66,7 +66,8 @@ CameraUniforms uniforms(const CloudSource& source, const CameraView& view) {
             may_be_hidden(calibration) ? 1 : 0);
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
-    put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel, 0);
+    put(u.depth_image, calibration.depth_unit_mm / 1000, source.layer, tan_per_pixel,
+        source.depth_offset_m);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
     put(u.color_gain, source.color_gain.x, source.color_gain.y, source.color_gain.z,

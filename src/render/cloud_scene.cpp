@@ -10,6 +10,7 @@
 #include "render/cloud_textures.h"
 #include "render/color_balance.h"
 #include "render/color_visibility.h"
+#include "render/depth_offsets.h"
 #include "render/fewer_points.h"
 #include "render/render_target.h"
 
@@ -60,6 +61,7 @@ struct CloudScene::Parts {
     int depth_step = 1;
     CloudTextures textures;
     ColorBalance balance;
+    DepthOffsets offsets;
     CameraBlock cameras;
     ColorVisibility visibility;
     GridMesh grid;
@@ -106,12 +108,14 @@ void CloudScene::set_depth_step(int step) {
     const auto before = std::exchange(parts_, std::make_unique<Parts>());
     parts_->depth_step = step;
     parts_->balance = std::move(before->balance);
+    parts_->offsets = std::move(before->offsets);
     for (const auto& [camera, calibration] : before->calibrations) {
         const CloudSource& source = before->textures.sources().at(camera);
         set_camera(camera, calibration);
         set_presence(camera, source.presence);
         set_cut(camera, source.cut);
         parts_->textures.set_color_gain(camera, source.color_gain);
+        parts_->textures.set_depth_offset(camera, source.depth_offset_m);
     }
 }
 
@@ -119,6 +123,7 @@ void CloudScene::remove_camera(CameraId camera) {
     parts_->calibrations.erase(camera);
     parts_->textures.remove_camera(camera);
     parts_->balance.remove(camera);
+    parts_->offsets.remove(camera);
 }
 
 Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
@@ -129,8 +134,10 @@ Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
         parts_->depth_step == 1
             ? parts_->textures.upload(camera, depth, color)
             : parts_->textures.upload(camera, every_nth(depth, parts_->depth_step).view(), color);
-    if (status == Status::ok)
+    if (status == Status::ok) {
         parts_->balance.add(camera, known->second, depth, color);
+        parts_->offsets.add(camera, known->second, depth, color);
+    }
     return status;
 }
 
@@ -148,6 +155,9 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     if (parts_->balance.update())
         for (const auto& [id, source] : parts_->textures.sources())
             parts_->textures.set_color_gain(id, parts_->balance.gain(id));
+    if (parts_->offsets.update())
+        for (const auto& [id, source] : parts_->textures.sources())
+            parts_->textures.set_depth_offset(id, parts_->offsets.offset_m(id));
     const CloudFrame frame{parts_->textures, view, target, parts_->grid};
     parts_->cameras.bind(frame);
     parts_->visibility.update(parts_->textures);

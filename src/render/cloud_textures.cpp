@@ -80,6 +80,11 @@ void CloudTextures::set_color_gain(CameraId camera, Vec3 gain) {
         known->second.color_gain = gain;
 }
 
+void CloudTextures::set_depth_offset(CameraId camera, double offset_m) {
+    if (const auto known = sources_.find(camera); known != sources_.end())
+        known->second.depth_offset_m = offset_m;
+}
+
 void CloudTextures::remove_camera(CameraId camera) {
     sources_.erase(camera);
 }

@@ -23,9 +23,10 @@ namespace theatron::render {
 struct CloudSource {
     Calibration calibration;
     int layer = 0;
-    double presence = 1;       // see CloudScene
-    Vec3 color_gain{1, 1, 1};  // red, green, blue; see ColorBalance
-    Size color_size;           // of the newest picture; 0 x 0: none yet
+    double presence = 1;        // see CloudScene
+    Vec3 color_gain{1, 1, 1};   // red, green, blue; see ColorBalance
+    double depth_offset_m = 0;  // see DepthOffsets
+    Size color_size;            // of the newest picture; 0 x 0: none yet
     CloudCut cut;
     unsigned revision = 0;  // other than before whenever images or calibration changed
     Image<Ray> rays;        // kept for moving to larger textures
@@ -38,6 +39,7 @@ public:
     void set_presence(CameraId camera, double presence);
     void set_cut(CameraId camera, const CloudCut& cut);
     void set_color_gain(CameraId camera, Vec3 gain);
+    void set_depth_offset(CameraId camera, double offset_m);
     void remove_camera(CameraId camera);
     Status upload(CameraId camera, DepthView depth, ColorView color);
 

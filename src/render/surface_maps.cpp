@@ -22,8 +22,8 @@ SurfaceMaps::SurfaceMaps(Kind kind)
     : kind_(kind), find_surface_(surface_program(kind)), camera_(find_surface_.uniform("camera")) {
     if (kind == Kind::measured)
         return;
-    refine_ = make_cloud_program({"full_picture.vert"},
-                                 {"cloud.glsl", "measured.glsl", "neighbours.glsl", "refine.frag"});
+    refine_ = make_cloud_program(
+        {"full_picture.vert"}, {"cloud.glsl", "corrected.glsl", "neighbours.glsl", "refine.frag"});
     refine_->set_sampler("refined_before", refined_before_unit);
     edges_.emplace();
 }

@@ -32,7 +32,7 @@ void main() {
         discard;
 
     // Sensors and their registration agree on a surface to within some centimetres.
-    float agreement = 0.04 + 0.01 * front;
+    float agreement = 0.05 + 0.015 * front;
     vec4 color = vec4(0.0);
     float distance = 0.0;
     float coverage = 0.0;

@@ -10,7 +10,8 @@ struct Camera {
     vec4 color_more;         // k5, k6, p1, p2
     vec4 color_image;        // width, height, largest radius (0: no limit), 1 if it needs
                              // the map of color_place.glsl
-    vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, 0
+    vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, metres
+                             // that are measured too much (corrected.glsl)
     vec4 viewer;             // the eye in the depth camera's frame
     vec4 color_gain;         // red, green, blue: balances the cameras' exposures; presence
     vec4 keep;               // shown.glsl: middle of a ball, radius (0: no such cut)

@@ -5,3 +5,6 @@
 float surface_m(int camera, ivec2 pixel) {
     return depth_m(camera, pixel);
 }
+
+// See refined.glsl.
+const float goes_on_behind = 0.0;

@@ -22,6 +22,7 @@ void main() {
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
     Surface s = surface_at(camera, pixel);
     vec3 point = point_at(camera, pixel, s.z);
+    point.xy += s.shift * (cameras[camera].depth_image.z * s.z);
     gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
     if (sets_back)
         gl_Position = set_back(gl_Position, s.seen);

@@ -7,3 +7,6 @@ uniform usampler2DArray refined_depth;
 float surface_m(int camera, ivec2 pixel) {
     return uintBitsToFloat(texelFetch(refined_depth, ivec3(pixel, layer_of(camera)), 0).r);
 }
+
+// How far a surface is drawn behind what hides it from its camera, in pixels.
+const float goes_on_behind = 1.5;

@@ -20,6 +20,21 @@ float borrowed_depth(float neighbours[8]) {
     return 0.0;
 }
 
+// Whether this surface is hidden from here on along `direction`, where it is not connected to the next pixel: by the
+// next pixel with depth.
+bool hidden_beyond(ivec2 pixel, ivec2 direction, float z, float next, float limit) {
+    if (next == 0.0)
+        next = surface_near(camera, pixel, 2 * direction);
+    return next > 0.0 && next < z - limit;
+}
+
+// Towards what hides this surface along `axis`: -1, 0 or 1.
+float hidden_side(ivec2 pixel, ivec2 axis, float before, float z, float after, float limit) {
+    if (connected(before, z, limit))
+        return hidden_beyond(pixel, axis, z, after, limit) ? 1.0 : 0.0;
+    return connected(z, after, limit) && hidden_beyond(pixel, -axis, z, before, limit) ? -1.0 : 0.0;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float z = surface_m(camera, pixel);
@@ -34,6 +49,7 @@ void main() {
     uint kept = 0u;
     float support = 0.0;
     vec2 steepness = vec2(0.0);
+    vec2 hidden = vec2(0.0);
     if (z > 0.0) {
         float footprint = footprint_m(camera, z);
         float straight = largest_step(footprint);
@@ -53,6 +69,8 @@ void main() {
         support = (2.0 * straights + diagonals) / 12.0;
         steepness.x = (to_right ? right - z : z - left) / footprint;
         steepness.y = (to_below ? below - z : z - above) / footprint;
+        hidden = vec2(hidden_side(pixel, ivec2(1, 0), left, z, right, straight),
+                      hidden_side(pixel, ivec2(0, 1), above, z, below, straight));
     } else {
         z = borrowed_depth(
             float[8](left, right, above, below, up_left, up_right, down_left, diagonal));
@@ -61,8 +79,14 @@ void main() {
     vec3 color = color_place(camera, point);
     float quality = quality_at(camera, pixel, point, steepness, color.z);
     vec2 place = color.xy / max(cameras[camera].color_image.xy, vec2(1.0));
+    // What is hidden is there all the same: the next camera's shadow may begin where this one's ends.
+    // It may fall back as it did, but never rises in front of what other cameras measure.
+    vec2 shift = goes_on_behind * hidden;
+    z += max(dot(shift, steepness), 0.0) * footprint_m(camera, z);
     out_surface.x = floatBitsToUint(z);
     out_surface.y = packUnorm2x16((place + 0.5) / 2.0);
-    out_surface.z = kept | (uint(support * 255.0 + 0.5) << 2) | (uint(color.z * 255.0 + 0.5) << 10);
+    uvec2 quarters = uvec2(4.0 * shift + 8.0);
+    out_surface.z = kept | (uint(support * 255.0 + 0.5) << 2) |
+                    (uint(color.z * 255.0 + 0.5) << 10) | (quarters.x << 18) | (quarters.y << 22);
     out_surface.w = uint(quality * 65535.0 + 0.5);
 }

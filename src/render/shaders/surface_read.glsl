@@ -5,6 +5,7 @@ uniform usampler2DArray surfaces;
 
 struct Surface {
     float z;        // metres; borrowed from a neighbour where nothing was measured
+    vec2 shift;     // how far beside the pixel's middle its vertex is, in pixels
     vec2 color;     // colour pixel
     int kept;       // triangles of the cell to the lower right: 1 upper, 2 lower
     float support;  // how many neighbours are connected, 1: all
@@ -16,6 +17,7 @@ Surface surface_at(int camera, ivec2 pixel) {
     uvec4 texel = texelFetch(surfaces, ivec3(pixel, layer_of(camera)), 0);
     Surface s;
     s.z = uintBitsToFloat(texel.x);
+    s.shift = vec2(float((texel.z >> 18) & 15u), float((texel.z >> 22) & 15u)) / 4.0 - 2.0;
     s.color = (unpackUnorm2x16(texel.y) * 2.0 - 0.5) * cameras[camera].color_image.xy;
     s.kept = int(texel.z & 3u);
     s.support = float((texel.z >> 2) & 255u) / 255.0;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth cameras measure some millimetres too far or too near, the same in every frame. That is
+// nothing for a shape, but seen from the side it puts a camera's texture beside that of the next
+// one.
+//
+// The colours tell by how much: a camera's points are moved along its rays until they have the
+// texture that other cameras see there. It is the registration of Lucas and Kanade (1981) with one
+// unknown for each camera; where to begin is searched for, since texture repeats. Works on small
+// copies of a few of the cameras' images, on the CPU, in some milliseconds now and then.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "base/ids.h"
+#include "geometry/calibration.h"
+#include "geometry/ray_table.h"
+#include "image/image.h"
+
+namespace theatron::render {
+
+class DepthOffsets {
+public:
+    static constexpr double largest_m = 0.015;
+
+    // A camera's newest images; most are passed over. `color` may be empty.
+    void add(CameraId camera, const Calibration& calibration, DepthView depth, ColorView color);
+    void remove(CameraId camera) { cameras_.erase(camera); }
+
+    // Estimates anew if there is enough that is new. True if offsets changed.
+    bool update();
+
+    // How much too far a camera measures, in metres along its axis at a distance of 1 m, and the
+    // same at any other; 0 where nothing tells. At most largest_m to either side. Changes slowly,
+    // except when a camera is first compared with others.
+    double offset_m(CameraId camera) const;
+
+private:
+    // A place with texture on a flat part of a surface, in the depth camera's frame.
+    struct Sample {
+        Vec3 point, normal;
+    };
+    struct Camera {
+        Calibration calibration;
+        Image<Ray> rays;    // of the depth pixels that may be samples
+        CameraModel color;  // of `brightness`
+        DepthImage depth;
+        Image<std::uint8_t> brightness;
+        std::vector<Sample> samples;
+        unsigned passed_over = 0;  // uploads to come
+        bool estimated = false;
+        double offset_m = 0;
+    };
+    // The normal equation of an offset: what it must still change by, and how sure that is. And how
+    // far from one another the textures are with it, over so many samples.
+    struct Equation {
+        double error = 0, weight = 0;
+        double cost = 0, samples = 0;
+    };
+    static void find_samples(Camera& camera);
+    static Equation compare(const Camera& a, const Camera& b, double offset_m, int size);
+    Equation compare_with_others(CameraId camera, double offset_m, int size) const;
+    double best_start_m(CameraId camera) const;
+
+    std::map<CameraId, Camera> cameras_;
+    std::size_t copies_ = 0;  // since the last estimate
+};
+
+}  // namespace theatron::render

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/depth_offsets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "render/camera_view.h"
+
+namespace theatron::render {
+namespace {
+
+// Cameras around a printed table, each with its own constant error of depth.
+class DepthOffsetsTest : public ::testing::Test {
+protected:
+    struct Images {
+        Calibration calibration;
+        DepthImage depth;
+        ColorImage color;
+    };
+
+    // Looks at the origin from this side, 40 degrees downwards.
+    static Calibration camera(double degrees) {
+        const double a = degrees * std::numbers::pi / 180;
+        Calibration c;
+        c.depth = pinhole({320, 240}, 70);
+        c.color = pinhole({640, 360}, 80);
+        c.color_from_depth.translation = {-0.032, 0, 0};
+        c.depth_unit_mm = 0.25;
+        c.room_from_camera =
+            view_towards({1.2 * std::cos(a), 1, 1.2 * std::sin(a)}, {0, 0, 0}, 60, {64, 64})
+                .room_from_eye;
+        return c;
+    }
+
+    // Where the ray meets the table at height 0, as a share of the ray.
+    static double to_table(const Pose& room_from_camera, Vec3 ray) {
+        return -room_from_camera.translation.y / rotate(room_from_camera.rotation, ray).y;
+    }
+
+    Images images(double degrees, double offset_m, double contrast) {
+        Images result{camera(degrees), DepthImage(Size{320, 240}), ColorImage(Size{640, 360})};
+        const Calibration& c = result.calibration;
+        std::normal_distribution<double> noise(0, 0.001);
+        for (int y = 0; y < 240; ++y)
+            for (int x = 0; x < 320; ++x) {
+                const auto ray = unproject(c.depth, {double(x), double(y)});
+                const double z = to_table(c.room_from_camera, {ray->x, ray->y, 1});
+                if (z > 0 && z < 4)
+                    result.depth.view().row(y)[x] = std::uint16_t(
+                        std::lround((z + offset_m + noise(random)) * 1000 / c.depth_unit_mm));
+            }
+        const Pose room_from_color = c.room_from_camera * inverse(c.color_from_depth);
+        for (int y = 0; y < 360; ++y)
+            for (int x = 0; x < 640; ++x) {
+                const auto ray = unproject(c.color, {double(x), double(y)});
+                const Vec3 direction{ray->x, ray->y, 1};
+                const double z = to_table(room_from_color, direction);
+                const Vec3 p = room_from_color * (direction * z);
+                const double print =
+                    std::sin(130 * p.x + 40 * p.z) + std::sin(150 * p.z - 30 * p.x);
+                const auto v = std::uint8_t(std::lround(120 + contrast * print));
+                result.color.view().row(y)[x] = {v, v, v};
+            }
+        return result;
+    }
+
+    void show(int camera, double offset_m, double contrast = 30) {
+        const Images i = images(100 * camera, offset_m, contrast);
+        offsets.add(CameraId(camera), i.calibration, i.depth.view(), i.color.view());
+    }
+
+    std::mt19937 random{7};
+    DepthOffsets offsets;
+};
+
+TEST_F(DepthOffsetsTest, FindsWhatEachCameraMeasuresTooMuch) {
+    const double exact[] = {0.004, -0.003, 0.0};
+    for (int i = 0; i < 3; ++i)
+        show(i, exact[i]);
+    ASSERT_TRUE(offsets.update());
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(offsets.offset_m(CameraId(i)), exact[i], 0.0007) << "camera " << i;
+}
+
+TEST_F(DepthOffsetsTest, FindsMuchAsWell) {
+    const double exact[] = {0.011, -0.009, 0.007};
+    for (int i = 0; i < 3; ++i)
+        show(i, exact[i]);
+    ASSERT_TRUE(offsets.update());
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(offsets.offset_m(CameraId(i)), exact[i], 0.0015) << "camera " << i;
+}
+
+TEST_F(DepthOffsetsTest, WithoutTextureNothingIsChanged) {
+    for (int i = 0; i < 3; ++i)
+        show(i, 0.004, 0);
+    offsets.update();
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(offsets.offset_m(CameraId(i)), 0);
+}
+
+TEST_F(DepthOffsetsTest, ACameraAloneHasNone) {
+    show(0, 0.004);
+    EXPECT_FALSE(offsets.update());
+    EXPECT_EQ(offsets.offset_m(CameraId(0)), 0);
+}
+
+TEST_F(DepthOffsetsTest, ColorThatIsRegisteredToDepthTellsNothing) {
+    for (int i = 0; i < 3; ++i) {
+        Images here = images(100 * i, 0.004, 30);
+        here.calibration.color_from_depth = {};
+        offsets.add(CameraId(i), here.calibration, here.depth.view(), here.color.view());
+    }
+    EXPECT_FALSE(offsets.update());
+}
+
+TEST_F(DepthOffsetsTest, FollowsSlowly) {
+    for (int i = 0; i < 3; ++i)
+        show(i, 0);
+    ASSERT_TRUE(offsets.update());
+    const double before = offsets.offset_m(CameraId(0));
+    int updates = 0;
+    for (int frame = 1; updates == 0 && frame < 80; ++frame) {
+        for (int i = 0; i < 3; ++i)
+            show(i, i == 0 ? 0.003 : 0);
+        updates += offsets.update();
+    }
+    ASSERT_EQ(updates, 1) << "images are compared now and then";
+    const double change = offsets.offset_m(CameraId(0)) - before;
+    EXPECT_GT(change, 0.0002);
+    EXPECT_LT(change, 0.001);
+}
+
+}  // namespace
+}  // namespace theatron::render
