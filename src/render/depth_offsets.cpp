@@ -171,9 +171,11 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
         return place ? texture_at(b.brightness.view(), *place, size) : std::nullopt;
     };
     // Before the start is found both may be as wrong as they get.
-    const double hidden_m = size > finest ? 2 * largest_m : largest_m;
+    const bool coarse = size > finest;
+    const double hidden_m = coarse ? 2 * largest_m : largest_m;
     Equation equation;
-    for (const Sample& s : a.samples) {
+    for (std::size_t i = 0; i < a.samples.size(); i += coarse ? 4 : 1) {
+        const Sample& s = a.samples[i];
         const Vec3 ray = s.point * (1 / s.point.z);
         const Vec3 point = s.point - ray * offset_m, from_b = point - eye_b;
         // Far around the two see different things.
@@ -247,23 +249,28 @@ double DepthOffsets::best_start_m(CameraId id) const {
 }
 
 bool DepthOffsets::update() {
-    if (cameras_.size() < 2 || copies_ < cameras_.size())
-        return false;
-    copies_ = 0;
-    for (auto& [id, camera] : cameras_) {
-        double offset = camera.estimated ? camera.offset_m : best_start_m(id);
-        std::vector<int> sizes{finest};
-        if (!camera.estimated)
-            sizes = {searched, searched, finest, finest, finest};
-        for (const int size : sizes) {
-            const Equation sum = compare_with_others(id, offset, size);
-            const double weight = std::max(sum.weight, 0.0) + prior_weight;
-            offset += (sum.error - prior_weight * offset) / weight;
-            offset = std::clamp(offset, -largest_m, largest_m);
-        }
-        camera.offset_m += (camera.estimated ? follow : 1) * (offset - camera.offset_m);
-        camera.estimated = true;
+    if (waiting_.empty() && cameras_.size() > 1 && copies_ >= cameras_.size()) {
+        copies_ = 0;
+        for (const auto& [id, camera] : cameras_)
+            waiting_.insert(waiting_.begin(), id);
     }
+    if (waiting_.empty())
+        return false;
+    const CameraId id = waiting_.back();
+    waiting_.pop_back();
+    Camera& camera = cameras_.at(id);
+    double offset = camera.estimated ? camera.offset_m : best_start_m(id);
+    std::vector<int> sizes{finest};
+    if (!camera.estimated)
+        sizes = {searched, searched, finest, finest, finest};
+    for (const int size : sizes) {
+        const Equation sum = compare_with_others(id, offset, size);
+        const double weight = std::max(sum.weight, 0.0) + prior_weight;
+        offset += (sum.error - prior_weight * offset) / weight;
+        offset = std::clamp(offset, -largest_m, largest_m);
+    }
+    camera.offset_m += (camera.estimated ? follow : 1) * (offset - camera.offset_m);
+    camera.estimated = true;
     return true;
 }
 

@@ -25,9 +25,13 @@ public:
 
     // A camera's newest images; most are passed over. `color` may be empty.
     void add(CameraId camera, const Calibration& calibration, DepthView depth, ColorView color);
-    void remove(CameraId camera) { cameras_.erase(camera); }
+    void remove(CameraId camera) {
+        cameras_.erase(camera);
+        std::erase(waiting_, camera);
+    }
 
-    // Estimates anew if there is enough that is new. True if offsets changed.
+    // Estimates one camera's offset anew if there is enough that is new. True if it did: call for
+    // every picture, so that none has to wait for all cameras.
     bool update();
 
     // How much too far a camera measures, in metres along its axis at a distance of 1 m, and the
@@ -63,7 +67,8 @@ private:
     double best_start_m(CameraId camera) const;
 
     std::map<CameraId, Camera> cameras_;
-    std::size_t copies_ = 0;  // since the last estimate
+    std::size_t copies_ = 0;         // since the last estimates began
+    std::vector<CameraId> waiting_;  // to be estimated
 };
 
 }  // namespace theatron::render
