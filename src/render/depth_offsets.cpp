@@ -13,6 +13,7 @@ namespace {
 
 // Twice a second to begin with; later the offsets are known, and a copy costs some milliseconds.
 constexpr unsigned uploads_per_copy = 15, uploads_per_later_copy = 60;
+constexpr int first_estimates = 8;
 constexpr int largest_copy = 1280;  // columns of a colour picture
 constexpr int sample_step = 2;      // depth pixels
 constexpr double flat_m = 0.004;    // neighbours of a sample are as close to its plane
@@ -108,8 +109,9 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
         return;
     }
     // Not all cameras in one picture.
-    camera.passed_over = (camera.estimated ? uploads_per_later_copy : uploads_per_copy) +
-                         unsigned(std::distance(cameras_.begin(), cameras_.find(id)));
+    camera.passed_over =
+        (camera.estimates < first_estimates ? uploads_per_copy : uploads_per_later_copy) +
+        unsigned(std::distance(cameras_.begin(), cameras_.find(id)));
     if (camera.calibration.depth != calibration.depth || camera.rays.size == Size{})
         camera.rays = sample_rays(calibration.depth);
     camera.calibration = calibration;
@@ -256,22 +258,31 @@ bool DepthOffsets::update() {
     }
     if (waiting_.empty())
         return false;
-    const CameraId id = waiting_.back();
-    waiting_.pop_back();
-    Camera& camera = cameras_.at(id);
-    double offset = camera.estimated ? camera.offset_m : best_start_m(id);
+    // New cameras at once, so that no picture is drawn without their offsets.
+    bool is_new;
+    do {
+        Camera& camera = cameras_.at(waiting_.back());
+        is_new = camera.estimates == 0;
+        estimate(waiting_.back(), camera);
+        waiting_.pop_back();
+    } while (is_new && !waiting_.empty());
+    return true;
+}
+
+void DepthOffsets::estimate(CameraId id, Camera& camera) {
+    double offset = camera.estimates > 0 ? camera.offset_m : best_start_m(id);
     std::vector<int> sizes{finest};
-    if (!camera.estimated)
-        sizes = {searched, searched, finest, finest, finest};
+    if (camera.estimates == 0)
+        sizes = {searched, searched, finest, finest, finest, finest};
     for (const int size : sizes) {
         const Equation sum = compare_with_others(id, offset, size);
         const double weight = std::max(sum.weight, 0.0) + prior_weight;
         offset += (sum.error - prior_weight * offset) / weight;
         offset = std::clamp(offset, -largest_m, largest_m);
     }
-    camera.offset_m += (camera.estimated ? follow : 1) * (offset - camera.offset_m);
-    camera.estimated = true;
-    return true;
+    // The mean of the first ones, later of those of some time.
+    ++camera.estimates;
+    camera.offset_m += std::max(1.0 / camera.estimates, follow) * (offset - camera.offset_m);
 }
 
 double DepthOffsets::offset_m(CameraId id) const {

@@ -30,8 +30,8 @@ public:
         std::erase(waiting_, camera);
     }
 
-    // Estimates one camera's offset anew if there is enough that is new. True if it did: call for
-    // every picture, so that none has to wait for all cameras.
+    // Estimates one camera's offset anew if there is enough that is new, or those of several that
+    // are new themselves. True if it did: call for every picture, so that none waits for all.
     bool update();
 
     // How much too far a camera measures, in metres along its axis at a distance of 1 m, and the
@@ -52,7 +52,7 @@ private:
         Image<std::uint8_t> brightness;
         std::vector<Sample> samples;
         unsigned passed_over = 0;  // uploads to come
-        bool estimated = false;
+        int estimates = 0;         // that offset_m is of
         double offset_m = 0;
     };
     // The normal equation of an offset: what it must still change by, and how sure that is. And how
@@ -65,6 +65,7 @@ private:
     static Equation compare(const Camera& a, const Camera& b, double offset_m, int size);
     Equation compare_with_others(CameraId camera, double offset_m, int size) const;
     double best_start_m(CameraId camera) const;
+    void estimate(CameraId id, Camera& camera);
 
     std::map<CameraId, Camera> cameras_;
     std::size_t copies_ = 0;         // since the last estimates began
