@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 #include "image/view.h"
@@ -27,32 +28,40 @@ public:
         : size_(size),
           padded_width_(padded_width_of(size)),
           pitch_(pitch_of(size)),
-          vectors_(std::size_t(pitch_) * std::size_t(size.height + 2) / margin) {}
+          pixels_(std::size_t(pitch_) * std::size_t(size.height + 2)) {}
 
     Size size() const { return size_; }
     int padded_width() const { return padded_width_; }
     std::ptrdiff_t pitch() const { return pitch_; }
 
-    std::uint16_t* row(int y) { return vectors_.front().pixels + (y + 1) * pitch_ + margin; }
-    const std::uint16_t* row(int y) const {
-        return vectors_.front().pixels + (y + 1) * pitch_ + margin;
-    }
+    std::uint16_t* row(int y) { return pixels_.data() + (y + 1) * pitch_ + margin; }
+    const std::uint16_t* row(int y) const { return pixels_.data() + (y + 1) * pitch_ + margin; }
 
     MutableDepthView view() { return {row(0), size_, pitch_}; }
     DepthView view() const { return {row(0), size_, pitch_}; }
 
-    void clear() { std::fill(vectors_.begin(), vectors_.end(), Vector{}); }
+    void clear() { std::fill(pixels_.begin(), pixels_.end(), std::uint16_t(0)); }
 
 private:
     // Rows begin where a vector begins: one that lies across two cache lines costs two.
-    struct alignas(2 * margin) Vector {
-        std::uint16_t pixels[margin] = {};
+    template <class T>
+    struct VectorAllocator {
+        using value_type = T;
+        static constexpr std::align_val_t alignment{2 * margin};
+        VectorAllocator() = default;
+        template <class U>
+        VectorAllocator(const VectorAllocator<U>&) {}
+        T* allocate(std::size_t count) {
+            return static_cast<T*>(::operator new(count * sizeof(T), alignment));
+        }
+        void deallocate(T* values, std::size_t) { ::operator delete(values, alignment); }
+        bool operator==(const VectorAllocator&) const { return true; }
     };
 
     Size size_;
     int padded_width_;
     std::ptrdiff_t pitch_;
-    std::vector<Vector> vectors_;
+    std::vector<std::uint16_t, VectorAllocator<std::uint16_t>> pixels_;
 };
 
 }  // namespace theatron::filter
