@@ -57,7 +57,14 @@ public:
 
     std::uint64_t lost() const override { return lost_; }
 
-    void stop() override { participant_.reset(); }
+    void stop() override {
+        {
+            // Its thread may be in on_media(), which uses the participant.
+            const std::lock_guard lock(mutex_);
+            stopped_ = true;
+        }
+        participant_.reset();
+    }
 
 private:
     struct Stream {
@@ -147,7 +154,8 @@ private:
     void on_media(const wire::MediaHeader& header, ByteView message) {
         const std::lock_guard lock(mutex_);
         const auto found = streams_.find(header.stream);
-        if (!recorder_ || found == streams_.end() || header.setting != found->second.setting)
+        if (stopped_ || !recorder_ || found == streams_.end() ||
+            header.setting != found->second.setting)
             return;
         Stream& stream = found->second;
         const auto answer = stream.gate.on_frame(header, participant_->now());
@@ -171,7 +179,8 @@ private:
     std::string end_;
     int joins_ = 0;
 
-    std::mutex mutex_;  // guards the next three
+    std::mutex mutex_;  // guards the next four
+    bool stopped_ = false;
     std::unique_ptr<record::Recorder> recorder_;
     std::map<StreamId, Stream> streams_;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
