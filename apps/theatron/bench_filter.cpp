@@ -191,8 +191,7 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
         std::vector<DepthPlane> planes;
         for (const DepthImage& frame : frames) {
             planes.emplace_back(frame.size);
-            for (int y = 0; y < frame.size.height; ++y)
-                std::copy_n(frame.view().row(y), frame.size.width, planes.back().row(y));
+            copy_pixels(frame.view(), planes.back().view());
         }
         double reference = 0;
         for (const filter::Step& step : settings.steps) {

@@ -17,7 +17,7 @@
 #include "base/steady_clock.h"
 #include "bench_coder.h"
 #include "child_process.h"
-#include "net/https_get.h"
+#include "host_http.h"
 #include "process_usage.h"
 
 namespace theatron::app {
@@ -90,9 +90,7 @@ double yardstick_ms() {
 
 // Frames that the host had no time for since it started.
 std::uint64_t dropped_by_host(const net::Link& link) {
-    const auto status = nlohmann::json::parse(net::https_get(link, "/status").body, nullptr, false);
-    if (!status.is_object())
-        throw Error("The host does not tell its status.");
+    const nlohmann::json status = status_of_host(link);
     std::uint64_t dropped = 0;
     for (const auto& camera : status["cameras"])
         dropped += camera["dropped_newest"].get<std::uint64_t>();

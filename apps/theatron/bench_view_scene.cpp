@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <thread>
 
 #include "base/error.h"
@@ -53,7 +52,7 @@ struct Eye {
 };
 
 Vec3 on_circle(double degrees, double radius, double height) {
-    const double a = degrees * std::numbers::pi / 180;
+    const double a = radians_of(degrees);
     return {radius * std::cos(a), height, radius * std::sin(a)};
 }
 

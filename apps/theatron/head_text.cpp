@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "base/error.h"
@@ -35,10 +34,6 @@ bool parse_place(const std::string& text, Vec3& place) {
     return at == end;
 }
 
-double radians(double degrees) {
-    return degrees * std::numbers::pi / 180;
-}
-
 }  // namespace
 
 render::CloudCut SeenPerson::cut() const {
@@ -52,8 +47,8 @@ SeenPerson parse_seen_person(const std::string& text, Seen who) {
         refuse(text);
     SeenPerson person{text.substr(0, equals), who, {}, 0};
     Options options = Options::parse("head:" + text.substr(equals + 1));
-    const double yaw = radians(options.take_number("yaw", 0, -360, 360));
-    const double pitch = radians(options.take_number("pitch", 0, -80, 80));
+    const double yaw = radians_of(options.take_number("yaw", 0, -360, 360));
+    const double pitch = radians_of(options.take_number("pitch", 0, -80, 80));
     person.reach_m = options.take_number("reach", render::usual_reach_m, 0.2, 20);
     options.require_no_problem();
     Vec3 eyes;

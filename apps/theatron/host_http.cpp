@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "net/certificate.h"
+#include "net/https_get.h"
 
 namespace theatron::app {
 namespace {
@@ -63,6 +65,16 @@ std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
                                .body = to_json(figures()).dump() + "\n"};
     return net::HttpAnswer{.type = "text/plain; version=0.0.4; charset=utf-8",
                            .body = to_prometheus(figures())};
+}
+
+nlohmann::json status_of_host(const net::Link& link) {
+    const net::HttpsAnswer answer = net::https_get(link, "/status");
+    if (answer.status == 401)
+        throw Error("The host does not know the link's token; ask for its current link.");
+    auto figures = nlohmann::json::parse(answer.body, nullptr, false);
+    if (answer.status != 200 || !figures.is_object())
+        throw Error("The host does not tell its status; it may be of an older version.");
+    return figures;
 }
 
 }  // namespace theatron::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a host tells over HTTP to those who show a token: /status and /metrics.
+// What a host tells over HTTP to those who show a token, /status and /metrics, and how to ask for
+// it.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "host_figures.h"
+#include "net/link.h"
 #include "net/server.h"
 
 namespace theatron::app {
@@ -16,5 +18,8 @@ namespace theatron::app {
 std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
                                            const std::vector<std::string>& tokens,
                                            const std::function<HostFigures()>& figures);
+
+// What a host, perhaps on another machine, answers to /status: see to_json(). Throws Error.
+nlohmann::json status_of_host(const net::Link& link);
 
 }  // namespace theatron::app

@@ -51,9 +51,8 @@ Status LiveScene::upload(const receive::CameraFrame& frame) {
 }
 
 void LiveScene::set_depth_step(int step) {
-    if (step == std::exchange(depth_step_, step))
+    if (!clouds_.set_depth_step(step))
         return;
-    clouds_.set_depth_step(step);
     for (const auto& [camera, frame] : newest_)
         (void)upload(*frame);
 }

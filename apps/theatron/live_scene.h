@@ -60,7 +60,6 @@ private:
     room::VirtualRoom room_;
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
-    int depth_step_ = 1;
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;

@@ -3,10 +3,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "commands.h"
 #include "host_figures.h"
-#include "net/https_get.h"
+#include "host_http.h"
 
 namespace theatron::app {
 
@@ -21,12 +20,7 @@ void add_status_command(CLI::App& app) {
     command->add_option("link", flags->link, "The link that the host printed")->required();
     command->add_flag("--json", flags->json, "Print everything as one JSON line");
     command->callback([flags] {
-        const net::HttpsAnswer answer = net::https_get(net::parse_link(flags->link), "/status");
-        if (answer.status == 401)
-            throw Error("The host does not know the link's token; ask for its current link.");
-        const auto figures = nlohmann::json::parse(answer.body, nullptr, false);
-        if (answer.status != 200 || !figures.is_object())
-            throw Error("The host does not tell its status; it may be of an older version.");
+        const nlohmann::json figures = status_of_host(net::parse_link(flags->link));
         if (flags->json)
             std::printf("%s\n", figures.dump().c_str());
         else

@@ -76,9 +76,7 @@ Size color_size(const CropOptions& options, const Calibration& calibration, Size
 template <class T>
 void copy_part(const Image<T>& image, const Crop& crop, Image<T>& out) {
     out.resize(crop.size);
-    const auto part = part_of(image.view(), crop);
-    for (int y = 0; y < crop.size.height; ++y)
-        std::copy_n(part.row(y), crop.size.width, out.view().row(y));
+    copy_pixels(part_of(image.view(), crop), out.view());
 }
 
 class CroppedCamera final : public Camera {

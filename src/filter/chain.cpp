@@ -94,7 +94,7 @@ public:
             apply_limits(in, *limits, planes.current);
             ++begin;
         } else {
-            copy(in, planes.current.view());
+            copy_pixels(in, planes.current.view());
         }
         auto* const last = std::get_if<Kalman>(&stages.back());
         const std::size_t end = stages.size() - (last != nullptr ? 1 : 0);
@@ -112,16 +112,11 @@ public:
             apply_kalman(planes.current, last->rule, boost_of(*last, now), last->state);
             return std::as_const(last->state.depth).view();
         }
-        copy(planes.current.view(), result->view());
+        copy_pixels(planes.current.view(), result->view());
         return std::as_const(*result).view();
     }
 
 private:
-    static void copy(DepthView in, MutableDepthView out) {
-        for (int y = 0; y < in.size.height; ++y)
-            std::copy_n(in.row(y), in.size.width, out.row(y));
-    }
-
     static void run(Limits& limits, Planes& planes, FrameGap::Meaning) {
         apply_limits(planes.current.view(), limits, planes.current);
     }
@@ -139,7 +134,7 @@ private:
     }
     static void run(Kalman& stage, Planes& planes, FrameGap::Meaning now) {
         apply_kalman(planes.current, stage.rule, boost_of(stage, now), stage.state);
-        copy(stage.state.depth.view(), planes.current.view());
+        copy_pixels(stage.state.depth.view(), planes.current.view());
     }
     static int boost_of(Kalman& stage, FrameGap::Meaning now) {
         if (now.forgets)

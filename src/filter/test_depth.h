@@ -25,16 +25,12 @@ using testing::on_every_target;
 
 inline DepthPlane plane_of(const DepthImage& image) {
     DepthPlane plane(image.size);
-    for (int y = 0; y < image.size.height; ++y)
-        std::copy_n(image.view().row(y), image.size.width, plane.row(y));
+    copy_pixels(image.view(), plane.view());
     return plane;
 }
 
 inline DepthImage image_of(const DepthPlane& plane) {
-    DepthImage image(plane.size());
-    for (int y = 0; y < image.size.height; ++y)
-        std::copy_n(plane.row(y), image.size.width, image.view().row(y));
-    return image;
+    return copy_of(plane.view());
 }
 
 // Two walls with a step between them, noise, and holes in clumps.

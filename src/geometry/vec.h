@@ -6,8 +6,13 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace theatron {
+
+constexpr double radians_of(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
 
 struct Vec2 {
     double x = 0, y = 0;

@@ -2,7 +2,6 @@
 // Images that own their pixels.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "image/view.h"
@@ -35,8 +34,7 @@ using ColorImage = Image<Rgb>;
 // A copy of the pixels that a view shows.
 inline DepthImage copy_of(DepthView view) {
     DepthImage image(view.size);
-    for (int y = 0; y < view.size.height; ++y)
-        std::copy_n(view.row(y), view.size.width, image.view().row(y));
+    copy_pixels(view, image.view());
     return image;
 }
 

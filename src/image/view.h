@@ -6,8 +6,11 @@
 // gives images.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace theatron {
 
@@ -42,6 +45,14 @@ struct View {
     T* row(int y) const { return pixels + y * stride; }
     bool contiguous() const { return stride == size.width; }
 };
+
+// Both of the same size; they do not overlap.
+template <class T>
+void copy_pixels(std::type_identity_t<View<const T>> from, View<T> to) {
+    assert(from.size == to.size);
+    for (int y = 0; y < from.size.height; ++y)
+        std::copy_n(from.row(y), from.size.width, to.row(y));
+}
 
 // Depth in units of the camera's calibration (one millimetre unless it says
 // otherwise), 0 = no measurement.

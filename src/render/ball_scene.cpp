@@ -2,7 +2,6 @@
 #include "render/ball_scene.h"
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 #include <random>
 
@@ -73,7 +72,7 @@ Seen look(const Pose& room_from_eye, Vec2 direction) {
 
 Calibration ball_scene_camera(int i, int count, double spread_degrees, Size depth, Size color) {
     const double step = count > 1 ? spread_degrees / (count - 1) : 0;
-    const double angle = (step * i - (count > 1 ? spread_degrees / 2 : 0)) * std::numbers::pi / 180;
+    const double angle = radians_of(step * i - (count > 1 ? spread_degrees / 2 : 0));
     Calibration calibration;
     calibration.depth = pinhole(depth, 75);
     calibration.color = pinhole(color, 90);

@@ -2,15 +2,10 @@
 #include "render/camera_view.h"
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 namespace theatron::render {
 namespace {
-
-constexpr double radians(double degrees) {
-    return degrees * std::numbers::pi / 180;
-}
 
 constexpr Vec3 room_up{0, 1, 0};
 
@@ -39,7 +34,7 @@ CameraView view_of_camera(const CameraModel& camera, const Pose& room_from_camer
 CameraView view_towards(Vec3 eye, Vec3 target, double vertical_fov_degrees, Size picture) {
     CameraView view;
     view.room_from_eye = look_at(eye, target, room_up);
-    view.bottom = std::tan(radians(vertical_fov_degrees) / 2);
+    view.bottom = std::tan(radians_of(vertical_fov_degrees) / 2);
     view.top = -view.bottom;
     view.right = view.bottom * picture.width / picture.height;
     view.left = -view.right;
@@ -48,8 +43,8 @@ CameraView view_towards(Vec3 eye, Vec3 target, double vertical_fov_degrees, Size
 
 CameraView orbited(const CameraView& view, Vec3 pivot, double yaw_degrees, double pitch_degrees) {
     const Vec3 eye_right = rotate(view.room_from_eye.rotation, {1, 0, 0});
-    const Quat turn = rotation_about(room_up, radians(yaw_degrees)) *
-                      rotation_about(eye_right, radians(-pitch_degrees));
+    const Quat turn = rotation_about(room_up, radians_of(yaw_degrees)) *
+                      rotation_about(eye_right, radians_of(-pitch_degrees));
     CameraView result = view;
     result.room_from_eye.rotation = normalized(turn * view.room_from_eye.rotation);
     result.room_from_eye.translation = pivot + rotate(turn, view.room_from_eye.translation - pivot);

@@ -101,9 +101,9 @@ void CloudScene::set_cut(CameraId camera, const CloudCut& cut) {
     parts_->textures.set_cut(camera, cut);
 }
 
-void CloudScene::set_depth_step(int step) {
+bool CloudScene::set_depth_step(int step) {
     if (step == parts_->depth_step)
-        return;
+        return false;
     // All else as it was when new: textures and maps have another size now.
     const auto before = std::exchange(parts_, std::make_unique<Parts>());
     parts_->depth_step = step;
@@ -117,6 +117,7 @@ void CloudScene::set_depth_step(int step) {
         parts_->textures.set_color_gain(camera, source.color_gain);
         parts_->textures.set_depth_offset(camera, source.depth_offset_m);
     }
+    return true;
 }
 
 void CloudScene::remove_camera(CameraId camera) {

@@ -73,9 +73,9 @@ public:
     void set_presence(CameraId camera, double presence);
 
     // Draws the depth pixels of every `step`-th column and row only, from 1, which is all of them:
-    // for machines that would be too slow otherwise. Colour stays as sharp as it is. After a
-    // change clouds are empty until their images are uploaded again.
-    void set_depth_step(int step);
+    // for machines that would be too slow otherwise. Colour stays as sharp as it is. True if
+    // that is a change: then clouds are empty until their images are uploaded again.
+    bool set_depth_step(int step);
 
     // Which part of a camera's cloud is shown; all of it when added.
     void set_cut(CameraId camera, const CloudCut& cut);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "render/color_visibility.h"
+#include "render/fewer_points.h"
 
 namespace theatron::render {
 namespace {
@@ -24,7 +25,7 @@ constexpr double least_texture = 8;      // steps of 255
 constexpr double least_cosine = 0.3;     // at which both cameras must see a surface
 constexpr double usual_difference = 30;  // between two cameras' textures; more counts less
 constexpr double prior_weight = 1e8;     // pulls towards 0 where there is little texture
-constexpr double follow = 0.2;           // share of a new estimate
+constexpr double follow = 0.2;           // least share of a new estimate in what is used
 
 double metres(const Calibration& calibration, std::uint16_t units) {
     return units * calibration.depth_unit_mm / 1000;
@@ -85,16 +86,6 @@ std::optional<Patch> patch_at(const Calibration& calibration, DepthView depth, i
     return patch;
 }
 
-Image<Ray> sample_rays(const CameraModel& depth) {
-    Image<Ray> rays({depth.size.width / sample_step, depth.size.height / sample_step});
-    for (int y = 0; y < rays.size.height; ++y)
-        for (int x = 0; x < rays.size.width; ++x) {
-            const auto ray = unproject(depth, {double(x * sample_step), double(y * sample_step)});
-            rays.view().row(y)[x] = ray ? Ray{float(ray->x), float(ray->y)} : Ray{no_ray, no_ray};
-        }
-    return rays;
-}
-
 }  // namespace
 
 void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView depth,
@@ -113,11 +104,10 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
         (camera.estimates < first_estimates ? uploads_per_copy : uploads_per_later_copy) +
         unsigned(std::distance(cameras_.begin(), cameras_.find(id)));
     if (camera.calibration.depth != calibration.depth || camera.rays.size == Size{})
-        camera.rays = sample_rays(calibration.depth);
+        camera.rays = make_ray_table(every_nth(calibration.depth, sample_step));
     camera.calibration = calibration;
     camera.depth.resize(depth.size);
-    for (int y = 0; y < depth.size.height; ++y)
-        std::copy_n(depth.row(y), depth.size.width, camera.depth.view().row(y));
+    copy_pixels(depth, camera.depth.view());
     const int step = (color.size.width + largest_copy - 1) / largest_copy;
     copy_brightness(color, step, camera.brightness);
     camera.color = scaled(calibration.color, camera.brightness.size);
@@ -133,8 +123,9 @@ void DepthOffsets::find_samples(Camera& camera) {
     const double tan_per_pixel = 2 / (c.depth.fx + c.depth.fy);
     const auto depth = std::as_const(camera.depth).view();
     camera.samples.clear();
-    for (int y = 1; y < camera.rays.size.height; ++y)
-        for (int x = 1; x < camera.rays.size.width; ++x) {
+    // A sample has neighbours on all sides.
+    for (int y = 1; y * sample_step + 1 < depth.size.height; ++y)
+        for (int x = 1; x * sample_step + 1 < depth.size.width; ++x) {
             const Ray ray = camera.rays.view().row(y)[x];
             if (ray.x == no_ray || depth.row(y * sample_step)[x * sample_step] == 0)
                 continue;

@@ -2,7 +2,6 @@
 // Where cameras stand and what lenses they have.
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "synthetic/operating_room.h"
 
@@ -61,7 +60,7 @@ Calibration synthetic_camera(Variant variant, int index, int count, Size color) 
                                                             {25, 2.3, 1.9},
                                                             {-155, 2.3, 1.9}}};
     const Place place = places[std::size_t(std::clamp(index, 0, max_cameras - 1))];
-    const double a = place.degrees * std::numbers::pi / 180;
+    const double a = radians_of(place.degrees);
     Vec3 eye{place.radius * std::cos(a), place.height, place.radius * std::sin(a)};
     Vec3 target{0.0, 1.12, 0.02};
     if (variant == Variant::surgeon) {

@@ -69,8 +69,9 @@ void main() {
         support = (2.0 * straights + diagonals) / 12.0;
         steepness.x = (to_right ? right - z : z - left) / footprint;
         steepness.y = (to_below ? below - z : z - above) / footprint;
-        hidden = vec2(hidden_side(pixel, ivec2(1, 0), left, z, right, straight),
-                      hidden_side(pixel, ivec2(0, 1), above, z, below, straight));
+        if (goes_on_behind > 0.0)
+            hidden = vec2(hidden_side(pixel, ivec2(1, 0), left, z, right, straight),
+                          hidden_side(pixel, ivec2(0, 1), above, z, below, straight));
     } else {
         z = borrowed_depth(
             float[8](left, right, above, below, up_left, up_right, down_left, diagonal));
