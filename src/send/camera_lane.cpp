@@ -3,8 +3,6 @@
 
 #include <cassert>
 
-#include "base/steady_clock.h"
-
 namespace theatron::send {
 namespace {
 
@@ -26,22 +24,32 @@ CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Eve
       }()),
       info_(camera->info()),
       newest_(options_.waiting_frames),
-      encoders_(id, [this](EncodedMedia media) {
-          meter_.on_bytes(is_depth(media.header.stream), media.message->size());
-          events_.media(std::move(media));
-      }) {
+      encoders_(
+          id,
+          [this](EncodedMedia media) {
+              meter_.on_bytes(is_depth(media.header.stream), media.message->size());
+              events_.media(std::move(media));
+          },
+          options_.clock.now) {
     told_.camera = id_;
-    capture_ =
-        std::make_unique<CaptureThread>(std::move(camera), options_.open_again,
-                                        [this](FramePtr frame) { on_frame(std::move(frame)); });
+    capture_ = std::make_unique<CaptureThread>(
+        std::move(camera), options_.open_again,
+        [this](FramePtr frame) { on_frame(std::move(frame)); }, options_.clock);
     ticket_ = workers_.look_after([this] { look(); });
 }
 
 CameraLane::~CameraLane() {
     workers_.forget(ticket_);
     capture_.reset();
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    wait_idle();
+}
+
+void CameraLane::wait_idle() {
     std::unique_lock lock(mutex_);
-    stopping_ = true;
     idle_.wait(lock, [this] { return !busy_; });
 }
 
@@ -89,15 +97,15 @@ void CameraLane::request_key(StreamId stream, SettingId setting) {
 void CameraLane::on_frame(FramePtr frame) {
     const FrameTimes& times = frame->times;
     const auto tag = options_.moments->tag(id_, times.captured);
-    const TimePoint now = steady_now();
-    meter_.on_frame(now, times.captured, times.delivered, tag.offset);
+    const TimePoint came = now();
+    meter_.on_frame(came, times.captured, times.delivered, tag.offset);
     if (tag.pass_over && options_.one_per_moment)
         return meter_.on_drop(DropReason::moment);
     if (newest_.put({std::move(frame), tag.moment}))
         meter_.on_drop(DropReason::newer);
     {
         const std::lock_guard lock(mutex_);
-        frame_came_ = now;
+        frame_came_ = came;
         wanted_ = true;
     }
     begin_work();
@@ -120,7 +128,7 @@ void CameraLane::look() {
     }
     {
         const std::lock_guard lock(mutex_);
-        if (orders_.keys.empty() || steady_now() - frame_came_ < key_patience)
+        if (orders_.keys.empty() || now() - frame_came_ < key_patience)
             return;
         wanted_ = true;
     }
@@ -139,7 +147,7 @@ void CameraLane::begin_work() {
 }
 
 void CameraLane::work() {
-    const TimePoint begin = steady_now();
+    const TimePoint begin = now();
     std::optional<Captured> next;
     {
         const std::lock_guard lock(mutex_);
@@ -214,11 +222,11 @@ void CameraLane::filter_frame() {
         camera.background = background_.get();
         chain_ = std::make_unique<filter::Chain>(filter_, camera);
     }
-    const TimePoint begin = steady_now();
+    const TimePoint begin = now();
     const TimePoint captured = frame.times.captured;
     filtered_ = chain_->apply(frame.depth.view(), captured - filtered_captured_);
     filtered_captured_ = captured;
-    filtered_at_ = steady_now();
+    filtered_at_ = now();
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
 }
 
@@ -234,9 +242,9 @@ void CameraLane::encode_frame(TimePoint begin) {
     const DepthView depth = filtered ? filtered_ : frame.depth.view();
 
     const auto timed = [this](Stage stage, const auto& encode) {
-        const TimePoint start = steady_now();
+        const TimePoint start = now();
         encode();
-        meter_.on_stage(stage, steady_now() - start);
+        meter_.on_stage(stage, now() - start);
     };
     const auto encode_depth = [&] {
         if (encoders_.has_depth())
@@ -251,11 +259,11 @@ void CameraLane::encode_frame(TimePoint begin) {
     };
     workers_.both(encode_depth, encode_color);
     keys_.clear();
-    meter_.on_stage(Stage::lane, steady_now() - begin);
+    meter_.on_stage(Stage::lane, now() - begin);
 }
 
 LaneFigures CameraLane::figures() const {
-    LaneFigures figures = meter_.figures(steady_now());
+    LaneFigures figures = meter_.figures(now());
     figures.name = info_.name;
     const std::lock_guard lock(status_mutex_);
     figures.camera = status_;

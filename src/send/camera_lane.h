@@ -48,6 +48,8 @@ public:
         std::shared_ptr<SharedMoments> moments;
         // Frames that are the second of their moment are passed over.
         bool one_per_moment = false;
+        // Of the camera's care, of header times and of waiting for key frames.
+        capture::WatchedCamera::Clock clock = capture::WatchedCamera::steady_clock();
     };
 
     // Takes over `camera` and starts at once. `workers` outlives the lane.
@@ -80,6 +82,9 @@ public:
 
     LaneFigures figures() const;
 
+    // Returns once no work on frames runs or is due.
+    void wait_idle();
+
 private:
     struct Captured {
         FramePtr frame;
@@ -97,6 +102,7 @@ private:
 
     void on_frame(FramePtr frame);
     void look();
+    TimePoint now() const { return options_.clock.now(); }
     void begin_work();
     void work();
     void take_orders();

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 
-#include "base/steady_clock.h"
 #include "codec/depth_stream.h"
 #include "video/color_codec.h"
 
@@ -14,14 +14,32 @@ namespace theatron::send {
 namespace {
 
 constexpr Size size{16, 12};
+// How long a test waits for what must happen: generous, so that slow machines pass.
+constexpr Duration patience = 20s;
+
+// Time that passes when the test says so.
+class ManualClock {
+public:
+    TimePoint now() const { return TimePoint(now_.load()); }
+    void pass(Duration time) { now_ = now_.load() + time; }
+    capture::WatchedCamera::Clock clock() {
+        return {[this] { return now(); }, [](Duration) { std::this_thread::yield(); }};
+    }
+
+private:
+    std::atomic<Duration> now_{Duration(1h)};
+};
 
 // Hands over frames when the test says so.
 class ManualCamera final : public capture::Camera {
 public:
     struct Script {
+        ManualClock clock;
         std::mutex mutex;
         std::condition_variable changed;
         std::deque<capture::Capture> waiting;
+        int handed_over = 0;  // frames that the lane has, the call for the next one tells
+        bool last_on_its_way = false;
 
         void give(capture::Capture capture) {
             {
@@ -36,8 +54,18 @@ public:
             frame->depth.pixels.assign(size.area(), value);
             frame->color.size = size;
             frame->color.pixels = ColorImage(size);
-            frame->times.captured = frame->times.delivered = steady_now();
+            send_now(frame);
+        }
+        // As far behind the one before as those of a camera are.
+        void send_now(const std::shared_ptr<Frame>& frame) {
+            clock.pass(33ms);
+            frame->times.captured = frame->times.delivered = clock.now();
             give({capture::Capture::Kind::frame, frame, ""});
+        }
+        // Returns when the lane has taken `frames` since the beginning; false if it does not.
+        bool wait_until_taken(int frames) {
+            std::unique_lock lock(mutex);
+            return changed.wait_for(lock, patience, [&] { return handed_over >= frames; });
         }
     };
 
@@ -48,12 +76,18 @@ public:
     const capture::CameraInfo& info() const override { return info_; }
     capture::Capture next(Duration timeout) override {
         std::unique_lock lock(script_->mutex);
+        if (std::exchange(script_->last_on_its_way, false)) {
+            ++script_->handed_over;
+            script_->changed.notify_all();
+        }
         script_->changed.wait_for(lock, timeout, [&] { return !script_->waiting.empty(); });
         if (script_->waiting.empty())
             return {};
         capture::Capture capture = script_->waiting.front();
-        if (capture.kind == capture::Capture::Kind::frame)
+        if (capture.kind == capture::Capture::Kind::frame) {
             script_->waiting.pop_front();
+            script_->last_on_its_way = true;
+        }
         return capture;
     }
 
@@ -77,14 +111,15 @@ protected:
             states.push_back(std::move(state));
             changed.notify_all();
         };
+        CameraLane::Options options;
+        options.clock = script->clock.clock();
         lane = std::make_unique<CameraLane>(CameraId{3}, std::make_unique<ManualCamera>(script),
-                                            events, workers, CameraLane::Options{});
+                                            events, workers, options);
     }
-    // True once there are `count` messages; generous, so that slow machines pass.
+    // True once there are `count` messages.
     bool wait_for(std::size_t count) {
         std::unique_lock lock(mutex);
-        return changed.wait_for(lock, std::chrono::seconds(20),
-                                [&] { return published.size() >= count; });
+        return changed.wait_for(lock, patience, [&] { return published.size() >= count; });
     }
 
     std::shared_ptr<ManualCamera::Script> script = std::make_shared<ManualCamera::Script>();
@@ -130,6 +165,7 @@ TEST_F(Lane, AStandingCameraAnswersARequestWithItsLastFrame) {
     script->give_frame(1000);
     ASSERT_TRUE(wait_for(1));
     lane->request_key(depth_stream(CameraId{3}), SettingId{1});
+    script->clock.pass(1s);
     ASSERT_TRUE(wait_for(2));
     const std::lock_guard lock(mutex);
     EXPECT_TRUE(published[1].header.key);
@@ -174,8 +210,7 @@ TEST_F(Lane, TheRegionHoldsFromTheNextFrameOn) {
         frame->depth = DepthImage(size);
         for (std::size_t i = 0; i < size.area(); ++i)
             frame->depth.pixels[i] = std::uint16_t(1000 + i * 7919 % 1000);
-        frame->times.captured = frame->times.delivered = steady_now();
-        script->give({capture::Capture::Kind::frame, frame, ""});
+        script->send_now(frame);
         return frame->depth.pixels;
     };
     const codec::strata::Region regions[] = {{}, {codec::strata::box(4, 3, 9, 8)}, {}};
@@ -208,7 +243,7 @@ TEST_F(Lane, NothingIsEncodedForNobody) {
     script->give_frame(1001);
     script->give({capture::Capture::Kind::end, nullptr, ""});
     std::unique_lock lock(mutex);
-    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return !states.empty(); }));
+    ASSERT_TRUE(changed.wait_for(lock, patience, [&] { return !states.empty(); }));
     EXPECT_EQ(states[0].condition, wire::CameraCondition::ended);
     EXPECT_TRUE(published.empty());
 }
@@ -217,14 +252,8 @@ TEST_F(Lane, NothingIsEncodedForNobody) {
 TEST_F(Lane, AFrameThatCameBeforeAnybodyWatchedIsFiltered) {
     lane->set_filter(filter::parse_chain("range:max_mm=500").settings, nullptr);
     script->give_frame(1000);
-    const auto taken = [&] {
-        const std::lock_guard lock(script->mutex);
-        return script->waiting.empty();
-    };
-    for (int i = 0; i < 20'000 && !taken(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    // For the lane to look at it and find nobody.
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_TRUE(script->wait_until_taken(1));
+    lane->wait_idle();  // it has looked at the frame and found nobody
     lane->set_settings({{SettingId{1}, "trvl"}}, {});
     ASSERT_TRUE(wait_for(1));
     const std::lock_guard lock(mutex);
@@ -243,12 +272,11 @@ TEST_F(Lane, WhileHeldTheNewestFrameWaitsAndNoReferenceIsMissing) {
     ASSERT_TRUE(wait_for(1));
     lane->hold(true);
     script->give_frame(1001);
-    // As far apart as those of a camera are.
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    ASSERT_TRUE(script->wait_until_taken(2));
+    lane->wait_idle();
     script->give_frame(1002);
-    const TimePoint deadline = steady_now() + std::chrono::seconds(20);
-    while (lane->figures().dropped[std::size_t(DropReason::newer)] == 0 && steady_now() < deadline)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(script->wait_until_taken(3));
+    EXPECT_EQ(lane->figures().dropped[std::size_t(DropReason::newer)], 1u);
     lane->hold(false);
     ASSERT_TRUE(wait_for(2));
     const std::lock_guard lock(mutex);
@@ -269,7 +297,7 @@ TEST_F(Lane, WhileHeldTheNewestFrameWaitsAndNoReferenceIsMissing) {
 TEST_F(Lane, AFailureIsToldWithItsSentence) {
     script->give({capture::Capture::Kind::failed, nullptr, "The cable is out."});
     std::unique_lock lock(mutex);
-    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return !states.empty(); }));
+    ASSERT_TRUE(changed.wait_for(lock, patience, [&] { return !states.empty(); }));
     EXPECT_EQ(states[0].condition, wire::CameraCondition::failed);
     EXPECT_EQ(states[0].problem, "The cable is out.");
     EXPECT_EQ(states[0].camera, CameraId{3});

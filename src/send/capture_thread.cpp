@@ -15,9 +15,12 @@ constexpr Duration last_patience = 500ms;  // for a thread to end
 
 CaptureThread::CaptureThread(std::unique_ptr<capture::Camera> camera,
                              capture::WatchedCamera::Open open_again,
-                             std::function<void(FramePtr)> sink)
+                             std::function<void(FramePtr)> sink,
+                             capture::WatchedCamera::Clock clock)
     : shared_(new Shared{
-          capture::WatchedCamera(std::move(camera), std::move(open_again)), {}, std::move(sink)}) {
+          capture::WatchedCamera(std::move(camera), std::move(open_again), std::move(clock)),
+          {},
+          std::move(sink)}) {
     start(shared_->camera.turn());
 }
 

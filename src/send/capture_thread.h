@@ -18,7 +18,7 @@ class CaptureThread {
 public:
     // `sink` is called from the thread, and not any more once the destructor has returned.
     CaptureThread(std::unique_ptr<capture::Camera> camera, capture::WatchedCamera::Open open_again,
-                  std::function<void(FramePtr)> sink);
+                  std::function<void(FramePtr)> sink, capture::WatchedCamera::Clock clock);
     ~CaptureThread();
 
     const capture::CameraInfo& info() const { return shared_->camera.info(); }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/steady_clock.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::send {
@@ -53,7 +52,7 @@ void LaneEncoders::set_region(const codec::strata::Region& region) {
 
 void LaneEncoders::publish(wire::MediaHeader& header, ByteView payload) {
     header.payload_size = std::uint32_t(payload.size());
-    header.encoded = steady_now();
+    header.encoded = now_();
     const std::shared_ptr<Bytes> message = messages_.take();
     message->resize(wire::media_header_size);
     wire::write_media_header(header, message->data());

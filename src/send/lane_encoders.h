@@ -38,8 +38,9 @@ class LaneEncoders {
 public:
     using Publish = std::function<void(EncodedMedia)>;
 
-    LaneEncoders(CameraId camera, Publish publish)
-        : camera_(camera), publish_(std::move(publish)) {}
+    // `now` tells when a message was encoded.
+    LaneEncoders(CameraId camera, Publish publish, std::function<TimePoint()> now)
+        : camera_(camera), publish_(std::move(publish)), now_(std::move(now)) {}
 
     // Encoders of settings that stay go on; they know their reference frames. A new
     // one begins with a key frame, which is added to `keys`.
@@ -72,6 +73,7 @@ private:
 
     const CameraId camera_;
     const Publish publish_;
+    const std::function<TimePoint()> now_;
     std::vector<Depth> depth_;
     std::vector<Color> color_;
     Bytes scratch_;  // depth is encoded here before its size is known
