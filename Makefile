@@ -3,12 +3,13 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup build demo test test-arm64 format fuzz bench-web clean
+.PHONY: help setup build demo test soak test-arm64 format fuzz bench-web clean
 
 help:
 	@echo "make demo               install what is needed, build, and show a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
 	@echo "make test               build and run every check"
+	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"
 	@echo "make test-arm64         tests of the SIMD kernels on emulated 64-bit ARM"
 	@echo "make build              build/release/apps/theatron/theatron"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
@@ -27,6 +28,10 @@ demo: build
 
 test: setup
 	@tools/test.sh
+
+soak: build
+	@cmake --build --preset release --target link_shaper
+	@python3 tests/soak/soak.py --minutes $(or $(MINUTES),10) $(if $(SEED),--seed $(SEED))
 
 test-arm64: setup
 	@tools/test_arm64.sh

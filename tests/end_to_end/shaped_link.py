@@ -50,6 +50,11 @@ class ShapedLink:
         self.shaper.stdin.write("begin\n")
         self.shaper.stdin.flush()
 
+    def change(self, *settings):
+        """These settings hold from now on."""
+        self.shaper.stdin.write(" ".join(map(str, settings)) + "\n")
+        self.shaper.stdin.flush()
+
     def close(self):
         self.shaper.kill()
         self.shaper.wait()

@@ -14,7 +14,8 @@
 //   loss=1%          of packets
 //   reorder=2%       of packets overtake those that were sent up to 10 ms before
 //
-// Times count from the line "ready", or from the last line on standard input.
+// A line on standard input is either "begin", from which times count anew, or
+// settings that hold from now on. Before the first one, times count from "ready".
 // Needs root and /dev/net/tun.
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -38,6 +39,7 @@
 #include <deque>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -76,7 +78,7 @@ double number(const std::string& text, const char* unit) {
     return value;
 }
 
-void apply(Shape& shape, const std::string& setting) {
+void set(Shape& shape, const std::string& setting) {
     const auto equals = setting.find('=');
     const std::string key = setting.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
@@ -230,7 +232,7 @@ std::vector<Change> parse_script(int count, char** words) {
     Shape trial;
     for (const Change& change : script)
         for (const std::string& setting : change.settings)
-            apply(trial, setting);
+            set(trial, setting);
     return script;
 }
 
@@ -267,7 +269,7 @@ int main(int argc, char** argv) {
         while (next_change < script.size() &&
                now >= begin + from_seconds(script[next_change].at_s)) {
             for (const std::string& setting : script[next_change].settings)
-                apply(shape, setting);
+                set(shape, setting);
             ++next_change;
         }
         Time wake = next_change < script.size() ? begin + from_seconds(script[next_change].at_s)
@@ -287,8 +289,14 @@ int main(int argc, char** argv) {
         (void)!read(timer, &expired, sizeof(expired));
         if (waits[3].revents != 0) {
             char line[256];
-            listening = read(STDIN_FILENO, line, sizeof(line)) > 0;
-            if (listening) {
+            const ssize_t size = read(STDIN_FILENO, line, sizeof(line));
+            listening = size > 0;
+            std::istringstream words(std::string(line, std::size_t(std::max<ssize_t>(size, 0))));
+            for (std::string word; words >> word;) {
+                if (word != "begin") {
+                    set(shape, word);
+                    continue;
+                }
                 begin = Clock::now();
                 shape = {};
                 next_change = 0;

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The account of a soak finds what it must find."""
+import unittest
+
+from accounting import Accountant, Entry, Window, linear_fit, longest_recovery, share_outside
+from recordings import Picture, decodable
+from schedule import KINDS, QUIET_END_S, make_schedule
+
+PERIOD = 1 / 30
+SECONDS = 20
+HOST_STARTS = [-5.0, 10.0]
+
+
+def sent(begin=0, end=SECONDS):
+    """What a camera gives; its host was started anew after ten seconds."""
+    for n in range(begin * 30, end * 30):
+        yield Entry(n * PERIOD, n % 300, True)
+
+
+def judge(entries, *windows, stream=0):
+    accountant = Accountant(windows, HOST_STARTS, PERIOD, 0, SECONDS)
+    accountant.judge(stream, entries)
+    return accountant.account
+
+
+class Account(unittest.TestCase):
+    def test_nothing_missing_is_nothing_found(self):
+        account = judge(list(sent()))
+        self.assertEqual((account.recorded, account.late, account.findings), (600, 0, []))
+        self.assertEqual(account.expected, 600)
+
+    def test_pictures_that_were_sent_must_be_there(self):
+        account = judge([e for e in sent() if not 4 <= e.captured < 4.2])
+        self.assertEqual([f.pictures for f in account.findings], [6])
+        self.assertAlmostEqual(account.findings[0].begin, 4, places=2)
+
+    def test_a_fault_on_the_way_explains_them_as_long_as_it_lasts(self):
+        entries = [e for e in sent() if not 4 <= e.captured < 5]
+        self.assertEqual(judge(entries, Window(3.9, 5.1, "link cut")).lost, {"link cut": 30})
+        account = judge(entries, Window(3.9, 4.5, "link cut"))
+        self.assertEqual(len(account.findings), 1)
+        self.assertEqual(account.findings[0].pictures, 30 - account.lost["link cut"])
+        self.assertEqual(account.expected, 600)
+
+    def test_a_fault_of_another_stream_explains_nothing(self):
+        entries = [e for e in sent() if not 4 <= e.captured < 5]
+        self.assertTrue(judge(entries, Window(3, 6, "camera", frozenset([2]))).findings)
+
+    def test_a_camera_with_a_fault_does_not_excuse_the_recorder(self):
+        camera = Window(3, 6, "camera", frozenset([0]), camera_side=True)
+        self.assertTrue(judge([e for e in sent() if not 4 <= e.captured < 5], camera).findings)
+        # The host did not number them: they were never there.
+        silent = [Entry(e.captured, e.frame - (30 if 5 <= e.captured < 10 else 0), True)
+                  for e in sent() if not 4 <= e.captured < 5]
+        account = judge(silent, camera)
+        self.assertEqual((account.findings, account.lost), ([], {"camera": 30}))
+
+    def test_a_busy_machines_camera_may_pass_over_some_but_not_many(self):
+        def without(begin, end):
+            gone = round((end - begin) / PERIOD)
+            return [Entry(e.captured, e.frame - (gone if end <= e.captured < 10 else 0), True)
+                    for e in sent() if not begin <= e.captured < end]
+        account = judge(without(4, 4.5))
+        self.assertEqual((account.findings, account.late), ([], 15))
+        self.assertTrue(judge(without(3, 8)).findings)
+
+    def test_what_is_there_but_cannot_be_decoded_is_missing(self):
+        entries = [e._replace(decodable=not 4 <= e.captured < 5) for e in sent()]
+        account = judge(entries)
+        self.assertEqual([f.pictures for f in account.findings], [30])
+
+    def test_the_ends_of_the_run_count(self):
+        self.assertTrue(judge(list(sent(0, SECONDS - 1))).findings)
+        self.assertTrue(judge(list(sent(1))).findings)
+        self.assertTrue(judge([]).findings)
+
+    def test_a_new_host_counts_anew(self):
+        entries = [e for e in sent() if not 9.5 <= e.captured < 10.5]
+        self.assertEqual(judge(entries, Window(9.4, 10.6, "host killed")).lost, {"host killed": 30})
+        self.assertTrue(judge(entries).findings)
+
+    def test_a_picture_in_two_files_counts_once(self):
+        self.assertEqual(judge([*sent(), *sent(3, 7)]).recorded, 600)
+
+    def test_recovery_is_the_longest_until_a_decodable_picture(self):
+        entries = {0: [Entry(1, 0, True), Entry(3, 1, False), Entry(4, 2, True)], 2: [Entry(2.5, 0, True)]}
+        self.assertAlmostEqual(longest_recovery(entries, [2]), 2)
+
+    def test_windows_that_cover_everything_are_noticed(self):
+        self.assertAlmostEqual(share_outside([Window(0, 5, "x"), Window(4, 10, "y")], 0, 20), 0.5, places=1)
+
+    def test_a_growing_process_has_a_slope(self):
+        slope, last = linear_fit([(0, 10), (1, 11), (2, 12)])
+        self.assertAlmostEqual(slope, 1)
+        self.assertAlmostEqual(last, 12)
+
+
+class Chain(unittest.TestCase):
+    def test_followers_of_a_missing_picture_are_not_decodable_until_a_key_frame(self):
+        def picture(frame, reference):
+            return Picture(0, 1, frame, reference, 0, frame == 0)
+        chain = [picture(0, 0), picture(1, 0), picture(3, 2), picture(4, 3), picture(5, 5), picture(6, 5)]
+        self.assertEqual(decodable(chain), [True, True, False, False, True, True])
+
+
+class Schedule(unittest.TestCase):
+    def test_the_same_seed_gives_the_same_faults(self):
+        self.assertEqual(make_schedule(7, 600), make_schedule(7, 600))
+        self.assertNotEqual(make_schedule(7, 600), make_schedule(8, 600))
+
+    def test_every_kind_comes_and_the_end_is_quiet(self):
+        faults = make_schedule(7, 600)
+        self.assertEqual({f.kind for f in faults}, {k.name for k in KINDS})
+        self.assertLess(max(f.end for f in faults), 600 - QUIET_END_S)
+
+    def test_faults_of_one_part_leave_it_time_to_recover(self):
+        settle = {k.name: k.settle_s for k in KINDS}
+        last = {}
+        for fault in make_schedule(7, 3600):
+            self.assertGreaterEqual(fault.at, last.get(fault.part, 0))
+            last[fault.part] = fault.end + settle[fault.kind] - 0.02
+
+
+if __name__ == "__main__":
+    unittest.main()

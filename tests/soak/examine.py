@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads one recording to its end:  examine.py FILE KNOWN_HASHES.json CHECK_CONTENT ANSWER.json
+
+The answer has the pictures of every stream, whether they can be decoded, and what is wrong with the file.
+"""
+import hashlib
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from recordings import decodable, read_pictures
+from theatron_process import PROGRAM
+
+KNOWN_ATTEMPTS = 20
+
+
+def program(*words):
+    done = subprocess.run([PROGRAM, *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def hashes_of(folder):
+    """Of the exported pictures of depth, by camera's folder, in order."""
+    answer = {}
+    for depth in sorted(folder.rglob("depth")):
+        answer[depth.parent.name] = [hashlib.sha256(path.read_bytes()).hexdigest()
+                                     for path in sorted(depth.glob("*.png"))]
+    return answer
+
+
+def known_hashes(source, folder):
+    """What each picture of `source` is when it was recorded and exported."""
+    pictures = len(list((source / "depth").glob("*.png")))
+    known, file, exported = set(), folder / "known.mkv", folder / "known"
+    for _ in range(KNOWN_ATTEMPTS):
+        # A busy machine's cameras pass over some; the next round has them.
+        code, _, errors = program("record", "--camera", f"folder:{source},loop=1,preload=1", "--raw", "--seconds", 2,
+                                  "--overwrite", file)
+        assert code == 0, errors
+        code, _, errors = program("export", file, "--png", exported)
+        assert code == 0, errors
+        known.update(value for values in hashes_of(exported).values() for value in values)
+        shutil.rmtree(exported)
+        if len(known) == pictures:
+            return sorted(known)
+    raise RuntimeError(f"only {len(known)} of {pictures} pictures could be recorded on this machine")
+
+
+def check_content(path, expected, known):
+    """Exports every picture of depth: as many as can be decoded, each bit by bit one of the cameras' own."""
+    folder = path.with_suffix(".pictures")
+    code, _, errors = program("export", path, "--png", folder)
+    exported = hashes_of(folder) if folder.exists() else {}
+    shutil.rmtree(folder, ignore_errors=True)
+    problems = []
+    count = sum(map(len, exported.values()))
+    if code != 0 and count < expected:
+        problems.append(f"export ends with {code} after {count} of {expected} pictures: {errors.strip()[-300:]}")
+    elif count < expected:
+        problems.append(f"export writes {count} of {expected} pictures of depth that can be decoded")
+    strange = sum(value not in known for values in exported.values() for value in values)
+    if strange:
+        problems.append(f"{strange} exported pictures are none that a camera gave")
+    return problems
+
+
+def examine(path, known, with_content):
+    pictures = read_pictures(path)
+    good = decodable(pictures)
+    entries = {}
+    for picture, is_good in zip(pictures, good):
+        entries.setdefault(picture.stream, []).append((picture.captured_us / 1e6, picture.frame, is_good))
+    answer = {"entries": entries, "bytes": path.stat().st_size, "problems": []}
+    if not pictures:
+        return answer
+    code, out, errors = program("inspect", path, "--json")
+    if code != 0:
+        answer["problems"].append(f"inspect ends with {code}: {errors.strip()[-300:]}")
+    else:
+        told = sum(c[k]["frames"] for c in json.loads(out)["cameras"] for k in ("depth", "color") if k in c)
+        if told != len(pictures):
+            answer["problems"].append(f"inspect finds {told} pictures where {len(pictures)} are")
+    if with_content:
+        depth = sum(is_good for picture, is_good in zip(pictures, good) if picture.stream % 2 == 0)
+        answer["problems"] += check_content(path, depth, set(known))
+    return answer
+
+
+def main(file, hashes, with_content, answer):
+    known = json.loads(pathlib.Path(hashes).read_text())
+    found = examine(pathlib.Path(file), known, with_content == "yes")
+    pathlib.Path(answer).write_text(json.dumps(found))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each kind of fault may cost, and why: the promises that a soak holds the program to."""
+import dataclasses
+import typing
+
+from accounting import Window
+
+
+class Cost(typing.NamedTuple):
+    """Pictures may be missing from `before` s before the fault's beginning to `after` s behind its end."""
+    why: str
+    before: float = 0.0
+    after: float = 0.0
+    nothing: bool = False  # no picture may be missing
+
+
+NOTHING = Cost("costs nothing", nothing=True)
+EXPLANATIONS = {
+    "host killed": Cost("nobody sends; then the recorder joins again (waits at most 2 s) and begins with a key frame",
+                        0.3, 5.0),
+    "host stopped": Cost("nobody takes pictures; those that are too old then are passed over", 0.1, 3.0),
+    "recorder killed": Cost("nobody records; what was not yet in the file is gone; it joins, begins with a key frame",
+                            1.0, 3.0),
+    "recorder stopped": Cost("nobody takes what is sent; begins again with a key frame", 0.0, 3.0),
+    "recorder with another clock": Cost("it is ended and started again; joins, begins with a key frame", 0.1, 3.0),
+    "disk stalled": Cost("waits in the recorder's memory", nothing=True),
+    "disk slow": Cost("waits in the recorder's memory", nothing=True),
+    "disk full": Cost("the recording ends, and is started again when there is room", 1.0, 3.0),
+    "disk gone": Cost("the recording ends, and is started again when the disk is back", 1.0, 3.0),
+    "link cut": Cost("nothing arrives; TCP tries again after up to as long as the cut lasted", 0.1, 4.0),
+    "link slow": Cost("the link carries less than the pictures need", 0.1, 3.0),
+    "host ended by itself": Cost("a finding of its own", 1.0, 5.0),
+    "recorder ended by itself": Cost("a finding of its own", 1.0, 3.0),
+    "viewer killed": NOTHING,
+    "viewer stopped": NOTHING,
+    "viewer with another clock": NOTHING,
+}
+ENOUGH_OF_LINK = 50  # percent: more than all who are behind it need
+
+
+@dataclasses.dataclass
+class Happened:
+    """A fault with the times of the steady clock at which it really began and ended."""
+    fault: typing.Any
+    begin: float
+    end: float
+
+
+def cost_of(fault):
+    if fault.kind == "link slow" and fault.amount >= ENOUGH_OF_LINK:
+        return NOTHING
+    return EXPLANATIONS.get(fault.kind, NOTHING)
+
+
+def windows_of(happened, patience):
+    """`patience`: how many times slower than usual this machine is."""
+    windows = []
+    for h in happened:
+        cost = cost_of(h.fault)
+        if cost.nothing:
+            continue
+        # TCP doubles the time between its attempts.
+        more = h.end - h.begin if h.fault.kind == "link cut" else 0.0
+        windows.append(Window(h.begin - cost.before, h.end + more + cost.after * patience, h.fault.kind))
+    return windows
