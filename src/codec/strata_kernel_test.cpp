@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
@@ -52,35 +53,49 @@ struct Planes {
     TokenCounts counts;
 };
 
+// Two frames, the second refers to the first, and what the reference makes of them.
+struct ReferenceCase {
+    ReferenceCase(Size size, bool blend) : blend(blend) {
+        ReferenceModel first(size, weights, blend), second(size, weights, blend);
+        images = {scene(size, 1), size.width == 40 ? noise(size, 2) : scene(size, 2)};
+        expected = {first.encode(images[0].view(), nullptr),
+                    second.encode(images[1].view(), &first)};
+    }
+
+    static constexpr Weights weights = {9000,  -3000, 4000,  -2000, 1000, 500,
+                                        12000, -4000, -3000, 2000,  1500};
+    bool blend;
+    std::array<DepthImage, 2> images;
+    std::array<std::vector<ReferenceModel::Coded>, 2> expected;
+};
+
+// Heights with and without a remainder after groups of 32 rows; widths shorter and longer
+// than what lane 0 does of the row after the last group.
 TEST(StrataKernel, EveryTargetEqualsTheReference) {
-    const Weights weights = {9000, -3000, 4000, -2000, 1000, 500, 12000, -4000, -3000, 2000, 1500};
+    std::vector<ReferenceCase> cases;
+    for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}, Size{100, 64}, Size{121, 32},
+                            Size{122, 32}, Size{123, 32}, Size{320, 288}}) {
+        for (const bool blend : {false, true})
+            cases.emplace_back(size, blend);
+    }
+    cases.emplace_back(Size{640, 576}, true);
     testing::on_every_target([&] {
-        for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}}) {
-            for (const bool blend : {false, true}) {
-                Planes first(size), second(size);
-                ReferenceModel plain_first(size, weights, blend),
-                    plain_second(size, weights, blend);
-                const Planes* before = nullptr;
-                const ReferenceModel* plain_before = nullptr;
-                unsigned seed = 0;
-                for (auto [planes, plain] :
-                     {std::pair{&first, &plain_first}, std::pair{&second, &plain_second}}) {
-                    const DepthImage image =
-                        ++seed == 2 && size.width == 40 ? noise(size, seed) : scene(size, seed);
-                    planes->encode(image, before, weights, blend);
-                    const auto expected = plain->encode(image.view(), plain_before);
-                    for (int y = 0; y < size.height; ++y) {
-                        for (int x = 0; x < size.width; ++x) {
-                            const std::size_t at =
-                                std::size_t(planes->layout.step_of(x, y)) * lane_count +
-                                std::size_t(y % lane_count);
-                            const auto& e = expected[std::size_t(y * size.width + x)];
-                            ASSERT_EQ(planes->token[at], e.token) << x << ' ' << y;
-                            ASSERT_EQ(planes->extra[at], e.extra) << x << ' ' << y;
-                        }
+        for (const ReferenceCase& c : cases) {
+            const Size size = c.images[0].size;
+            SCOPED_TRACE(::testing::Message() << size.width << " x " << size.height);
+            Planes planes[] = {Planes(size), Planes(size)};
+            for (std::size_t frame = 0; frame < 2; ++frame) {
+                planes[frame].encode(c.images[frame], frame > 0 ? &planes[0] : nullptr,
+                                     ReferenceCase::weights, c.blend);
+                for (int y = 0; y < size.height; ++y) {
+                    for (int x = 0; x < size.width; ++x) {
+                        const std::size_t at =
+                            std::size_t(planes[frame].layout.step_of(x, y)) * lane_count +
+                            std::size_t(y % lane_count);
+                        const auto& e = c.expected[frame][std::size_t(y * size.width + x)];
+                        ASSERT_EQ(planes[frame].token[at], e.token) << x << ' ' << y;
+                        ASSERT_EQ(planes[frame].extra[at], e.extra) << x << ' ' << y;
                     }
-                    before = planes;
-                    plain_before = plain;
                 }
             }
         }

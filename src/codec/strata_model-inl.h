@@ -3,7 +3,7 @@
 // Included once per instruction set, by strata_kernel.cpp.
 //
 // All arithmetic is modulo 2^16, so that each side gets equal results whatever
-// the pixels are. docs/formats/strata.md has the same in words.
+// the pixels are. docs/formats/depth_strata.md has the same in words.
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <algorithm>

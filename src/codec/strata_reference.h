@@ -47,9 +47,12 @@ private:
     int rows() const { return (size_.height + lane_count - 1) / lane_count * lane_count; }
 
     // Around the rows stand zeros; positions in front of and behind a row are
-    // steps of it.
+    // steps of it. The row after the last group is one that repeats the row above, too,
+    // but lane 0 begins it only because lane 31 is 124 steps behind, and ends there.
     const Pixel& at(int x, int y) const {
         static const Pixel none;
+        if (y == rows() && x + row_front < skew * (lane_count - 1))
+            y = rows() - 1;
         if (y < 0 || y >= rows() || x < -2 || x >= size_.width + 2)
             return none;
         return pixels_[std::size_t(y) * std::size_t(size_.width + 4) + std::size_t(x + 2)];
