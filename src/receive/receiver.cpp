@@ -48,10 +48,10 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
             const auto parsed = video::parse_depth_setting(s.codec);
             problem = parsed.problem;
             if (problem.empty()) {
-                stream.depth_setting = parsed.setting;
-                stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
                 stream.depth = std::make_unique<codec::DepthStreamDecoder>(
                     video::make_depth_decoder(parsed.setting));
+                stream.depth_setting = parsed.setting;
+                stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
             }
         } else {
             const auto parsed = video::parse_color_setting(s.codec);
@@ -209,7 +209,7 @@ void Receiver::ask_for_key(StreamId id, Stream& stream, TimePoint now) {
         return;
     stream.asked_for_key = true;
     stream.asked_at = now;
-    events_.needs_key(id, stream.setting);
+    events_.needs_key(id, *stream.setting);
 }
 
 std::vector<StreamFigures> Receiver::figures(TimePoint now) {

@@ -89,7 +89,8 @@ private:
     struct Stream {
         CameraId camera{};
         bool is_depth = false;
-        SettingId setting{};
+        // Empty until the host has said how it sends; there is a decoder from then on.
+        std::optional<SettingId> setting;
         std::string codec;
         codec::DepthSetting depth_setting;
         bool depth_is_lossless = false;  // as the setting says, whatever the region

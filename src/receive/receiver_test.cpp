@@ -229,6 +229,37 @@ TEST_F(DepthOnly, FiguresTellRateAndAge) {
     EXPECT_EQ(receiver.figures(at(59))[0].frames, 0u);
 }
 
+// A stream has no decoder until the host has said how it sends.
+TEST(Receiver, MediaBeforeAnySettingIsPassedOver) {
+    for (const SettingId setting : {SettingId{0}, SettingId{1}}) {
+        Receiver receiver({[](CameraFramePtr) {}, [](StreamId, SettingId) {}});
+        wire::Camera description;
+        description.depth_stream = depth_stream(camera);
+        description.color_stream = color_stream(camera);
+        description.has_color = true;
+        receiver.set_cameras({description});
+        Source source("trvl", setting);
+        source.set_color_id(setting);
+        EXPECT_EQ(receiver.on_media(source.depth(0), from_us(0)), Status::ok);
+        EXPECT_EQ(receiver.on_media(source.color(0), from_us(0)), Status::ok);
+        EXPECT_EQ(receiver.figures(from_us(0))[0].frames, 0u);
+    }
+}
+
+TEST_F(DepthOnly, ASettingOfNumberZeroIsLikeAnyOther) {
+    set_depth("rvl", SettingId{0});
+    Source source("rvl", SettingId{0});
+    EXPECT_EQ(receiver.on_media(source.depth(0), at(0)), Status::ok);
+    EXPECT_EQ(frames.size(), 1u);
+}
+
+TEST_F(DepthOnly, AfterACodecFromTheFutureTheOldOneStillDecodes) {
+    Source source;
+    EXPECT_THROW(set_depth("holograms", SettingId{9}), Error);
+    EXPECT_EQ(receiver.on_media(source.depth(0), at(0)), Status::ok);
+    EXPECT_EQ(frames.size(), 1u);
+}
+
 TEST_F(DepthOnly, ACodecFromTheFutureIsNamed) {
     EXPECT_THROW(set_depth("holograms", SettingId{9}), Error);
 }

@@ -3,6 +3,8 @@
 
 #include <cassert>
 
+#include "base/outside_text.h"
+
 namespace theatron::send {
 namespace {
 
@@ -22,7 +24,12 @@ CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Eve
               options.moments = std::make_shared<SharedMoments>(camera->info().frames_per_second);
           return std::move(options);
       }()),
-      info_(camera->info()),
+      info_([&] {
+          // It may be the name of a folder, which can hold any bytes.
+          capture::CameraInfo info = camera->info();
+          info.name = clean_text(info.name, wire::max_name);
+          return info;
+      }()),
       newest_(options_.waiting_frames),
       encoders_(
           id,

@@ -7,21 +7,11 @@
 namespace theatron::session {
 namespace {
 
-constexpr std::size_t max_name_length = 100, max_renderer_length = 40;
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
-// Names come from strangers and are shown to people: no control characters.
-std::string shown_text(const std::string& text, std::size_t max_length) {
-    std::string shown;
-    for (const char c : text.substr(0, max_length))
-        shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    return shown;
-}
-
 std::string shown_name(const std::string& name) {
-    const std::string shown = shown_text(name, max_name_length);
-    return shown.empty() ? "guest" : shown;
+    return name.find_first_not_of(' ') == std::string::npos ? "guest" : name;
 }
 
 }  // namespace
@@ -108,7 +98,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
 void HostSession::note_report(ParticipantId id, const wire::Report& report, TimePoint now) {
     Participant& participant = participants_[id];
     participant.report = report.streams;
-    std::string renderer = shown_text(report.renderer, max_renderer_length);
+    std::string renderer = report.renderer;
     // Reports repeat it; who changes it all the time must not fill the log.
     if (renderer == participant.renderer || now - participant.renderer_noted < renderer_interval)
         return;

@@ -3,6 +3,7 @@
 
 #include <flatbuffers/flatbuffers.h>
 
+#include "base/outside_text.h"
 #include "control_generated.h"
 
 namespace theatron::wire {
@@ -99,20 +100,31 @@ Body pack(Builder& b, const SetRenderer& m) {
 static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::SetRenderer) == 14);
 static_assert(std::variant_size_v<Control> == 14);
 
-// From table to struct. Strings and vectors may be absent.
+// From table to struct. Strings and vectors may be absent. Tables may share strings and vectors,
+// so each field has a limit of its own: the size of the message limits nothing.
 
-std::string text(const flatbuffers::String* s) {
-    return s ? s->str() : std::string();
+std::string text(const flatbuffers::String* s, std::size_t max_characters) {
+    return s ? clean_text(s->string_view(), max_characters) : std::string();
+}
+
+template <class Vector>
+bool too_long(const Vector* vector, std::size_t limit) {
+    return vector && vector->size() > limit;
 }
 
 Join unpack(const fbs::Join& m) {
-    return {m.protocol_min(),      m.protocol_max(),      text(m.token()),
-            text(m.name()),        text(m.depth_codec()), text(m.color_codec()),
-            m.target_latency_ms(), m.max_kbit_per_s()};
+    return {m.protocol_min(),
+            m.protocol_max(),
+            text(m.token(), max_token),
+            text(m.name(), max_name),
+            text(m.depth_codec(), max_codec),
+            text(m.color_codec(), max_codec),
+            m.target_latency_ms(),
+            m.max_kbit_per_s()};
 }
 
 ChooseCodecs unpack(const fbs::ChooseCodecs& m) {
-    return {text(m.depth_codec()), text(m.color_codec())};
+    return {text(m.depth_codec(), max_codec), text(m.color_codec(), max_codec)};
 }
 
 RequestKey unpack(const fbs::RequestKey& m) {
@@ -129,16 +141,17 @@ Report unpack(const fbs::Report& m) {
         for (const auto* s : *m.streams())
             report.streams.push_back({StreamId(s->stream()), s->newest_frame(), s->frames(),
                                       s->bytes(), Duration(s->age_us())});
-    report.renderer = text(m.renderer());
+    report.renderer = text(m.renderer(), max_renderer);
     return report;
 }
 
 Welcome unpack(const fbs::Welcome& m) {
-    Welcome welcome{m.protocol(), ParticipantId(m.participant()), text(m.host_name()), {}};
+    Welcome welcome{
+        m.protocol(), ParticipantId(m.participant()), text(m.host_name(), max_name), {}};
     if (m.cameras())
         for (const auto* c : *m.cameras()) {
             Camera camera{CameraId(c->id()),
-                          text(c->name()),
+                          text(c->name(), max_name),
                           StreamId(c->depth_stream()),
                           StreamId(c->color_stream()),
                           c->has_color(),
@@ -155,20 +168,21 @@ Welcome unpack(const fbs::Welcome& m) {
 }
 
 Refused unpack(const fbs::Refused& m) {
-    return {text(m.reason())};
+    return {text(m.reason(), max_sentence)};
 }
 
 Settings unpack(const fbs::Settings& m) {
-    Settings settings{{}, text(m.note())};
+    Settings settings{{}, text(m.note(), max_sentence)};
     if (m.settings())
         for (const auto* s : *m.settings())
             settings.settings.push_back(
-                {StreamId(s->stream()), SettingId(s->setting()), text(s->codec())});
+                {StreamId(s->stream()), SettingId(s->setting()), text(s->codec(), max_codec)});
     return settings;
 }
 
 CameraState unpack(const fbs::CameraState& m) {
-    return {CameraId(m.camera()), CameraCondition(m.state()), text(m.problem()), text(m.filter())};
+    return {CameraId(m.camera()), CameraCondition(m.state()), text(m.problem(), max_sentence),
+            text(m.filter(), max_filter)};
 }
 
 Pong unpack(const fbs::Pong& m) {
@@ -184,11 +198,11 @@ ChooseDelivery unpack(const fbs::ChooseDelivery& m) {
 }
 
 Delivery unpack(const fbs::Delivery& m) {
-    return {m.level(), m.levels(), text(m.what()), text(m.reason())};
+    return {m.level(), m.levels(), text(m.what(), max_sentence), text(m.reason(), max_sentence)};
 }
 
 SetRenderer unpack(const fbs::SetRenderer& m) {
-    return {text(m.renderer()), m.locked()};
+    return {text(m.renderer(), max_renderer), m.locked()};
 }
 
 }  // namespace
@@ -201,6 +215,35 @@ Bytes encode_control(const Control& message) {
     const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
     return {bytes.begin(), bytes.end()};
 }
+
+namespace {
+
+// Lists within their limits, and no setting without a number.
+bool is_sound(const fbs::Control& control) {
+    if (const auto* report = control.body_as_Report())
+        return !too_long(report->streams(), max_streams);
+    if (const auto* state = control.body_as_CameraState())
+        return state->state() <= std::uint8_t(CameraCondition::failed);
+    if (const auto* welcome = control.body_as_Welcome()) {
+        if (too_long(welcome->cameras(), max_cameras))
+            return false;
+        if (welcome->cameras())
+            for (const auto* camera : *welcome->cameras())
+                if (too_long(camera->calibration(), max_calibration_size))
+                    return false;
+    }
+    if (const auto* settings = control.body_as_Settings()) {
+        if (too_long(settings->settings(), max_streams))
+            return false;
+        if (settings->settings())
+            for (const auto* setting : *settings->settings())
+                if (setting->setting() == 0)
+                    return false;
+    }
+    return true;
+}
+
+}  // namespace
 
 Result<Control> decode_control(ByteView bytes) {
     // FlatBuffers wants aligned memory; a message is small, so it is copied.
@@ -215,6 +258,8 @@ Result<Control> decode_control(ByteView bytes) {
     const fbs::Control& control = *fbs::GetControl(data);
     if (!control.body())
         return control.body_type() == fbs::Body::NONE ? Status::malformed : Status::unsupported;
+    if (!is_sound(control))
+        return Status::malformed;
     switch (control.body_type()) {
         case fbs::Body::Join:
             return Control(unpack(*control.body_as_Join()));
@@ -233,8 +278,6 @@ Result<Control> decode_control(ByteView bytes) {
         case fbs::Body::Settings:
             return Control(unpack(*control.body_as_Settings()));
         case fbs::Body::CameraState:
-            if (control.body_as_CameraState()->state() > std::uint8_t(CameraCondition::failed))
-                return Status::malformed;
             return Control(unpack(*control.body_as_CameraState()));
         case fbs::Body::Pong:
             return Control(unpack(*control.body_as_Pong()));

@@ -19,6 +19,18 @@ namespace theatron::wire {
 inline constexpr std::uint16_t protocol_min = 1;
 inline constexpr std::uint16_t protocol_max = 1;
 
+// What decode_control() lets through, in characters. It makes every text clean
+// (base/outside_text.h) and cuts it to these; a list that is longer makes its message malformed.
+inline constexpr std::size_t max_name = 64;       // of a participant, a host, a camera
+inline constexpr std::size_t max_token = 256;     // the host compares it whole
+inline constexpr std::size_t max_codec = 200;     // one codec in its spelling
+inline constexpr std::size_t max_renderer = 40;   // one renderer's name
+inline constexpr std::size_t max_sentence = 500;  // a reason, a problem, a note, a step
+inline constexpr std::size_t max_filter = 1000;   // a chain of filters in its spelling
+inline constexpr std::size_t max_cameras = 63;    // of one host, as many as a recording holds
+inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
+inline constexpr std::size_t max_streams = 2 * max_cameras;
+
 // The first message of a participant.
 struct Join {
     std::uint16_t protocol_min = wire::protocol_min;
@@ -149,7 +161,9 @@ using Control =
 Bytes encode_control(const Control& message);
 
 // Safe for untrusted input. Status::unsupported for a message of a newer
-// protocol, which may be ignored.
+// protocol, which may be ignored. What is returned takes no more memory than max_decoded_size,
+// however often the message refers to the same bytes.
+inline constexpr std::size_t max_decoded_size = 1 << 20;
 Result<Control> decode_control(ByteView bytes);
 
 }  // namespace theatron::wire

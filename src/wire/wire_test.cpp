@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "wire/control.h"
@@ -223,6 +224,66 @@ TEST(Control, RefusesDamage) {
     EXPECT_FALSE(decode_control(numbered(100)));
     EXPECT_FALSE(
         decode_control(encode_control(CameraState{CameraId{1}, CameraCondition(9), "", ""})));
+}
+
+TEST(Control, TextsAreCleanAndCutToTheirLimits) {
+    const std::string long_name = "OP 3, " + std::string(90, 'x') + "ü";
+    const std::string bad = "a\xff\x1b[2J\xc2\x9b" + std::string(60'000, 'x');
+    const Join join = round_trip(Join{1, 1, bad, "Überwachungsplatz " + long_name, bad, bad});
+    EXPECT_EQ(join.name, ("Überwachungsplatz " + long_name).substr(0, max_name + 1));
+    EXPECT_EQ(join.token.substr(0, 9), "a\xef\xbf\xbd [2J ");
+    const auto characters = [](const std::string& text) {
+        return std::size_t(std::count_if(text.begin(), text.end(), [](char c) {
+            return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+        }));
+    };
+    EXPECT_EQ(characters(join.token), max_token);
+    EXPECT_EQ(characters(join.depth_codec), max_codec);
+    EXPECT_EQ(characters(join.color_codec), max_codec);
+    const ChooseCodecs codecs = round_trip(ChooseCodecs{bad, bad});
+    EXPECT_EQ(characters(codecs.depth_codec), max_codec);
+    EXPECT_EQ(characters(codecs.color_codec), max_codec);
+    EXPECT_EQ(characters(round_trip(Report{{}, bad}).renderer), max_renderer);
+    EXPECT_EQ(characters(round_trip(SetRenderer{bad, true}).renderer), max_renderer);
+    EXPECT_EQ(characters(round_trip(Refused{bad}).reason), max_sentence);
+    EXPECT_EQ(characters(round_trip(Delivery{0, 1, bad, bad}).what), max_sentence);
+    EXPECT_EQ(characters(round_trip(Delivery{0, 1, bad, bad}).reason), max_sentence);
+    EXPECT_EQ(characters(round_trip(CameraState{CameraId{1}, {}, bad, bad}).problem), max_sentence);
+    EXPECT_EQ(characters(round_trip(CameraState{CameraId{1}, {}, bad, bad}).filter), max_filter);
+    const Welcome welcome =
+        round_trip(Welcome{1, {}, bad, {{CameraId{0}, bad, {}, {}, true, 30, {}}}});
+    EXPECT_EQ(characters(welcome.host_name), max_name);
+    EXPECT_EQ(characters(welcome.cameras[0].name), max_name);
+    const Settings settings = round_trip(Settings{{{StreamId{1}, SettingId{2}, bad}}, bad});
+    EXPECT_EQ(characters(settings.settings[0].codec), max_codec);
+    EXPECT_EQ(characters(settings.note), max_sentence);
+}
+
+TEST(Control, RefusesMoreThanItsLimits) {
+    const auto accepted = [](const Control& m) { return bool(decode_control(encode_control(m))); };
+    EXPECT_TRUE(accepted(Report{std::vector<StreamReport>(max_streams), ""}));
+    EXPECT_FALSE(accepted(Report{std::vector<StreamReport>(max_streams + 1), ""}));
+    const StreamSetting setting{StreamId{0}, SettingId{1}, "rvl"};
+    EXPECT_TRUE(accepted(Settings{std::vector<StreamSetting>(max_streams, setting), ""}));
+    EXPECT_FALSE(accepted(Settings{std::vector<StreamSetting>(max_streams + 1, setting), ""}));
+    EXPECT_TRUE(accepted(Welcome{1, {}, "", std::vector<Camera>(max_cameras)}));
+    EXPECT_FALSE(accepted(Welcome{1, {}, "", std::vector<Camera>(max_cameras + 1)}));
+    Camera camera;
+    camera.calibration = numbered(max_calibration_size);
+    EXPECT_TRUE(accepted(Welcome{1, {}, "", {camera}}));
+    camera.calibration.push_back({});
+    EXPECT_FALSE(accepted(Welcome{1, {}, "", {camera}}));
+    // Whatever is shared in a message: its largest form is within the stated memory.
+    constexpr std::size_t bytes_a_character = 4;
+    EXPECT_LE(max_cameras * (sizeof(Camera) + max_calibration_size + bytes_a_character * max_name),
+              max_decoded_size);
+    EXPECT_LE(max_streams * (sizeof(StreamSetting) + bytes_a_character * max_codec),
+              max_decoded_size);
+}
+
+TEST(Control, RefusesASettingWithoutANumber) {
+    EXPECT_FALSE(
+        decode_control(encode_control(Settings{{{StreamId{0}, SettingId{0}, "rvl"}}, ""})));
 }
 
 }  // namespace
