@@ -46,7 +46,8 @@ public:
             descriptions.push_back(
                 describe(CameraId(descriptions.size()), cameras.back()->info(), codecs));
         }
-        recorder_ = std::make_unique<record::Recorder>(file, descriptions);
+        recorder_ = std::make_unique<record::Recorder>(file, descriptions,
+                                                       record::ClockPair{steady_now(), utc_now()});
         opened_ = steady_now();
         double fps = 1;
         for (const auto& camera : cameras)
@@ -55,7 +56,7 @@ public:
         for (auto& camera : cameras) {
             send::CameraLane::Events events;
             events.media = [this](send::EncodedMedia media) {
-                recorder_->add(media.header, std::move(media.message));
+                (void)recorder_->add(media.header, std::move(media.message), steady_now());
             };
             events.state = [this](wire::CameraState state) { on_state(std::move(state)); };
             send::CameraLane::Options options;

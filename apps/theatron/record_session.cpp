@@ -117,7 +117,8 @@ private:
 
         const std::lock_guard lock(mutex_);
         if (!recorder_) {
-            recorder_ = std::make_unique<record::Recorder>(file_, descriptions);
+            recorder_ = std::make_unique<record::Recorder>(
+                file_, descriptions, record::ClockPair{participant_->now(), utc_now()});
             descriptions_ = std::move(descriptions);
         } else if (!(descriptions_ == descriptions)) {
             end_ =
@@ -167,8 +168,9 @@ private:
         if (stream.newest && std::int32_t(header.frame - *stream.newest) > 1)
             lost_ += header.frame - *stream.newest - 1;
         stream.newest = header.frame;
-        recorder_->add(header, std::make_shared<Bytes>(message.begin(), message.end()),
-                       header.filtered == TimePoint{} ? "" : filters_of(header.stream));
+        (void)recorder_->add(header, std::make_shared<Bytes>(message.begin(), message.end()),
+                             participant_->now(),
+                             header.filtered == TimePoint{} ? "" : filters_of(header.stream));
     }
 
     const std::string file_;

@@ -12,6 +12,11 @@
 
 namespace theatron::app {
 
+// Read at the same instant as the session's clock, it tells when a recording was made.
+inline record::UtcTime utc_now() {
+    return std::chrono::floor<std::chrono::microseconds>(std::chrono::system_clock::now());
+}
+
 class RecordSource {
 public:
     virtual ~RecordSource() = default;

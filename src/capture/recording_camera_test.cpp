@@ -20,6 +20,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr Size depth_size{24, 18}, color_size{16, 12};
+const record::ClockPair session_begin{from_us(5), record::UtcTime(1'700'000'000s)};
 constexpr int period_us = 33'333;
 
 Calibration calibration_of(int camera) {
@@ -72,7 +73,7 @@ protected:
         auto message = std::make_shared<Bytes>(wire::media_header_size);
         wire::write_media_header(header, message->data());
         message->insert(message->end(), payload.begin(), payload.end());
-        EXPECT_TRUE(recorder.add(header, message));
+        EXPECT_EQ(recorder.add(header, message, header.captured), record::Recorder::Added::taken);
     }
 
     // Records `frames` frames of each camera, except those of camera 0 in `left_out`, whose colour
@@ -87,7 +88,7 @@ protected:
             descriptions.push_back(description(c, setting.setting.text));
             encoders.emplace_back(setting.setting);
         }
-        record::Recorder recorder(path(), descriptions);
+        record::Recorder recorder(path(), descriptions, session_begin);
         for (FrameNumber n = 0; n < frames; ++n)
             for (int c = 0; c < cameras; ++c) {
                 wire::MediaHeader header;
@@ -183,7 +184,7 @@ TEST_F(RecordingCamera, ColourThatRefersToEarlierColourIsTheSameAfterFramesWereP
     {
         record::RecordedCamera d = description(0, "raw");
         d.color->codec = setting.text;
-        record::Recorder recorder(path(), {d});
+        record::Recorder recorder(path(), {d}, session_begin);
         codec::DepthStreamEncoder depth(codec::parse_depth_setting("raw").setting);
         const auto encoder = video::make_color_encoder(setting);
         const auto decoder = video::make_color_decoder(setting.id);
@@ -276,7 +277,7 @@ TEST_F(RecordingCamera, WhatIsWrongIsOneSentence) {
 
 TEST_F(RecordingCamera, ADamagedPictureEndsTheCameraWithASentence) {
     {
-        record::Recorder recorder(path(), {description(0, "rvl")});
+        record::Recorder recorder(path(), {description(0, "rvl")}, session_begin);
         wire::MediaHeader header;
         header.key = true;
         header.captured = from_us(5);

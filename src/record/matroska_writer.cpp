@@ -121,17 +121,26 @@ void render_head(Bytes& out) {
     render(head, out);
 }
 
-void render_info(std::int64_t duration_us, std::int64_t date_ns, Bytes& out) {
+}  // namespace
+
+void MatroskaWriter::render_info(std::int64_t duration_us, Bytes& out) const {
     Empty<KaxInfo> info;
+    if (uid_)
+        add_bytes<KaxSegmentUID>(info, *uid_);
+    if (family_uid_)
+        add_bytes<KaxSegmentFamily>(info, *family_uid_);
     add_number<KaxTimecodeScale>(info, ns_per_tick);
     auto& duration = add<KaxDuration>(info);
     duration.SetPrecision(EbmlFloat::FLOAT_64);  // of one size, whatever the value
     *static_cast<EbmlFloat*>(&duration) = double(duration_us);
-    add<KaxDateUTC>(info).SetEpochDate(int32(date_ns / 1'000'000'000));
+    add<KaxDateUTC>(info).SetEpochDate(
+        std::chrono::floor<std::chrono::seconds>(utc_).time_since_epoch().count());
     add_unicode<KaxMuxingApp>(info, "libmatroska");
     add_unicode<KaxWritingApp>(info, "Theatron");
     render(info, out);
 }
+
+namespace {
 
 void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
     Empty<KaxTracks> tracks;
@@ -156,13 +165,17 @@ void render_tracks(const MatroskaWriter::Layout& layout, Bytes& out) {
             add_text<KaxBlockAddIDName>(mapping, name);
             add_number<KaxBlockAddIDType>(mapping, 0);
         };
-        const bool side = !layout.side_name.empty(), note = !layout.note_name.empty();
-        if (side || note)
-            add_number<KaxMaxBlockAdditionID>(entry, std::uint64_t(note ? note_id : side_id));
-        if (side)
-            add_mapping(side_id, layout.side_name);
-        if (note)
-            add_mapping(note_id, layout.note_name);
+        const std::pair<int, const std::string*> additions[] = {{side_id, &layout.side_name},
+                                                                {note_id, &layout.note_name},
+                                                                {check_id, &layout.check_name}};
+        int max_id = 0;
+        for (const auto& [id, name] : additions)
+            max_id = name->empty() ? max_id : id;
+        if (max_id > 0)
+            add_number<KaxMaxBlockAdditionID>(entry, std::uint64_t(max_id));
+        for (const auto& [id, name] : additions)
+            if (!name->empty())
+                add_mapping(id, *name);
         auto& video = add<KaxTrackVideo>(entry);
         add_number<KaxVideoPixelWidth>(video, std::uint64_t(track.width));
         add_number<KaxVideoPixelHeight>(video, std::uint64_t(track.height));
@@ -207,15 +220,31 @@ void render_tags(const std::vector<Tag>& tags, Bytes& out) {
     render(list, out);
 }
 
-// An element without content that takes exactly `size` bytes, at least 9.
+constexpr std::size_t void_head_size = 9;
+
+// An element without content that takes exactly `size` bytes.
 void render_void(std::size_t size, Bytes& out) {
-    assert(size >= 9);
+    assert(size >= void_head_size);
     const std::size_t begin = out.size();
     out.resize(begin + size);
     out[begin] = std::byte{0xec};
     out[begin + 1] = std::byte{0x01};  // a size of eight bytes
     for (std::size_t i = 0; i < 7; ++i)
-        out[begin + 2 + i] = std::byte((size - 9) >> (8 * (6 - i)));
+        out[begin + 2 + i] = std::byte((size - void_head_size) >> (8 * (6 - i)));
+}
+
+// The head again, in an element that players pass over.
+Bytes make_head_copy(ByteView head) {
+    Bytes content;
+    ByteWriter out(content);
+    out.put_bytes(as_bytes(head_copy_magic));
+    out.put(crc32c(head));
+    out.put(std::uint32_t(head.size()));
+    out.put_bytes(head);
+    Bytes copy;
+    render_void(void_head_size + content.size(), copy);
+    std::copy(content.begin(), content.end(), copy.begin() + void_head_size);
+    return copy;
 }
 
 Bytes segment_size(std::uint64_t size) {
@@ -265,10 +294,11 @@ int write_at(int file, ByteView bytes, std::uint64_t offset) {
 }  // namespace
 
 MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& layout)
-    : path_(path) {
-    using namespace std::chrono;
-    date_ns_ = duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
-
+    : path_(path),
+      utc_(layout.utc.value_or(
+          std::chrono::floor<std::chrono::microseconds>(std::chrono::system_clock::now()))),
+      uid_(layout.uid),
+      family_uid_(layout.family_uid) {
     Bytes bytes;
     render_head(bytes);
     for (const std::uint8_t b : {0x18, 0x53, 0x80, 0x67})
@@ -279,7 +309,7 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
     segment_ = bytes.size();
     render_void(seek_head_space, bytes);
     places_["info"] = bytes.size();
-    render_info(0, date_ns_, bytes);
+    render_info(0, bytes);
     places_["tracks"] = bytes.size();
     render_tracks(layout, bytes);
     if (!layout.attachments.empty())
@@ -288,6 +318,10 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
     if (!layout.tags.empty())
         places_["tags"] = bytes.size();
     render_tags(layout.tags, bytes);
+    if (layout.repeat_head) {
+        head_copy_ = make_head_copy(ByteView(bytes).subspan(places_["info"]));
+        bytes.insert(bytes.end(), head_copy_.begin(), head_copy_.end());
+    }
 
     file_ = open(path.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, 0644);
     if (file_ < 0)
@@ -333,6 +367,10 @@ std::string MatroskaWriter::write(std::vector<Block> blocks) {
                      [](const Block& a, const Block& b) { return a.time_us < b.time_us; });
     const std::size_t cues_before = cues_.size();
     Bytes bytes;
+    if (end_ >= next_copy_) {
+        bytes = head_copy_;
+        next_copy_ = 2 * end_;
+    }
     for (auto begin = blocks.begin(); begin != blocks.end();) {
         const auto end = std::find_if(begin, blocks.end(), [&](const Block& block) {
             return block.time_us - begin->time_us > max_cluster_us;
@@ -373,7 +411,7 @@ void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
         auto* payload = reinterpret_cast<binary*>(const_cast<std::byte*>(block.payload.data()));
         kax.AddFrame(track, std::uint64_t(block.time_us * ns_per_tick),
                      *new DataBuffer(payload, uint32(block.payload.size())), LACING_NONE);
-        if (!block.side.empty() || !block.note.empty()) {
+        if (!block.side.empty() || !block.note.empty() || block.check) {
             auto& additions = add<KaxBlockAdditions>(group);
             const auto add_more = [&](int id, ByteView bytes) {
                 if (bytes.empty())
@@ -386,6 +424,8 @@ void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
             };
             add_more(side_id, block.side);
             add_more(note_id, as_bytes(block.note));
+            if (block.check)
+                add_more(check_id, *block.check);
         }
         if (!block.key)
             add<KaxReferenceBlock>(group).SetReferencedTimecode(block.reference_us - block.time_us);
@@ -399,36 +439,56 @@ void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
     render(cluster, out);
 }
 
+std::string MatroskaWriter::sync() {
+    // Some file systems know of no such thing.
+    if (fdatasync(file_) == 0 || errno == EINVAL || errno == ENOSYS)
+        return "";
+    failed_ = true;
+    return problem(errno);
+}
+
+Bytes MatroskaWriter::render_cues() const {
+    // Point by point: hours of many tracks have millions.
+    Bytes points;
+    for (const Cue& cue : cues_) {
+        Empty<KaxCuePoint> point;
+        add_number<KaxCueTime>(point, std::uint64_t(cue.time_us));
+        auto& position = add<KaxCueTrackPositions>(point);
+        add_number<KaxCueTrack>(position, std::uint64_t(cue.track));
+        add_number<KaxCueClusterPosition>(position, cue.cluster);
+        render(point, points);
+    }
+    Bytes bytes;
+    for (const std::uint8_t b : {0x1c, 0x53, 0xbb, 0x6b})
+        bytes.push_back(std::byte{b});
+    const Bytes size = segment_size(points.size());
+    bytes.insert(bytes.end(), size.begin(), size.end());
+    bytes.insert(bytes.end(), points.begin(), points.end());
+    return bytes;
+}
+
 std::string MatroskaWriter::finish() {
     const bool was_cut_back = failed_;
     std::string trouble;
-    if (!cues_.empty()) {
-        Empty<KaxCues> cues;
-        for (const Cue& cue : cues_) {
-            auto& point = add<KaxCuePoint>(cues);
-            add_number<KaxCueTime>(point, std::uint64_t(cue.time_us));
-            auto& position = add<KaxCueTrackPositions>(point);
-            add_number<KaxCueTrack>(position, std::uint64_t(cue.track));
-            add_number<KaxCueClusterPosition>(position, cue.cluster);
-        }
-        Bytes bytes;
-        render(cues, bytes);
+    Bytes bytes = cues_.empty() ? Bytes{} : render_cues();
+    bytes.insert(bytes.end(), head_copy_.begin(), head_copy_.end());
+    if (!bytes.empty()) {
         const std::uint64_t place = end_;
         trouble = append(bytes);
-        if (trouble.empty())
+        if (trouble.empty() && !cues_.empty())
             places_["cues"] = place;
         // Nobody needs to be told that a disk is full once more.
-        else if (was_cut_back)
+        if (was_cut_back)
             trouble.clear();
     }
 
     // These parts have their room in the file, on a full disk too.
     Bytes seek_head;
     render_seek_head(places_, segment_, seek_head);
-    assert(seek_head.size() + 9 <= seek_head_space);
+    assert(seek_head.size() + void_head_size <= seek_head_space);
     render_void(seek_head_space - seek_head.size(), seek_head);
     Bytes info;
-    render_info(duration_us_, date_ns_, info);
+    render_info(duration_us_, info);
     int error = write_at(file_, seek_head, segment_);
     if (error == 0)
         error = write_at(file_, info, places_["info"]);

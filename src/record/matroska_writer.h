@@ -10,11 +10,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/bytes.h"
+#include "record/picture_check.h"
+#include "record/segment_info.h"
 
 namespace theatron::record {
 
@@ -50,10 +53,17 @@ struct Block {
     ByteView payload;
     ByteView side;     // stored beside the payload, unseen by players; may be empty
     std::string note;  // likewise
+    std::optional<EncodedCheck> check;  // likewise
 };
 
-// Block additions with these numbers hold a block's `side` and `note`.
-inline constexpr int side_id = 2, note_id = 3;
+// Block additions with these numbers hold a block's `side`, `note` and `check`.
+inline constexpr int side_id = 2, note_id = 3, check_id = 4;
+
+// A copy of the head is an element that players pass over; its content begins with this.
+inline constexpr std::string_view head_copy_magic = "theatron head 2\n";
+// The first copy stands right behind the head, the others each time that the file has doubled its
+// size since this, and at its end: damage of any one place leaves one.
+inline constexpr std::uint64_t second_copy_at = std::uint64_t(512) << 10;
 
 class MatroskaWriter {
 public:
@@ -61,8 +71,13 @@ public:
         std::vector<Track> tracks;
         std::vector<Attachment> attachments;
         std::vector<Tag> tags;
-        // What `side` and `note` are, for people who look into the file; empty: there are none.
-        std::string side_name, note_name;
+        // What `side`, `note` and `check` are, for people who look into the file; empty: there are
+        // none.
+        std::string side_name, note_name, check_name;
+        // Of this file, and of those that belong together; not given: none.
+        std::optional<Uid> uid, family_uid;
+        std::optional<UtcTime> utc;  // of time 0; not given: now
+        bool repeat_head = false;    // write copies of the head
     };
 
     // Creates `path`, in place of a file that is there, and writes everything
@@ -75,6 +90,9 @@ public:
     // Appends blocks, ordered by time within a call. Returns one sentence if that failed, as on a
     // full disk; the file is then cut back to what was whole before, and takes no more blocks.
     std::string write(std::vector<Block> blocks);
+
+    // Waits until the disk has what was written. Returns one sentence if it cannot.
+    std::string sync();
 
     // Writes the index, the duration and the size. After a full disk, as much of that as there is
     // room for. Returns one sentence if that failed; the file opens nevertheless.
@@ -89,6 +107,8 @@ private:
         std::uint64_t cluster;  // position in the segment
     };
 
+    void render_info(std::int64_t duration_us, Bytes& out) const;
+    Bytes render_cues() const;
     void append_cluster(std::span<const Block> blocks, Bytes& out);
     std::string append(const Bytes& bytes);
     std::string problem(int error) const;
@@ -100,7 +120,10 @@ private:
     std::uint64_t segment_ = 0;                    // where the segment's content begins
     std::map<std::string, std::uint64_t> places_;  // of the parts that finish() fills in or names
     std::int64_t duration_us_ = 0;
-    std::int64_t date_ns_ = 0;
+    UtcTime utc_;
+    std::optional<Uid> uid_, family_uid_;
+    Bytes head_copy_;  // empty: none are written
+    std::uint64_t next_copy_ = second_copy_at;
     std::vector<Cue> cues_;
     std::map<int, std::int64_t> last_cue_us_;  // by track
 };

@@ -1,64 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
+#include <pthread.h>
+#include <signal.h>
+
 #include <algorithm>
 
-#include "record/recording_layout.h"
+#include "base/error.h"
 
 namespace theatron::record {
 namespace {
 
-constexpr Duration write_period = std::chrono::milliseconds(100);
-// A disk may be busy with something else for a second or two.
-constexpr std::size_t max_waiting_bytes = std::size_t(256) << 20;
-// Writing begins before its time when this much has come.
+constexpr auto write_period = std::chrono::milliseconds(100);
+constexpr auto sync_period = std::chrono::seconds(1);
+// Writing begins before its time when this much has come, and no more is written at once.
 constexpr std::size_t many_bytes = std::size_t(16) << 20;
+// What a message that waits takes beside its bytes, about.
+constexpr std::size_t message_overhead = 256;
 
-MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras) {
-    MatroskaWriter::Layout layout;
-    layout.side_name = side_name;
-    layout.note_name = note_name;
-    const auto add = [&](const RecordedCamera& camera, StreamId id, const RecordedStream& stream,
-                         const char* codec_id) {
-        Track track;
-        track.number = track_number(id);
-        track.name = camera.name;
-        track.codec_id = codec_id;
-        if (codec_id != std::string(jpeg_codec_id)) {
-            const ByteView text = as_bytes(stream.codec);
-            track.codec_private.assign(text.begin(), text.end());
-        }
-        track.width = stream.width;
-        track.height = stream.height;
-        track.frames_per_second = camera.frames_per_second;
-        track.shown = !is_depth(id);
-        layout.tracks.push_back(std::move(track));
-    };
-    // What players can play comes first.
-    for (const RecordedCamera& camera : cameras)
-        if (camera.color) {
-            const bool jpeg = camera.color->codec.starts_with("jpeg");
-            add(camera, color_stream(camera.id), *camera.color,
-                jpeg ? jpeg_codec_id : color_codec_id);
-        }
+std::size_t cost_of(const std::shared_ptr<const Bytes>& message) {
+    return message_overhead + (message ? message->size() : 0);
+}
+
+std::vector<StreamId> streams_of(const std::vector<RecordedCamera>& cameras) {
+    std::vector<StreamId> streams;
     for (const RecordedCamera& camera : cameras) {
-        add(camera, depth_stream(camera.id), camera.depth, depth_codec_id);
-        layout.attachments.push_back(
-            {calibration_name(camera.id), calibration_mime_type, camera.calibration});
+        streams.push_back(depth_stream(camera.id));
+        if (camera.color)
+            streams.push_back(color_stream(camera.id));
     }
-    return layout;
+    return streams;
+}
+
+// The system kills a process whose file reaches the size that is allowed, unless the thread that
+// writes does not take the signal: it then learns the same by EFBIG.
+void block_file_size_signal() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
 }  // namespace
 
-Recorder::Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras)
-    : writer_(path, layout_of(cameras)) {
-    for (const RecordedCamera& camera : cameras) {
-        streams_.push_back(depth_stream(camera.id));
-        if (camera.color)
-            streams_.push_back(color_stream(camera.id));
-    }
-    figures_.bytes = writer_.bytes();
+Recorder::Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
+                   const ClockPair& clock, const Options& options)
+    : path_(path), buffer_bytes_(options.buffer_bytes) {
+    info_.recording = make_uid();
+    info_.clock = clock;
+    writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_);
+    streams_ = streams_of(cameras);
+    last_now_ = clock.session;
+    figures_.bytes = writer_->bytes();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -66,31 +59,63 @@ Recorder::~Recorder() {
     finish();
 }
 
-bool Recorder::add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
-                   const std::string& filters) {
-    if (std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
-        return false;
+// The session's clock may begin anew; this one only goes on. The mutex is held.
+Duration Recorder::own_time(TimePoint now) {
+    // No more than an hour at once: what a host says may be anything.
+    constexpr Duration most = std::chrono::hours(1);
+    const Duration passed =
+        std::clamp(from_us(to_us(now) / 2) - from_us(to_us(last_now_) / 2), Duration(0), most / 2) *
+        2;
+    last_now_ = now;
+    return own_now_ += passed;
+}
+
+void Recorder::begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock) {
+    auto shared = std::make_shared<const std::vector<RecordedCamera>>(cameras);
+    const std::lock_guard lock(mutex_);
+    streams_ = streams_of(cameras);
+    last_now_ = clock.session;
+    // A segment without any message is none.
+    if (!waiting_.empty() && waiting_.back().cameras)
+        waiting_.pop_back();
+    waiting_.push_back({{}, own_now_, std::move(shared), clock});
+}
+
+Recorder::Added Recorder::add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+                              TimePoint now, const std::string& filters) {
     bool many = false;
     {
         const std::lock_guard lock(mutex_);
         if (finishing_ || !figures_.problem.empty())
-            return false;
-        if (waiting_bytes_ + message->size() > max_waiting_bytes) {
+            return Added::ended;
+        if (std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
+            return Added::not_recorded;
+        const Duration came = own_time(now);
+        const std::size_t cost = cost_of(message);
+        if (waiting_bytes_ + cost > buffer_bytes_) {
             ++figures_.dropped;
-            return false;
+            ++figures_.dropped_of[header.stream];
+            return Added::dropped;
         }
-        waiting_bytes_ += message->size();
-        many = waiting_bytes_ > many_bytes;
-        waiting_.push_back({header, std::move(message), filters});
+        waiting_bytes_ += cost;
+        unseen_bytes_ += cost;
+        many = unseen_bytes_ > many_bytes;
+        waiting_.push_back({{header, std::move(message), filters, now}, came, nullptr, {}});
     }
     if (many)
         changed_.notify_one();
-    return true;
+    return Added::taken;
 }
 
 Recorder::Figures Recorder::figures() const {
     const std::lock_guard lock(mutex_);
-    return figures_;
+    Figures figures = figures_;
+    figures.waiting_bytes = waiting_bytes_;
+    if (oldest_)
+        figures.late = own_now_ - *oldest_;
+    else if (!waiting_.empty())
+        figures.late = own_now_ - waiting_.front().came;
+    return figures;
 }
 
 void Recorder::finish() {
@@ -104,89 +129,112 @@ void Recorder::finish() {
 }
 
 void Recorder::run() {
-    std::vector<Waiting> batch;
-    bool finishing = false, ended = false;
-    while (!finishing && !ended) {
-        {
-            std::unique_lock lock(mutex_);
-            changed_.wait_for(lock, write_period,
-                              [&] { return finishing_ || waiting_bytes_ > many_bytes; });
-            std::swap(batch, waiting_);
-            // What is being written still takes memory, but no longer waits.
-            waiting_bytes_ = 0;
-            finishing = finishing_;
-        }
-        std::string problem;
+    block_file_size_signal();
+    std::deque<Waiting> batch;
+    std::string problem;
+    auto synced = std::chrono::steady_clock::now();
+    for (bool more = true; more && problem.empty();) {
+        more = take(batch);
         try {
             problem = write(batch);
+            const auto now = std::chrono::steady_clock::now();
+            if (problem.empty() && now - synced >= sync_period) {
+                problem = writer_->sync();
+                synced = std::chrono::steady_clock::now();
+            }
         } catch (const std::exception& unexpected) {
             problem = std::string("The recording ends here, what came before is kept: ") +
-                      unexpected.what() + ".";
+                      unexpected.what();
         }
-        ended = !problem.empty();
-        const std::lock_guard lock(mutex_);
-        figures_.bytes = writer_.bytes();
-        if (ended)
-            figures_.problem = std::move(problem);
-        else
-            figures_.frames += batch.size();
         batch.clear();
     }
-    std::string problem = writer_.finish();
+    const std::string at_end = writer_->finish();
     const std::lock_guard lock(mutex_);
-    figures_.bytes = writer_.bytes();
-    if (figures_.problem.empty())
-        figures_.problem = std::move(problem);
+    figures_.bytes = bytes_before_ + writer_->bytes();
+    figures_.problem = problem.empty() ? at_end : problem;
     waiting_.clear();
+    waiting_bytes_ = unseen_bytes_ = 0;
+    oldest_.reset();
 }
 
-std::string Recorder::write(std::vector<Waiting>& batch) {
-    if (batch.empty())
-        return "";
-    if (!begin_) {
-        const auto first =
-            std::min_element(batch.begin(), batch.end(), [](const Waiting& a, const Waiting& b) {
-                return a.header.captured < b.header.captured;
-            });
-        begin_ = first->header.captured;
+// Waits until it is time to write, and moves what is written at once to `batch`. False if nothing
+// will follow.
+bool Recorder::take(std::deque<Waiting>& batch) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, write_period, [&] { return finishing_ || unseen_bytes_ > many_bytes; });
+    for (std::size_t bytes = 0; !waiting_.empty() && bytes < many_bytes;) {
+        const std::size_t cost = cost_of(waiting_.front().message.message);
+        bytes += cost;
+        unseen_bytes_ -= waiting_.front().cameras ? 0 : cost;
+        batch.push_back(std::move(waiting_.front()));
+        waiting_.pop_front();
     }
-    std::vector<Block> blocks;
-    TimePoint last = *begin_;
-    for (const Waiting& waiting : batch) {
-        const wire::MediaHeader& header = waiting.header;
-        last = std::max(last, header.captured);
-        Block block;
-        block.track = track_number(header.stream);
-        // The exact time is in the header, also of a frame from before the first ones.
-        block.time_us = std::max<std::int64_t>(0, (header.captured - *begin_).count());
-        block.key = header.key;
-        block.reference_us = block.time_us;
-        if (const auto found = recent_us_.find({header.stream, header.reference});
-            !header.key && found != recent_us_.end())
-            block.reference_us = found->second;
-        recent_us_[{header.stream, header.frame}] = block.time_us;
-        block.payload = wire::media_payload(*waiting.message);
-        block.side = ByteView(*waiting.message).first(wire::media_header_size);
-        // Said where it changes.
-        std::string& filters = filters_[header.stream];
-        if (is_depth(header.stream) && filters != waiting.filters) {
-            filters = waiting.filters;
-            block.note = filters.empty() ? no_filters : filters;
+    oldest_ = batch.empty() ? std::nullopt : std::optional(batch.front().came);
+    return !finishing_ || !waiting_.empty();
+}
+
+std::string Recorder::write(std::deque<Waiting>& batch) {
+    std::vector<RecordedMessage> messages;
+    for (Waiting& waiting : batch) {
+        if (!waiting.cameras) {
+            messages.push_back(std::move(waiting.message));
+            continue;
         }
-        blocks.push_back(block);
+        if (std::string problem = write_messages(messages); !problem.empty())
+            return problem;
+        next_ = std::move(waiting);
     }
-    // References reach back a few frames only.
-    constexpr std::size_t many_recent = 4096;
-    if (recent_us_.size() > many_recent)
-        std::erase_if(recent_us_, [&](const auto& entry) {
-            return entry.second < (last - *begin_).count() - 5'000'000;
-        });
-    const std::string problem = writer_.write(std::move(blocks));
+    return write_messages(messages);
+}
+
+std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
+    if (messages.empty())
+        return "";
+    if (next_)
+        if (std::string problem = begin_next(); !problem.empty())
+            return problem;
+    std::string problem = writer_->write(messages);
+    std::size_t bytes = 0;
+    for (const RecordedMessage& one : messages)
+        bytes += cost_of(one.message);
+    const std::lock_guard lock(mutex_);
+    waiting_bytes_ -= bytes;
+    oldest_.reset();
+    figures_.bytes = bytes_before_ + writer_->bytes();
     if (problem.empty()) {
-        const std::lock_guard lock(mutex_);
-        figures_.duration = last - *begin_;
+        figures_.frames += messages.size();
+        figures_.duration = duration_before_ + writer_->duration();
+        figures_.segments = info_.number;
     }
+    messages.clear();
     return problem;
+}
+
+// Closes the current segment and makes the file of `next_`. A name that is taken is passed over:
+// it may be another recording's.
+std::string Recorder::begin_next() {
+    if (std::string problem = writer_->finish(); !problem.empty())
+        return problem;
+    const Waiting next = std::move(*next_);
+    next_.reset();
+    info_.clock = next.clock;
+    std::filesystem::path file;
+    std::error_code ignored;
+    do {
+        if (info_.number == max_segments)
+            return "The recording '" + path_.string() + "' has " + std::to_string(max_segments) +
+                   " segments and ends here; what came before is kept.";
+        file = segment_path(path_, ++info_.number);
+    } while (std::filesystem::exists(file, ignored));
+    try {
+        auto writer = std::make_unique<SegmentWriter>(file, *next.cameras, info_);
+        duration_before_ += writer_->duration();
+        bytes_before_ += writer_->bytes();
+        writer_ = std::move(writer);
+    } catch (const Error& problem) {
+        return std::string(problem.what()) + " The recording ends here; what came before is kept.";
+    }
+    return "";
 }
 
 }  // namespace theatron::record

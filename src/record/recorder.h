@@ -2,11 +2,13 @@
 // Records encoded streams as they come, without ever holding them up.
 //
 // Messages are handed over from any thread and written by a thread of the
-// recorder's own, ten times a second, so that a crash loses a fraction of a
-// second. Trouble, as with a full disk, ends the recording and nothing else.
+// recorder's own, ten times a second; about once a second it waits until the
+// disk has them. Trouble, as with a full disk, ends the recording and nothing
+// else.
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -19,76 +21,103 @@
 #include "base/bytes.h"
 #include "base/ids.h"
 #include "base/time.h"
-#include "record/matroska_writer.h"
+#include "record/recorded_camera.h"
+#include "record/segment_info.h"
+#include "record/segment_writer.h"
 #include "wire/media_header.h"
 
 namespace theatron::record {
 
-struct RecordedStream {
-    std::string codec;  // its setting in full: "zstd:delta=1", "jpeg:quality=85"
-    int width = 0, height = 0;
-    bool operator==(const RecordedStream&) const = default;
-};
-
-struct RecordedCamera {
-    CameraId id{};
-    std::string name;
-    double frames_per_second = 0;
-    Bytes calibration;  // as geometry/calibration.h writes it
-    RecordedStream depth;
-    std::optional<RecordedStream> color;
-    bool operator==(const RecordedCamera&) const = default;
-};
-
 class Recorder {
 public:
-    struct Figures {
-        Duration duration{};  // from the first frame's exposure to the last one's
-        std::uint64_t bytes = 0;
-        std::uint64_t frames = 0;   // written, depth and colour counted each
-        std::uint64_t dropped = 0;  // came faster than the disk could write
-        std::string problem;        // why it has ended by itself, one sentence; empty if it has not
+    struct Options {
+        // Messages that came and are not written yet, those being written included, take up to
+        // this: how long a disk may stand still.
+        std::size_t buffer_bytes = std::size_t(1) << 30;
     };
 
-    // Creates the file, in place of one that is there. At most 63 cameras.
-    // Throws Error.
-    Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras);
+    enum class Added {
+        taken,
+        dropped,       // the buffer is full: the disk is too slow
+        ended,         // finish() was called, or the recording has ended by itself
+        not_recorded,  // of a stream that the current segment does not have
+    };
+
+    struct Figures {
+        Duration duration{};  // from the first picture to the last, of all segments together
+        std::uint64_t bytes = 0;
+        std::uint64_t frames = 0;                      // written, depth and colour counted each
+        std::uint64_t dropped = 0;                     // came faster than the disk could write
+        std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
+        std::size_t waiting_bytes = 0;                 // came, and are not written yet
+        Duration late{};                               // how long the oldest of them waits
+        std::uint32_t segments = 1;
+        std::string problem;  // why it has ended by itself, one sentence; empty if it has not
+    };
+
+    // Creates the first segment's file, in place of one that is there; later ones get names of
+    // their own beside it (segment_path), and never the name of a file that is there. At most 63
+    // cameras. Throws Error.
+    Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
+             const ClockPair& clock, const Options& options);
+    Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
+             const ClockPair& clock)
+        : Recorder(path, cameras, clock, Options{}) {}
     // Finishes.
     ~Recorder();
 
-    // Takes a whole media message of one of the cameras' streams. Never waits; returns false if it
-    // was dropped, because the disk is too slow or the recording has ended. From any thread.
-    // `filters` names those that the depth went through (docs/filters.md); empty: none.
-    bool add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
-             const std::string& filters = {});
+    // What is added from now on belongs to a new segment: of other cameras, settings or
+    // calibrations, or of a session clock that began anew. Never waits. The file is made when the
+    // segment's first message is written. From any thread, in order with add().
+    void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock);
+
+    // Takes a whole media message of one of the cameras' streams, which arrived at session time
+    // `now`. Never waits. From any thread. `filters` names those that the depth went through
+    // (docs/filters.md); empty: none. A message that was not taken leaves a gap: the stream's next
+    // must be a key frame, or nothing that refers to the missing one can be decoded.
+    [[nodiscard]] Added add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+                            TimePoint now, const std::string& filters = {});
 
     // From any thread.
     Figures figures() const;
 
-    // Writes all that was added, and closes the file. Further messages are dropped.
+    // Writes all that was added, and closes the file. Further messages are refused.
     void finish();
 
 private:
+    // A message, or the beginning of a segment.
     struct Waiting {
-        wire::MediaHeader header;
-        std::shared_ptr<const Bytes> message;
-        std::string filters;
+        RecordedMessage message;
+        Duration came;  // on the recorder's own scale
+        std::shared_ptr<const std::vector<RecordedCamera>> cameras;
+        ClockPair clock;
     };
 
+    Duration own_time(TimePoint now);
     void run();
-    std::string write(std::vector<Waiting>& batch);
+    bool take(std::deque<Waiting>& batch);
+    std::string write(std::deque<Waiting>& batch);
+    std::string write_messages(std::vector<RecordedMessage>& messages);
+    std::string begin_next();
 
-    MatroskaWriter writer_;
-    std::vector<StreamId> streams_;
+    const std::filesystem::path path_;
+    const std::size_t buffer_bytes_;
     // The writing thread's only.
-    std::optional<TimePoint> begin_;
-    std::map<std::pair<StreamId, FrameNumber>, std::int64_t> recent_us_;
-    std::map<StreamId, std::string> filters_;  // of each stream's last frame
+    SegmentInfo info_;
+    std::unique_ptr<SegmentWriter> writer_;
+    std::optional<Waiting> next_;  // the segment that begins with the next message
+    Duration duration_before_{};   // of the segments before this one
+    std::uint64_t bytes_before_ = 0;
 
     mutable std::mutex mutex_;  // guards all below
     std::condition_variable changed_;
-    std::vector<Waiting> waiting_;
-    std::size_t waiting_bytes_ = 0;
+    std::vector<StreamId> streams_;  // of the newest segment
+    std::deque<Waiting> waiting_;
+    std::size_t waiting_bytes_ = 0;  // those being written included
+    std::size_t unseen_bytes_ = 0;   // those being written left out
+    TimePoint last_now_;
+    Duration own_now_{};
+    std::optional<Duration> oldest_;  // when the oldest of what is being written came
     bool finishing_ = false;
     Figures figures_;
 

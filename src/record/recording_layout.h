@@ -12,8 +12,11 @@ inline constexpr const char* depth_codec_id = "V_THEATRON/DEPTH";
 inline constexpr const char* color_codec_id = "V_THEATRON/COLOR";  // all but JPEG
 inline constexpr const char* jpeg_codec_id = "V_MJPEG";
 inline constexpr const char* calibration_mime_type = "application/x-theatron-calibration";
+inline constexpr const char* segment_info_name = "segment.bin";
+inline constexpr const char* segment_info_mime_type = "application/x-theatron-segment";
 inline constexpr const char* side_name = "theatron.media-header";
 inline constexpr const char* note_name = "theatron.filters";
+inline constexpr const char* check_name = "theatron.check";
 inline constexpr const char* no_filters = "off";
 
 constexpr int track_number(StreamId stream) {

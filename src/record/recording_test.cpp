@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "record/crc32c.h"
 #include "record/matroska_reader.h"
 #include "record/recorder.h"
 #include "record/recording_file.h"
@@ -18,6 +19,8 @@ namespace theatron::record {
 namespace {
 
 namespace fs = std::filesystem;
+
+const ClockPair session_begin{from_us(5'000'000'017), UtcTime(1'700'000'000s)};
 
 struct Message {
     wire::MediaHeader header;
@@ -45,6 +48,11 @@ Message message(StreamId stream, FrameNumber frame, Duration at, std::size_t siz
     for (std::size_t i = wire::media_header_size; i < bytes->size(); ++i)
         (*bytes)[i] = std::byte(random() >> 16);
     return {header, bytes};
+}
+
+// Arrives ten milliseconds after its exposure.
+Recorder::Added add(Recorder& recorder, const Message& m, const std::string& filters = {}) {
+    return recorder.add(m.header, m.bytes, m.header.captured + 10ms, filters);
 }
 
 std::vector<RecordedCamera> cameras(int count) {
@@ -84,9 +92,9 @@ std::vector<Message> generated(int camera_count, int frames, std::size_t size) {
 }
 
 void record_all(const fs::path& path, int camera_count, const std::vector<Message>& messages) {
-    Recorder recorder(path, cameras(camera_count));
+    Recorder recorder(path, cameras(camera_count), session_begin);
     for (const Message& m : messages)
-        ASSERT_TRUE(recorder.add(m.header, m.bytes));
+        ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
     recorder.finish();
     EXPECT_EQ(recorder.figures().problem, "");
     EXPECT_EQ(recorder.figures().frames, messages.size());
@@ -132,13 +140,13 @@ TEST(Recording, TellsWhichFiltersDepthWentThroughAndWhereTheyChanged) {
     const fs::path path = folder.path() / "filtered.mkv";
     const auto messages = generated(2, 12, 100);
     {
-        Recorder recorder(path, cameras(2));
+        Recorder recorder(path, cameras(2), session_begin);
         for (const Message& m : messages) {
             const bool first = camera_of(m.header.stream) == CameraId(0);
             const char* filters = m.header.frame < 3   ? ""
                                   : m.header.frame < 5 ? "holes+kalman"
                                                        : "range:max_mm=900";
-            ASSERT_TRUE(recorder.add(m.header, m.bytes, first ? filters : ""));
+            ASSERT_EQ(add(recorder, m, first ? filters : ""), Recorder::Added::taken);
         }
     }
     const auto recording = RecordingFile::open(path);
@@ -158,9 +166,9 @@ TEST(Recording, TellsWhenFiltersEnd) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "ends.mkv";
     {
-        Recorder recorder(path, cameras(1));
+        Recorder recorder(path, cameras(1), session_begin);
         for (const Message& m : generated(1, 4, 100))
-            ASSERT_TRUE(recorder.add(m.header, m.bytes, m.header.frame < 1 ? "kalman" : ""));
+            ASSERT_EQ(add(recorder, m, m.header.frame < 1 ? "kalman" : ""), Recorder::Added::taken);
     }
     const std::vector<FilterChange> expected{{0, "kalman"}, {1, ""}};
     const auto recording = RecordingFile::open(path);
@@ -201,13 +209,72 @@ TEST(Recording, AClustersBytesAreAsSpecified) {
                {{plain.header, std::make_shared<const Bytes>(bytes)}});
 
     Bytes expected;
-    for (const int b :
-         {0x1f, 0x43, 0xb6, 0x75, 0xd8, 0xe7, 0x81, 0x00, 0xa0, 0xd3, 0xa1, 0x87, 0x81, 0x00, 0x00,
-          0x00, 0xaa, 0xbb, 0xcc, 0x75, 0xa1, 0xc7, 0xa6, 0xc5, 0xee, 0x81, 0x02, 0xa5, 0xc0})
-        expected.push_back(std::byte(b));
+    const auto put = [&](std::initializer_list<int> values) {
+        for (const int b : values)
+            expected.push_back(std::byte(b));
+    };
+    put({0x1f, 0x43, 0xb6, 0x75, 0xe7, 0xe7, 0x81, 0x00, 0xa0, 0xe2, 0xa1, 0x87, 0x81, 0x00, 0x00,
+         0x00, 0xaa, 0xbb, 0xcc, 0x75, 0xa1, 0xd6, 0xa6, 0xc5, 0xee, 0x81, 0x02, 0xa5, 0xc0});
     expected.insert(expected.end(), bytes.begin(), bytes.begin() + 64);
+    put({0xa6, 0x8d, 0xee, 0x81, 0x04, 0xa5, 0x88});
+    Bytes place(12);  // track 1, time 0
+    place[0] = std::byte{1};
+    place.insert(place.end(), bytes.begin(), bytes.begin() + 64);
+    ByteWriter(expected).put(crc32c_reference(place));
+    ByteWriter(expected).put(crc32c_reference(ByteView(bytes).subspan(64)));
     const Bytes file = bytes_of(folder.path() / "one.mkv");
     EXPECT_NE(std::search(file.begin(), file.end(), expected.begin(), expected.end()), file.end());
+}
+
+TEST(Recorder, ASegmentBeginsWithTheNextMessageInAFileOfItsOwn) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "chain.mkv";
+    const auto messages = generated(2, 8, 100);
+    {
+        // Another recording's: it stays.
+        std::ofstream(folder.path() / "chain.002.mkv") << "not ours";
+        Recorder recorder(path, cameras(2), session_begin);
+        for (const Message& m : messages)
+            ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
+        recorder.begin_segment(cameras(7), session_begin);  // nothing comes
+        recorder.begin_segment(cameras(1), session_begin);
+        EXPECT_EQ(add(recorder, messages.back()), Recorder::Added::not_recorded);
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
+        recorder.finish();
+        EXPECT_EQ(recorder.figures().problem, "");
+        EXPECT_EQ(recorder.figures().segments, 3u);
+        EXPECT_EQ(recorder.figures().frames, messages.size() + 1);
+    }
+    EXPECT_EQ(bytes_of(folder.path() / "chain.002.mkv").size(), 8u);
+    EXPECT_EQ(RecordingFile::open(path)->cameras().size(), 2u);
+    EXPECT_EQ(RecordingFile::open(folder.path() / "chain.003.mkv")->cameras().size(), 1u);
+}
+
+TEST(Recorder, TellsWhatItHadToDropOfWhichStream) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(1, 8, 10'000);
+    Recorder recorder(folder.path() / "small.mkv", cameras(1), session_begin, {.buffer_bytes = 0});
+    for (const Message& m : messages)
+        EXPECT_EQ(add(recorder, m), Recorder::Added::dropped);
+    recorder.finish();
+    EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::ended);
+    const Recorder::Figures figures = recorder.figures();
+    EXPECT_EQ(figures.dropped, messages.size());
+    EXPECT_EQ(figures.dropped_of.at(depth_stream(CameraId(0))), messages.size() / 2);
+    EXPECT_EQ(figures.frames, 0u);
+}
+
+TEST(Recording, APicturesPlaceDependsOnWhatItSaysOnlyWhereThatIsCredible) {
+    const TimePoint begin = from_us(7'000'000), arrived = begin + 100s;
+    EXPECT_EQ(block_time_us(arrived - 5s, arrived, begin), 95'000'000);
+    EXPECT_EQ(block_time_us(arrived - max_picture_age, arrived, begin), 40'000'000);
+    EXPECT_EQ(block_time_us(arrived + max_picture_lead, arrived, begin), 101'000'000);
+    for (const std::int64_t odd :
+         {-(std::int64_t(1) << 62), std::int64_t(1) << 62, std::int64_t(0), to_us(arrived + 2s)})
+        EXPECT_EQ(block_time_us(from_us(odd), arrived, begin), 100'000'000) << odd;
+    EXPECT_EQ(block_time_us(begin - 1s, begin, begin), 0);
+    EXPECT_EQ(block_time_us(arrived, from_us(INT64_MAX), from_us(INT64_MIN)), 1LL << 52);
+    EXPECT_EQ(block_time_us(arrived, from_us(INT64_MIN), from_us(INT64_MAX)), 0);
 }
 
 TEST(Recording, WithoutAnyFrameOpensToo) {
@@ -224,12 +291,12 @@ TEST(Recording, AFrameFromBeforeTheFirstKeepsItsTime) {
     std::vector<Message> messages;
     messages.push_back(message(StreamId(0), 5, 1s, 10, 5));
     {
-        Recorder recorder(path, cameras(1));
-        recorder.add(messages[0].header, messages[0].bytes);
+        Recorder recorder(path, cameras(1), session_begin);
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
         while (recorder.figures().frames == 0)
             usleep(1000);
         messages.push_back(message(StreamId(0), 4, 0s, 10, 4));
-        recorder.add(messages[1].header, messages[1].bytes);
+        EXPECT_EQ(add(recorder, messages[1]), Recorder::Added::taken);
     }
     EXPECT_EQ(count_equal(*RecordingFile::open(path), messages), 2u);
 }
@@ -293,11 +360,11 @@ TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
     const pid_t child = fork();
     if (child == 0) {
         // Two cameras at a hundred frames a second, until the end.
-        Recorder recorder(path, cameras(2));
+        Recorder recorder(path, cameras(2), session_begin);
         for (FrameNumber n = 0;; ++n) {
             for (int c = 0; c < 2; ++c) {
                 const Message m = message(depth_stream(CameraId(c)), n, n * 10ms, 20'000, n);
-                recorder.add(m.header, m.bytes);
+                (void)add(recorder, m);
             }
             if (write(pipe_ends[1], &n, sizeof(n)) < 0)
                 _exit(1);
@@ -324,7 +391,6 @@ TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
 class SizeLimit {
 public:
     explicit SizeLimit(rlim_t bytes) {
-        signal(SIGXFSZ, SIG_IGN);
         getrlimit(RLIMIT_FSIZE, &before_);
         const rlimit limit{bytes, before_.rlim_max};
         setrlimit(RLIMIT_FSIZE, &limit);
@@ -342,16 +408,16 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     std::size_t taken = 0;
     {
         const SizeLimit limit(500'000);
-        Recorder recorder(path, cameras(1));
+        Recorder recorder(path, cameras(1), session_begin);
         for (const Message& m : messages) {
-            taken += recorder.add(m.header, m.bytes);
+            taken += add(recorder, m) == Recorder::Added::taken;
             usleep(5'000);
         }
         recorder.finish();
         const auto figures = recorder.figures();
         EXPECT_NE(figures.problem.find("ends here; what came before is kept"), std::string::npos)
             << figures.problem;
-        EXPECT_FALSE(recorder.add(messages[0].header, messages[0].bytes));
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::ended);
         EXPECT_EQ(figures.bytes, fs::file_size(path));
         EXPECT_LE(figures.bytes, 500'000u);
     }
@@ -364,7 +430,7 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
 
 TEST(Recording, WhereNoFileCanBeIsOneSentence) {
     try {
-        Recorder recorder("/nowhere/at/all.mkv", cameras(1));
+        Recorder recorder("/nowhere/at/all.mkv", cameras(1), session_begin);
         FAIL();
     } catch (const Error& problem) {
         EXPECT_STREQ(problem.what(),

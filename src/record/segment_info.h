@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording is a chain of segments, each a file of its own. This says which
+// one a file is, and what the session's clock meant in it.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+
+#include "base/bytes.h"
+#include "base/status.h"
+#include "base/time.h"
+
+namespace theatron::record {
+
+using Uid = std::array<std::byte, 16>;
+using UtcTime = std::chrono::sys_time<std::chrono::microseconds>;
+
+// The session's clock and the wall's, read at the same instant.
+struct ClockPair {
+    TimePoint session;
+    UtcTime utc;
+    bool operator==(const ClockPair&) const = default;
+};
+
+struct SegmentInfo {
+    Uid recording{};           // the same in all segments of a recording
+    std::uint32_t number = 1;  // counts them
+    // Block times count from `clock.session`.
+    ClockPair clock;
+    bool operator==(const SegmentInfo&) const = default;
+};
+
+inline constexpr std::size_t segment_info_size = 48;
+// A name has room for more, but nobody changes cameras so often.
+inline constexpr std::uint32_t max_segments = 9999;
+
+// Layout of docs/formats/recording.md.
+Bytes encode_segment_info(const SegmentInfo& info);
+// Safe for untrusted input.
+Result<SegmentInfo> decode_segment_info(ByteView bytes);
+
+// Where a recording that begins in `first` has its segment `number`: "a.mkv", "a.002.mkv".
+std::filesystem::path segment_path(const std::filesystem::path& first, std::uint32_t number);
+
+// Two that are made anew are never equal.
+Uid make_uid();
+
+}  // namespace theatron::record
