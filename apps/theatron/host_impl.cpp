@@ -70,6 +70,9 @@ void Host::Impl::carry_out() {
                 server->acknowledge(peer, action.bytes);
                 release_lanes();
                 break;
+            case Kind::keep_everything:
+                server->keep_everything(peer);
+                break;
             case Kind::set_ceiling:
                 server->set_ceiling(peer, double(action.bytes));
                 break;

@@ -56,6 +56,7 @@ public:
     // See Outbox.
     void acknowledge(std::uint64_t media_bytes);
     void set_ceiling(double bytes_per_second);
+    void keep_everything() { outbox_.keep_everything(); }
     bool is_behind(StreamId stream) const { return outbox_.is_behind(stream); }
     SendingFigures take_figures() { return outbox_.take_figures(events_.now()); }
 

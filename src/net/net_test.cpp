@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <numeric>
 #include <random>
 
 #include "base/error.h"
@@ -157,6 +158,61 @@ TEST(Outbox, IsBehindWhileAFrameHasNotBegunToLeave) {
     Bytes envelope;
     ASSERT_TRUE(outbox.next(envelope, from_us(2000)));
     EXPECT_FALSE(outbox.is_behind(StreamId{1}));
+}
+
+TEST(Outbox, KeepsEverythingForAPeerThatRecords) {
+    Outbox outbox;
+    outbox.keep_everything();
+    EXPECT_TRUE(outbox.push_media(frame(1, 0, false)).needs_key) << "it begins with a key frame";
+    for (FrameNumber n = 1; n < 100; ++n)
+        EXPECT_EQ(outbox.push_media(frame(1, n, n % 10 == 1)).dropped, 0);
+    EXPECT_FALSE(outbox.is_behind(StreamId{1})) << "nobody waits for it";
+    std::vector<FrameNumber> all(99);
+    std::iota(all.begin(), all.end(), 1);
+    EXPECT_EQ(numbers(drain(outbox)), all);
+}
+
+TEST(Outbox, AFullOneGivesUpFramesUntilHalfHasLeftAndGoesOnWithAKeyFrame) {
+    constexpr std::size_t frame_size = std::size_t(1) << 20;
+    constexpr FrameNumber room = Outbox::max_kept_bytes / (frame_size + wire::media_header_size);
+    Outbox outbox;
+    outbox.keep_everything();
+    const auto push = [&](FrameNumber number, bool key) {
+        return outbox.push_media(frame(1, number, key, 0, frame_size));
+    };
+    for (FrameNumber n = 0; n < room; ++n)
+        EXPECT_EQ(push(n, n == 0).dropped, 0);
+    const auto full = push(room, true);
+    EXPECT_EQ(full.dropped, 1);
+    EXPECT_FALSE(full.needs_key) << "there is no room for it yet";
+
+    // Whole frames leave until half of the room is free.
+    std::vector<FrameNumber> left;
+    wire::Unwrapper unwrapper;
+    Bytes envelope;
+    const auto send_one = [&] {
+        for (std::size_t before = left.size(); left.size() == before;) {
+            ASSERT_TRUE(outbox.next(envelope, from_us(2000)));
+            const auto got = unwrapper.take(envelope);
+            ASSERT_TRUE(got);
+            if (!got->media.empty())
+                left.push_back(wire::parse_media_header(got->media)->frame);
+        }
+    };
+    for (FrameNumber n = 0; n < room / 4; ++n)
+        send_one();
+    EXPECT_EQ(push(room + 1, true).dropped, 1) << "not yet";
+    for (FrameNumber n = 0; n < room / 4 + 3; ++n)
+        send_one();
+    EXPECT_TRUE(push(room + 2, false).needs_key) << "its reference was given up";
+    EXPECT_EQ(push(room + 3, true).dropped, 0);
+    EXPECT_EQ(push(room + 4, false).dropped, 0);
+    while (!outbox.empty())
+        send_one();
+    std::vector<FrameNumber> expected(room);
+    std::iota(expected.begin(), expected.end(), 0);
+    expected.insert(expected.end(), {room + 3, room + 4});
+    EXPECT_EQ(left, expected);
 }
 
 TEST(Outbox, ControlOvertakesALargeFrame) {

@@ -25,12 +25,38 @@ bool Outbox::push_control(Bytes envelope) {
 int Outbox::drop_waiting(Lane& lane) {
     const int dropped = int(lane.waiting.size());
     waiting_ -= lane.waiting.size();
+    for (const Media& media : lane.waiting)
+        waiting_bytes_ -= media.bytes->size();
     lane.waiting.clear();
     return dropped;
 }
 
+void Outbox::wait(Lane& lane, Media media) {
+    ++waiting_;
+    waiting_bytes_ += media.bytes->size();
+    lane.waiting.push_back(std::move(media));
+}
+
+// Of all streams, so that a gap has one beginning and one end.
+Outbox::Pushed Outbox::keep(Media media) {
+    Lane& lane = lanes_[media.stream];
+    lane.broken = lane.broken || media.setting != lane.setting;
+    lane.setting = media.setting;
+    full_ = waiting_bytes_ + media.bytes->size() > (full_ ? max_kept_bytes / 2 : max_kept_bytes);
+    if (full_) {
+        // A key frame is of no use before there is room for it.
+        lane.broken = true;
+        return {1, false};
+    }
+    if (lane.broken && !media.key)
+        return {1, true};
+    lane.broken = false;
+    wait(lane, std::move(media));
+    return {};
+}
+
 Outbox::Pushed Outbox::push_media(Media media) {
-    const Pushed pushed = queue(std::move(media));
+    const Pushed pushed = keeps_everything_ ? keep(std::move(media)) : queue(std::move(media));
     dropped_ += pushed.dropped;
     return pushed;
 }
@@ -61,6 +87,7 @@ Outbox::Pushed Outbox::queue(Media media) {
                        std::none_of(lane.waiting.begin(), lane.waiting.end(), refers);
             });
         if (spare != lane.waiting.end()) {
+            waiting_bytes_ -= spare->bytes->size();
             lane.waiting.erase(spare);
             --waiting_;
             ++result.dropped;
@@ -74,8 +101,7 @@ Outbox::Pushed Outbox::queue(Media media) {
             return {result.dropped, true};
         }
     }
-    lane.waiting.push_back(std::move(media));
-    ++waiting_;
+    wait(lane, std::move(media));
     return result;
 }
 
@@ -114,6 +140,7 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
         sending_ = std::move(lane.waiting.front().bytes);
         sending_queued_ = lane.waiting.front().queued;
         sent_ = 0;
+        waiting_bytes_ -= sending_->size();
         lane.waiting.pop_front();
         lane.turn = ++turn_;
         --waiting_;

@@ -6,8 +6,9 @@
 // stream, and the newest frame wins: a frame that any receiver can do without
 // is dropped as soon as a newer one comes; a broken chain of references is cut
 // at once and taken up again at the next key frame. So a slow peer gets fewer
-// frames, never older ones, and memory is bounded. How much may be on its way
-// at once is up to Flight, how much in a second to a ceiling.
+// frames, never older ones, and memory is bounded. A peer that records is sent
+// everything instead, in order and however late, up to a bound of bytes. How much
+// may be on its way at once is up to Flight, how much in a second to a ceiling.
 #pragma once
 
 #include <deque>
@@ -49,6 +50,9 @@ class Outbox {
 public:
     // Frames of one stream that may wait behind the one being sent.
     static constexpr std::size_t max_waiting = 2;
+    // What may wait for a peer for which everything is kept. When it is full, frames are given up
+    // until half of it has left, and each stream goes on with a key frame.
+    static constexpr std::size_t max_kept_bytes = std::size_t(64) << 20;
     // More control than this waiting means that the peer reads nothing.
     static constexpr std::size_t max_control_bytes = std::size_t(1) << 20;
 
@@ -61,6 +65,9 @@ public:
         bool needs_key = false;  // nothing of this stream goes out before a key frame
     };
     Pushed push_media(Media media);
+
+    // From now on frames wait in order up to max_kept_bytes, and none replaces another.
+    void keep_everything() { keeps_everything_ = true; }
 
     // Fills `envelope` with what to send next; false if there is nothing, or media
     // has to wait. `now` is the session time that is written into a media message
@@ -81,8 +88,11 @@ public:
 
     SendingFigures take_figures(TimePoint now);
 
-    // A frame of the stream has not begun to leave: another would only wait behind it.
+    // A frame of the stream has not begun to leave: another would only wait behind it, and
+    // frames are not kept.
     bool is_behind(StreamId stream) const {
+        if (keeps_everything_)
+            return false;
         const auto lane = lanes_.find(stream);
         return lane != lanes_.end() && !lane->second.waiting.empty();
     }
@@ -99,6 +109,8 @@ private:
     };
 
     Pushed queue(Media media);
+    Pushed keep(Media media);
+    void wait(Lane& lane, Media media);
     int drop_waiting(Lane& lane);
     Lane* longest_unserved();
     bool below_ceiling(TimePoint now);
@@ -106,7 +118,9 @@ private:
     std::deque<Bytes> control_;
     std::size_t control_bytes_ = 0;
     std::map<StreamId, Lane> lanes_;
-    std::size_t waiting_ = 0;
+    std::size_t waiting_ = 0, waiting_bytes_ = 0;
+    bool keeps_everything_ = false;
+    bool full_ = false;  // since the bound was reached, until half has left
     std::uint64_t turn_ = 0;
     std::shared_ptr<const Bytes> sending_;
     TimePoint sending_queued_;

@@ -238,6 +238,12 @@ void Server::set_ceiling(PeerId peer, double bytes_per_second) {
     connection->set_ceiling(bytes_per_second);
 }
 
+void Server::keep_everything(PeerId peer) {
+    const auto found = impl_->peers.find(peer);
+    if (found != impl_->peers.end())
+        found->second->keep_everything();
+}
+
 bool Server::is_behind(PeerId peer, StreamId stream) const {
     const auto found = impl_->peers.find(peer);
     return found != impl_->peers.end() && found->second->is_behind(stream);

@@ -61,6 +61,7 @@ public:
     // See Outbox. Figures of a peer that is gone are empty.
     void acknowledge(PeerId peer, std::uint64_t media_bytes);
     void set_ceiling(PeerId peer, double bytes_per_second);
+    void keep_everything(PeerId peer);
     SendingFigures take_figures(PeerId peer);
     bool is_behind(PeerId peer, StreamId stream) const;
     void close(PeerId peer, const std::string& why);  // after the control that is queued

@@ -78,18 +78,25 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
                                        check(config_.check_color, hello.color_codec, color)})
         if (!problem.empty())
             return refuse(id, problem);
+    if (hello.records && std::count_if(participants_.begin(), participants_.end(), [](auto& entry) {
+                             return entry.second.takes_part() && entry.second.records;
+                         }) >= max_recorders)
+        return refuse(id,
+                      "This session is recorded " + std::to_string(max_recorders) +
+                          " times already, which is as often as can be; end another recording.");
 
     Participant& participant = participants_[id];
     participant.joined = true;
+    participant.records = hello.records;
     participant.name = shown_name(hello.name);
     actions_.push_back({Action::Kind::joined, id, {}, participant.name, {}, 0});
     send(id, wire::Welcome{std::min(hello.protocol_max, wire::protocol_max), id, config_.name,
                            config_.cameras});
     for (const auto& [camera, state] : camera_states_)
         send(id, state);
-    depth_.wish(id, depth);
-    color_.wish(id, color);
-    set_wish(id);
+    if (hello.records)
+        actions_.push_back({Action::Kind::keep_everything, id, {}, {}, {}, 0});
+    wish(id, depth, color);
     set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     tell_renderer(id);
     apply_settings();
@@ -163,12 +170,26 @@ void HostSession::choose(ParticipantId id, const std::string& depth, const std::
         unchanged.note = note;
         return send(id, unchanged);
     }
-    if (!depth_codec.empty())
-        depth_.wish(id, depth_codec);
-    if (!color_codec.empty())
-        color_.wish(id, color_codec);
-    set_wish(id);
+    wish(id, depth_codec, color_codec);
     take_step(id);
+}
+
+// Notes what the participant asks for; an empty text keeps its codec.
+void HostSession::wish(ParticipantId id, const std::string& depth, const std::string& color) {
+    Participant& participant = participants_[id];
+    if (!depth.empty()) {
+        participant.asked_depth = depth;
+        depth_.wish(id, depth);
+    }
+    if (!color.empty()) {
+        participant.asked_color = color;
+        color_.wish(id, color);
+    }
+    if (participant.records) {
+        depth_.pin(id);
+        color_.pin(id);
+    }
+    set_wish(id);
 }
 
 // Makes the ladder of what the participant wishes.
@@ -181,7 +202,8 @@ void HostSession::on_region(bool is_drawn) {
     if (std::exchange(region_is_drawn_, is_drawn) == is_drawn)
         return;
     for (auto& [id, participant] : participants_) {
-        if (!participant.takes_part())
+        // A region adds steps down, which a recorder does not take.
+        if (!participant.takes_part() || participant.records)
             continue;
         set_wish(id);
         send(id, participant.delivery.message({}));
@@ -249,11 +271,14 @@ void HostSession::apply_settings() {
                 key_requests_.request({camera.color_stream, color.id});
         }
         const LadderStep& step = participant.delivery.step();
-        const bool other_depth = depth.codec != step.depth_codec;
-        if (other_depth || color.codec != step.color_codec)
+        const bool records = participant.records;
+        const std::string& asked_depth = records ? participant.asked_depth : step.depth_codec;
+        const std::string& asked_color = records ? participant.asked_color : step.color_codec;
+        const bool other_depth = depth.codec != asked_depth;
+        if (other_depth || color.codec != asked_color)
             settings.note = "The host already encodes in " +
                             std::to_string(SettingTable::max_active) + " ways; instead of " +
-                            (other_depth ? step.depth_codec : step.color_codec) +
+                            (other_depth ? asked_depth : asked_color) +
                             " you get the nearest of them.";
         participant.depth_setting = depth.id;
         participant.color_setting = color.id;
@@ -342,7 +367,8 @@ std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header
         return result;
     std::erase_if(result, [&](ParticipantId id) {
         Participant& participant = participants_[id];
-        return !participant.delivery.lets_through(header.stream, layer_for(participant, header));
+        return !participant.records &&
+               !participant.delivery.lets_through(header.stream, layer_for(participant, header));
     });
     return result;
 }

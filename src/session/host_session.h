@@ -49,6 +49,8 @@ public:
             request_key,      // a key frame of `key`
             change_settings,  // encode exactly depth_settings() and color_settings()
             acknowledged,     // `participant` has taken `bytes` of media
+            keep_everything,  // `participant` records: send all of its frames in order, however
+                              // late
             set_ceiling,      // send at most `bytes` a second to `participant`; 0: no ceiling
             stepped,          // `participant` gets more or less; `why` for the log
             drawing,          // `participant` draws with another renderer: `why`; for the log
@@ -65,6 +67,8 @@ public:
 
     // Connections that have not joined by then are closed.
     static constexpr Duration join_deadline = std::chrono::seconds(5);
+    // Each may have much waiting to be sent (net::Outbox::max_kept_bytes). One more is refused.
+    static constexpr int max_recorders = 4;
 
     void on_connected(ParticipantId participant, TimePoint now);
     void on_control(ParticipantId participant, ByteView message, TimePoint now);
@@ -107,6 +111,8 @@ public:
         bool takes_part() const { return joined && !closing; }
         TimePoint connected;
         std::string name;
+        bool records = false;                  // as in wire::Join
+        std::string asked_depth, asked_color;  // codecs that it asked for
         SettingId depth_setting{}, color_setting{};
         std::vector<wire::StreamReport> report;          // the newest
         std::string renderer;                            // how it draws, as it says; may be empty
@@ -120,6 +126,7 @@ private:
     void join(ParticipantId id, const wire::Join& message);
     void choose(ParticipantId id, const std::string& depth, const std::string& color);
     void set_goal(ParticipantId id, const wire::ChooseDelivery& goal);
+    void wish(ParticipantId id, const std::string& depth, const std::string& color);
     void set_wish(ParticipantId id);
     void take_step(ParticipantId id);
     bool is_chain(SettingId color) const;

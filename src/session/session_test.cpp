@@ -76,13 +76,17 @@ protected:
     }
 
     void join(ParticipantId id, const std::string& depth = "trvl",
-              const std::string& token = "secret") {
+              const std::string& token = "secret", bool records = false) {
         session.on_connected(id, now);
         wire::Join hello;
         hello.token = token;
         hello.depth_codec = depth;
         hello.color_codec = "jpeg";
+        hello.records = records;
         say(id, hello);
+    }
+    void join_to_record(ParticipantId id, const std::string& depth) {
+        join(id, depth, "secret", true);
     }
     void say(ParticipantId id, const wire::Control& message) {
         session.on_control(id, wire::encode_control(message), now);
@@ -226,6 +230,53 @@ TEST_F(Host, DamagedMessagesEndTheConnection) {
     session.take_actions();
     session.on_control(alice, Bytes(20, std::byte{0xff}), now);
     EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+}
+
+TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
+    join(alice, "trvl");
+    join(bob, "rvl");
+    join(carol, "zstd");
+    session.take_actions();
+    join_to_record(dave, "strata");
+    auto actions = session.take_actions();
+    EXPECT_EQ(count(actions, Kind::keep_everything), 1);
+    const auto given = sent<wire::Settings>(dave, actions);
+    ASSERT_EQ(given.size(), 1u);
+    EXPECT_EQ(given[0].settings[0].codec, "trvl");
+    EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "it is told";
+
+    // A place becomes free; who asked for what it gets goes; others want other things.
+    session.on_closed(bob);
+    session.on_closed(alice);
+    say(carol, wire::ChooseCodecs{"raw", ""});
+    join(alice, "lz4");
+    join(bob, "ans");
+    session.on_region(true);
+    EXPECT_TRUE(sent<wire::Settings>(dave, session.take_actions()).empty());
+    EXPECT_EQ(session.receivers(StreamId{0}, given[0].settings[0].setting),
+              (std::vector{bob, dave}));
+
+    // It may change its mind itself.
+    session.on_closed(bob);
+    session.take_actions();
+    say(dave, wire::ChooseCodecs{"strata", ""});
+    const auto wished = sent<wire::Settings>(dave, session.take_actions());
+    ASSERT_EQ(wished.size(), 1u);
+    EXPECT_EQ(wished[0].settings[0].codec, "strata");
+}
+
+TEST_F(Host, RefusesMoreRecordersThanItKeepsPicturesFor) {
+    for (int i = 0; i < HostSession::max_recorders; ++i)
+        join_to_record(ParticipantId(10 + i), "trvl");
+    session.take_actions();
+    join_to_record(alice, "trvl");
+    EXPECT_EQ(sent<wire::Refused>(alice, session.take_actions()).size(), 1u);
+    join(bob);
+    EXPECT_EQ(sent<wire::Welcome>(bob, session.take_actions()).size(), 1u)
+        << "a viewer is no recorder";
+    session.on_closed(ParticipantId(10));
+    join_to_record(carol, "trvl");
+    EXPECT_EQ(sent<wire::Welcome>(carol, session.take_actions()).size(), 1u);
 }
 
 TEST_F(Host, SetsTheRendererOfOneOfANameOrOfAll) {

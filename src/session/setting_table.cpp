@@ -30,6 +30,10 @@ void SettingTable::leave(ParticipantId participant) {
     update();
 }
 
+void SettingTable::pin(ParticipantId participant) {
+    wish(participant, given(participant).codec);
+}
+
 bool SettingTable::is_active(const std::string& codec) const {
     return std::any_of(active_.begin(), active_.end(),
                        [&](const ActiveSetting& s) { return s.codec == codec; });

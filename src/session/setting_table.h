@@ -33,6 +33,8 @@ public:
     // Instead of the wish, until another is given; empty: none.
     void stopgap(ParticipantId participant, std::string codec);
     void leave(ParticipantId participant);
+    // Its wish becomes what it gets, so that no other participant's doing changes that.
+    void pin(ParticipantId participant);
 
     // In the order in which they became active.
     const std::vector<ActiveSetting>& active() const { return active_; }

@@ -26,6 +26,7 @@ Bytes ViewerSession::begin() {
     join.color_codec = wishes_.color_codec;
     join.target_latency_ms = wishes_.delivery.target_latency_ms;
     join.max_kbit_per_s = wishes_.delivery.max_kbit_per_s;
+    join.records = wishes_.records;
     return wire::encode_control(join);
 }
 

@@ -21,6 +21,7 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery;
+        bool records = false;  // as in wire::Join
     };
 
     explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}

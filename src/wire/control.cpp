@@ -17,7 +17,8 @@ using Body = flatbuffers::Offset<void>;
 Body pack(Builder& b, const Join& m) {
     return fbs::CreateJoin(b, m.protocol_min, m.protocol_max, b.CreateString(m.token),
                            b.CreateString(m.name), b.CreateString(m.depth_codec),
-                           b.CreateString(m.color_codec), m.target_latency_ms, m.max_kbit_per_s)
+                           b.CreateString(m.color_codec), m.target_latency_ms, m.max_kbit_per_s,
+                           m.records)
         .Union();
 }
 
@@ -120,7 +121,8 @@ Join unpack(const fbs::Join& m) {
             text(m.depth_codec(), max_codec),
             text(m.color_codec(), max_codec),
             m.target_latency_ms(),
-            m.max_kbit_per_s()};
+            m.max_kbit_per_s(),
+            m.records()};
 }
 
 ChooseCodecs unpack(const fbs::ChooseCodecs& m) {

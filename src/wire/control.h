@@ -41,6 +41,9 @@ struct Join {
     std::string color_codec;
     std::uint32_t target_latency_ms = 0;  // as in ChooseDelivery
     std::uint32_t max_kbit_per_s = 0;
+    // It records: it is sent everything in order, however late, and nobody else's doing changes
+    // its encodings while it stays.
+    bool records = false;
 };
 
 // The participant wants other codecs from now on. An empty text keeps its codec.

@@ -167,13 +167,14 @@ T round_trip(const T& m) {
 }
 
 TEST(Control, EveryMessageRoundTrips) {
-    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg", 150, 9000});
+    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg", 150, 9000, true});
     EXPECT_EQ(join.protocol_max, 2);
     EXPECT_EQ(join.token, "secret");
     EXPECT_EQ(join.name, "Dr. A");
     EXPECT_EQ(join.depth_codec + join.color_codec, "trvljpeg");
     EXPECT_EQ(join.target_latency_ms, 150u);
     EXPECT_EQ(join.max_kbit_per_s, 9000u);
+    EXPECT_TRUE(join.records);
     EXPECT_EQ(round_trip(Received{1ull << 40}).media_bytes, 1ull << 40);
     EXPECT_EQ(round_trip(ChooseDelivery{100, 5000}).max_kbit_per_s, 5000u);
     const Delivery delivery = round_trip(Delivery{2, 6, "a quarter of the frames", "too old"});

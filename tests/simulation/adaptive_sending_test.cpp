@@ -202,6 +202,8 @@ private:
                     outbox_.push_control(wire::wrap_control(wire::encode_control(action.message))));
             else if (action.kind == Kind::acknowledged)
                 outbox_.acknowledge(action.bytes, now);
+            else if (action.kind == Kind::keep_everything)
+                outbox_.keep_everything();
             else if (action.kind == Kind::set_ceiling)
                 outbox_.set_ceiling(double(action.bytes));
             else if (action.kind == Kind::request_key)
