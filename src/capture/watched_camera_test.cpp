@@ -285,5 +285,17 @@ TEST(WatchedCamera, WhatEndsOrIsNotLiveIsNotOpenedAgain) {
     }
 }
 
+// tests/soak/cameras.py computes the same, to know which pictures a camera owes.
+TEST(FaultPlan, FaultsFollowFromSeedAndTime) {
+    const FaultPlan plan{7, 15s, {}};
+    const Fault first = plan.nearest(from_us(0)), late = plan.nearest(from_us(1'500'000'000'000));
+    EXPECT_EQ(first.kind, FaultKind::time_jump);
+    EXPECT_EQ(to_us(first.begin), 4'693'257);
+    EXPECT_EQ(to_us(first.end), 7'490'478);
+    EXPECT_EQ(late.kind, FaultKind::repeat);
+    EXPECT_EQ(to_us(late.begin), 1'500'004'784'225);
+    EXPECT_EQ(to_us(late.end), 1'500'006'612'370);
+}
+
 }  // namespace
 }  // namespace theatron::capture

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The account of a soak finds what it must find."""
+import pathlib
+import sys
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end"))
+
 from accounting import Accountant, Entry, Window, linear_fit, longest_recovery, share_outside
+from cameras import fault_of_stretch
 from recordings import Picture, decodable
 from schedule import KINDS, QUIET_END_S, make_schedule
 
@@ -119,6 +124,13 @@ class Schedule(unittest.TestCase):
         for fault in make_schedule(7, 3600):
             self.assertGreaterEqual(fault.at, last.get(fault.part, 0))
             last[fault.part] = fault.end + settle[fault.kind] - 0.02
+
+
+class CameraFaults(unittest.TestCase):
+    def test_they_are_those_of_the_program(self):
+        # The same numbers as in src/capture/watched_camera_test.cpp.
+        self.assertEqual(fault_of_stretch(7, 0, 15_000_000), ("time_jump", 4.693257, 7.490478))
+        self.assertEqual(fault_of_stretch(7, 100_000, 15_000_000), ("repeat", 1500004.784225, 1500006.612370))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads one recording to its end:  examine.py FILE KNOWN_HASHES.json CHECK_CONTENT ANSWER.json
+"""Reads one recording to its end:  examine.py FIRST_FILE KNOWN_HASHES.json CHECK_CONTENT ANSWER.json
 
-The answer has the pictures of every stream, whether they can be decoded, and what is wrong with the file.
+A recording is one file, or a chain of them: 000.mkv, 000.002.mkv and so on. The answer has the pictures of every stream,
+whether they can be decoded, and what is wrong with the recording.
 """
 import hashlib
 import json
@@ -66,13 +67,18 @@ def check_content(path, expected, known):
     return problems
 
 
+def files_of(first):
+    """All files of the recording that begins in `first`."""
+    return [first, *sorted(first.parent.glob(f"{first.stem}.*{first.suffix}"))]
+
+
 def examine(path, known, with_content):
-    pictures = read_pictures(path)
+    pictures = [picture for file in files_of(path) for picture in read_pictures(file)]
     good = decodable(pictures)
     entries = {}
     for picture, is_good in zip(pictures, good):
         entries.setdefault(picture.stream, []).append((picture.captured_us / 1e6, picture.frame, is_good))
-    answer = {"entries": entries, "bytes": path.stat().st_size, "problems": []}
+    answer = {"entries": entries, "bytes": sum(f.stat().st_size for f in files_of(path)), "problems": []}
     if not pictures:
         return answer
     code, out, errors = program("inspect", path, "--json")

@@ -27,7 +27,7 @@ class Examiner:
         self.thread.start()
 
     def _waiting(self, all_of_them):
-        files = sorted(self.stage.recordings.glob("*.mkv"))
+        files = sorted(f for f in self.stage.recordings.glob("*.mkv") if "." not in f.stem)
         # The newest is still being written.
         return [f for f in (files if all_of_them else files[:-1]) if f.name not in self.files]
 
@@ -53,7 +53,8 @@ class Examiner:
             self.compared += sum(len(e) for stream, e in found["entries"].items() if int(stream) % 2 == 0)
         self.files[path.name] = found
         if not self.keep and not found["problems"]:
-            path.unlink()
+            for file in examine.files_of(path):
+                file.unlink()
 
     def finish(self):
         """The rest, once nothing is recorded any more."""
