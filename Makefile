@@ -30,7 +30,7 @@ test: setup
 	@tools/test.sh
 
 soak: build
-	@cmake --build --preset release --target link_shaper
+	@cmake --build --preset release --target link_shaper slow_disk
 	@python3 tests/soak/soak.py --minutes $(or $(MINUTES),10) $(if $(SEED),--seed $(SEED))
 
 test-arm64: setup

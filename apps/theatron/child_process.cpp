@@ -3,14 +3,12 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
-
-extern char** environ;
 
 namespace theatron::app {
 
@@ -25,15 +23,20 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
         argv.push_back(argument.data());
     argv.push_back(nullptr);
 
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t parent = getpid();
+    pid_ = fork();
+    if (pid_ == 0) {
+        // System calls only: other threads may have held locks.
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        const int nothing = open("/dev/null", O_RDONLY);
+        if (getppid() == parent && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 &&
+            dup2(ends[1], STDOUT_FILENO) >= 0)
+            execv("/proc/self/exe", argv.data());
+        _exit(127);
+    }
     close(ends[1]);
     output_ = ends[0];
-    if (error != 0) {
+    if (pid_ < 0) {
         close(output_);
         throw Error("Cannot start a child process.");
     }

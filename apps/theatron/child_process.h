@@ -9,8 +9,8 @@ namespace theatron::app {
 
 class ChildProcess {
 public:
-    // Starts this program with `arguments`; its standard output can be read.
-    // Throws Error.
+    // Starts this program with `arguments`; its standard output can be read. The child is
+    // killed when the thread that calls this ends, however that comes about. Throws Error.
     explicit ChildProcess(const std::vector<std::string>& arguments);
     ~ChildProcess();  // kills what still runs
     ChildProcess(const ChildProcess&) = delete;

@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "base/error.h"
 #include "base/steady_clock.h"
+#include "stop_signal.h"
 
 namespace theatron::app {
 
@@ -20,6 +22,8 @@ capture::Progress show_progress() {
     const auto state = std::make_shared<State>();
     const bool terminal = isatty(STDERR_FILENO);
     return [state, terminal](std::string_view what, double done) {
+        if (stop_requested())
+            throw Error("Stopped before this was complete: " + std::string(what) + ".");
         if (state->what != what)
             *state = {std::string(what), steady_now(), -1};
         // What is over at once needs no progress.

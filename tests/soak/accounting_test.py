@@ -8,8 +8,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end
 
 from accounting import Accountant, Entry, Window, linear_fit, longest_recovery, share_outside
 from cameras import fault_of_stretch
+from explanations import EXPLANATIONS, Happened, cost_of, kept_bytes, windows_of
 from recordings import Picture, decodable
-from schedule import KINDS, QUIET_END_S, make_schedule
+from schedule import KINDS, QUIET_END_S, Fault, make_schedule
 
 PERIOD = 1 / 30
 SECONDS = 20
@@ -106,6 +107,18 @@ class Chain(unittest.TestCase):
             return Picture(0, 1, frame, reference, 0, frame == 0)
         chain = [picture(0, 0), picture(1, 0), picture(3, 2), picture(4, 3), picture(5, 5), picture(6, 5)]
         self.assertEqual(decodable(chain), [True, True, False, False, True, True])
+
+
+class Costs(unittest.TestCase):
+    def test_what_the_host_keeps_for_a_recorder_is_not_lost(self):
+        fault = Fault(0, "recorder stopped", "recording", 10)
+        self.assertTrue(cost_of(fault, kept_bytes() / 100).nothing)
+        self.assertFalse(cost_of(fault, kept_bytes() / 10).nothing)
+        self.assertFalse(windows_of([Happened(fault, 5, 15)], 1, kept_bytes() / 100))
+
+    def test_every_kind_of_fault_has_an_explanation(self):
+        for kind in KINDS:
+            self.assertTrue(kind.name in EXPLANATIONS or kind.name.startswith("guest: "), kind.name)
 
 
 class Schedule(unittest.TestCase):

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each kind of fault may cost, and why: the promises that a soak holds the program to."""
 import dataclasses
+import pathlib
+import re
 import typing
 
 from accounting import Window
+
+OUTBOX = pathlib.Path(__file__).resolve().parents[2] / "src/net/outbox.h"
 
 
 class Cost(typing.NamedTuple):
@@ -36,6 +40,8 @@ EXPLANATIONS = {
     "viewer with another clock": NOTHING,
 }
 ENOUGH_OF_LINK = 50  # percent: more than all who are behind it need
+KEPT = "the host keeps it for the recorder"
+KEEPABLE = ("recorder stopped", "link cut", "link slow")
 
 
 @dataclasses.dataclass
@@ -46,17 +52,27 @@ class Happened:
     end: float
 
 
-def cost_of(fault):
+def kept_bytes():
+    """What the host keeps for a recorder that does not take it: Outbox::max_kept_bytes."""
+    shift = re.search(r"max_kept_bytes = std::size_t\((\d+)\) << (\d+)", OUTBOX.read_text())
+    return int(shift[1]) << int(shift[2])
+
+
+def cost_of(fault, bytes_per_second):
+    """`bytes_per_second`: of the whole recording."""
     if fault.kind == "link slow" and fault.amount >= ENOUGH_OF_LINK:
         return NOTHING
+    # While it catches up it is late, too.
+    if fault.kind in KEEPABLE and 2 * fault.length * bytes_per_second < kept_bytes():
+        return Cost(KEPT, nothing=True)
     return EXPLANATIONS.get(fault.kind, NOTHING)
 
 
-def windows_of(happened, patience):
+def windows_of(happened, patience, bytes_per_second):
     """`patience`: how many times slower than usual this machine is."""
     windows = []
     for h in happened:
-        cost = cost_of(h.fault)
+        cost = cost_of(h.fault, bytes_per_second)
         if cost.nothing:
             continue
         # TCP doubles the time between its attempts.

@@ -52,10 +52,10 @@ def memory(roles):
     return rows
 
 
-def by_kind(run, account, entries, patience):
+def by_kind(run, account, entries, bytes_per_second):
     rows = {}
     for h in run.happened:
-        cost = cost_of(h.fault)
+        cost = cost_of(h.fault, bytes_per_second)
         row = rows.setdefault(h.fault.kind, {"count": 0, "ends": [], "why": cost.why, "recovery": not cost.nothing})
         row["count"] += 1
         if not cost.nothing:
@@ -75,7 +75,9 @@ def by_kind(run, account, entries, patience):
 
 def judge(run, stage, examiner, seed):
     starts = [child.started for child in stage.host.children]
-    windows = windows_of(run.happened, run.patience)
+    size = sum(found["bytes"] for found in examiner.files.values())
+    bytes_per_second = size / (run.end - run.begin)
+    windows = windows_of(run.happened, run.patience, bytes_per_second)
     windows += cameras.camera_windows(seed, starts, run.begin, run.end, run.patience)
     accountant = Accountant(windows, starts, 1 / cameras.FPS, run.begin, run.end)
     entries = entries_of(examiner)
@@ -103,6 +105,6 @@ def judge(run, stage, examiner, seed):
             "left_out_kinds": possible_kinds([])[1], "expected": account.expected, "recorded": account.recorded,
             "decodable": account.decodable, "late": account.late, "lost": sum(account.lost.values()),
             "delivered": sum(frames.values()), "left_out_by_host": dict(left_out), "compared": examiner.compared,
-            "files": len(examiner.files), "bytes": sum(f["bytes"] for f in examiner.files.values()),
-            "kinds": by_kind(run, account, entries, run.patience), "processes": processes,
+            "files": len(examiner.files), "bytes": size,
+            "kinds": by_kind(run, account, entries, bytes_per_second), "processes": processes,
             "findings": findings, "log": run.log}

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C at moments at which the program is busy with something else."""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from theatron_process import PROGRAM, make_recording
+
+
+def wait_for(condition, seconds=60):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+def children_of(pid):
+    return [int(child) for path in pathlib.Path(f"/proc/{pid}/task").glob("*/children")
+            for child in path.read_text().split()]
+
+
+def runs(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+class Interrupt(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self, *words):
+        process = subprocess.Popen([PROGRAM, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+
+        def end():
+            process.kill()
+            process.wait()
+            process.stderr.close()
+        self.addCleanup(end)
+        return process
+
+    def test_while_the_generated_room_is_drawn(self):
+        cache = self.folder / "cache"
+        host = self.start("host", "--state", self.folder / "state", "--listen", "127.0.0.1:0", "--camera",
+                          f"synthetic:room,cache={cache}")
+        self.assertTrue(wait_for(lambda: any(cache.glob("*.part"))))
+        host.send_signal(signal.SIGINT)
+        _, errors = host.communicate(timeout=60)
+        self.assertEqual(host.returncode, 1, errors)
+        self.assertIn("Stopped", errors)
+        self.assertEqual(list(cache.glob("*")), [])
+
+    def test_a_measurement_leaves_nobody_behind(self):
+        camera = f"folder:{make_recording(self.folder / 'box')},loop=1"
+        bench = self.start("bench", "pipeline", "--camera", camera, "--seconds", 60)
+        self.assertTrue(wait_for(lambda: len(children_of(bench.pid)) == 2))
+        children = children_of(bench.pid)
+        os.kill(bench.pid, signal.SIGINT)
+        bench.wait(60)
+        self.assertTrue(wait_for(lambda: not any(map(runs, children))))
+
+
+if __name__ == "__main__":
+    unittest.main()
