@@ -131,6 +131,12 @@ class Schedule(unittest.TestCase):
         self.assertEqual({f.kind for f in faults}, {k.name for k in KINDS})
         self.assertLess(max(f.end for f in faults), 600 - QUIET_END_S)
 
+    def test_in_the_second_half_of_a_long_run_nobody_is_killed(self):
+        deadly = {k.name for k in KINDS if k.deadly}
+        self.assertEqual(len(deadly), 7)
+        late = {f.kind for f in make_schedule(7, 7200) if f.at > 3600}
+        self.assertEqual(late, {k.name for k in KINDS} - deadly)
+
     def test_faults_of_one_part_leave_it_time_to_recover(self):
         settle = {k.name: k.settle_s for k in KINDS}
         last = {}

@@ -10,6 +10,7 @@ from stage import possible_kinds
 WARM_UP_S = 20     # until a process has taken what it needs
 LONG_LIVED_S = 90  # a slope of less says nothing
 GROWTH_MIB = 32    # allowed beyond the warm-up
+SHOWN_POINTS = 60  # of a process's memory over time
 LEAST_OUTSIDE = 0.2
 LONG_RUN_S = 300
 
@@ -43,12 +44,15 @@ def memory(roles):
         for number, child in enumerate(role.children):
             if not child.samples:
                 continue
-            late = [(t, mib) for t, mib, _ in child.samples if t >= WARM_UP_S]
             lived = child.samples[-1][0]
+            warm = max(WARM_UP_S, lived / 4)
+            late = [(t, mib) for t, mib, _ in child.samples if t >= warm]
             slope, _ = linear_fit(late)
             rows.append({"process": f"{role.name}-{number:03}", "seconds": lived, "max_mib": max(m for _, m, _ in child.samples),
                          "mib_per_minute": slope * 60, "cpu_cores": child.samples[-1][2] / max(lived, 1),
-                         "code": child.code(), "growth_mib": slope * (lived - WARM_UP_S) if lived > LONG_LIVED_S else 0.0})
+                         "code": child.code(), "growth_mib": slope * (lived - warm) if lived > LONG_LIVED_S else 0.0,
+                         "memory": [(round(t), round(m, 1)) for t, m, _ in
+                                    child.samples[::max(len(child.samples) // SHOWN_POINTS, 1)]]})
     return rows
 
 

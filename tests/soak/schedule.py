@@ -7,6 +7,8 @@ import random
 QUIET_BEGIN_S = 5.0  # everybody joins
 QUIET_END_S = 8.0    # everybody recovers
 BETWEEN_S = (1.5, 4.0)  # from the beginning of one fault to the beginning of the next
+LONG_RUN_S = 600
+DEADLY_SHARE = 0.5   # of a long run; after that every process lives on, so that its memory over time can be seen
 
 
 @dataclasses.dataclass(frozen=True)
@@ -18,6 +20,11 @@ class Kind:
     most_s: float
     settle_s: float = 8.0
     amounts: tuple = ()  # one of them is chosen
+
+    @property
+    def deadly(self):
+        """A process ends."""
+        return self.name.endswith(("killed", "clock", "full", "gone"))
 
 
 DAY_S = 86400
@@ -67,9 +74,13 @@ def make_schedule(seed, seconds, kinds=KINDS, longest_s=10.0, pace=1.0):
     random_ = random.Random(seed)
     faults, deck, free = [], [], {}
     now = QUIET_BEGIN_S
+    deadly_until = DEADLY_SHARE * seconds if seconds >= LONG_RUN_S else seconds
     while kinds:
+        deck = [kind for kind in deck if not kind.deadly or now < deadly_until]
         if not deck:
-            deck = random_.sample(kinds, len(kinds))
+            deck = [kind for kind in random_.sample(kinds, len(kinds)) if not kind.deadly or now < deadly_until]
+        if not deck:
+            break
         ready = [kind for kind in deck if free.get(kind.part, 0) <= now]
         if not ready:
             now = min(free[kind.part] for kind in deck)

@@ -170,6 +170,7 @@ def parse(arguments):
     parser.add_argument("--longest", type=float, default=10.0, help="seconds that a fault lasts at most")
     parser.add_argument("--pace", type=float, default=1.0, help="times between faults, as multiples of the usual ones")
     parser.add_argument("--content", type=int, default=20000, help="pictures to compare bit by bit with the cameras'")
+    parser.add_argument("--only", action="append", help="only kinds of faults whose name holds this; repeat for more")
     parser.add_argument("--keep", action="store_true", help="keep the recordings also if nothing is wrong")
     return parser.parse_args(arguments)
 
@@ -179,6 +180,8 @@ def main(arguments=None):
     seed = random.SystemRandom().randrange(1_000_000) if options.seed is None else options.seed
     seconds = options.minutes * 60
     kinds, left_out = possible_kinds(KINDS)
+    if options.only:
+        kinds = [kind for kind in kinds if any(word in kind.name for word in options.only)]
     for what, why in left_out.items():
         print(f"soak: without faults of the {what}: {why}", flush=True)
     faults = make_schedule(seed, seconds, kinds, options.longest, options.pace)
