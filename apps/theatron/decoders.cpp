@@ -45,7 +45,11 @@ void Decoders::run(Worker& worker) {
         }
         lock.lock();
         worker.busy = false;
-        worker.spare.push_back(std::move(message));
+        worker.bytes_waiting -= message.size();
+        if (worker.bytes_spare + message.capacity() <= most_bytes_spare) {
+            worker.bytes_spare += message.capacity();
+            worker.spare.push_back(std::move(message));
+        }
         worker.changed.notify_all();
     }
 }
@@ -56,6 +60,10 @@ void Decoders::drain(Worker& worker) {
 }
 
 void Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
+    max_sizes_.clear();
+    for (const wire::Camera& camera : cameras)
+        for (const StreamId stream : {camera.depth_stream, camera.color_stream})
+            max_sizes_[stream] = receive::max_media_size(camera, stream);
     for (const auto& worker : workers_) {
         std::vector<wire::Camera> own;
         for (const wire::Camera& camera : cameras)
@@ -78,14 +86,30 @@ void Decoders::set_settings(const std::vector<wire::StreamSetting>& settings) {
 void Decoders::on_media(ByteView message) {
     const auto header = wire::parse_media_header(message);
     Worker& worker = header ? worker_of(header->stream) : *workers_.front();
+    if (header) {
+        const auto known = max_sizes_.find(header->stream);
+        if (known == max_sizes_.end())
+            return;
+        // Without its payload it is refused and counted like any other damage.
+        if (message.size() > known->second)
+            message = message.first(wire::media_header_size);
+    } else {
+        message = message.first(std::min(message.size(), wire::media_header_size));
+    }
+    const std::size_t share = most_bytes_waiting / workers_.size();
     std::unique_lock lock(worker.mutex);
-    worker.changed.wait(lock, [&] { return worker.waiting.size() < most_waiting; });
+    worker.changed.wait(lock, [&] {
+        return worker.waiting.size() < most_waiting &&
+               (worker.bytes_waiting == 0 || worker.bytes_waiting + message.size() <= share);
+    });
     Bytes copy;
     if (!worker.spare.empty()) {
         copy = std::move(worker.spare.back());
         worker.spare.pop_back();
+        worker.bytes_spare -= copy.capacity();
     }
     copy.assign(message.begin(), message.end());
+    worker.bytes_waiting += copy.size();
     worker.waiting.push_back(std::move(copy));
     lock.unlock();
     worker.changed.notify_all();

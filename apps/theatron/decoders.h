@@ -24,7 +24,8 @@ public:
     void set_cameras(const std::vector<wire::Camera>& cameras);
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
-    // Takes a copy. Waits while too much is undecoded, so that the sender notices.
+    // Takes a copy. Waits while too much is undecoded, so that the sender notices. Messages that
+    // no camera's pictures can need are left out (receive::max_media_size).
     void on_media(ByteView message);
 
     // From any thread.
@@ -35,6 +36,10 @@ private:
     // About what the cameras of one thread send at once. More would only make frames older,
     // and keep the host encoding what nobody decodes in time.
     static constexpr std::size_t most_waiting = 10;
+    // Of all threads together, in bytes. A message that is larger waits alone.
+    static constexpr std::size_t most_bytes_waiting = std::size_t(128) << 20;
+    // Memory of messages that is kept for the next ones, of each thread.
+    static constexpr std::size_t most_bytes_spare = std::size_t(8) << 20;
 
     struct Worker {
         explicit Worker(const receive::Receiver::Events& events) : receiver(events) {}
@@ -45,7 +50,9 @@ private:
         std::mutex mutex;  // guards all below
         std::condition_variable changed;
         std::deque<Bytes> waiting;
-        std::vector<Bytes> spare;  // memory of messages that were decoded
+        std::size_t bytes_waiting = 0;  // of these, and of the one that is being decoded
+        std::vector<Bytes> spare;       // memory of messages that were decoded
+        std::size_t bytes_spare = 0;
         bool busy = false;
         bool stopping = false;
         std::thread thread;
@@ -57,6 +64,7 @@ private:
     }
 
     std::function<TimePoint()> now_;
+    std::map<StreamId, std::size_t> max_sizes_;  // of messages; who calls on_media()
     std::vector<std::unique_ptr<Worker>> workers_;
 };
 

@@ -10,6 +10,7 @@
 #include "codec_steps.h"
 #include "host_identity.h"
 #include "host_impl.h"
+#include "session/viewer_session.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -64,6 +65,9 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.check_color = check_color;
     config.equal_secrets = net::equal_secrets;
     config.steps = codec_steps();
+    const session::ViewerSession::Wishes usual;
+    config.usual_depth = check_depth(usual.depth_codec).codec;
+    config.usual_color = check_color(usual.color_codec).codec;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         config.cameras.push_back(describe(CameraId(i), cameras[i]->info()));
 
@@ -126,7 +130,15 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
                 carry_out();
             });
         };
+        events.keeps_up = [this, camera = CameraId(i)](SettingId setting, bool keeps_up,
+                                                       Duration cpu) {
+            server->post([this, camera, setting, keeps_up, cpu] {
+                session->on_encoding(camera, setting, keeps_up, to_ms(cpu));
+                carry_out();
+            });
+        };
         send::CameraLane::Options lane;
+        lane.cameras = cameras.size();
         lane.open_again = [specification = specifications[i]] {
             return capture::open_camera(specification);
         };

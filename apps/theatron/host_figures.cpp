@@ -41,6 +41,13 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
              {"p99_ms", stage.p99_ms},
              {"mean_ms", 1000 * stage.seconds.sum() /
                              double(std::max<std::uint64_t>(stage.seconds.count(), 1))}});
+    nlohmann::json encoders = nlohmann::json::array();
+    for (const auto& encoder : f.encoders)
+        encoders.push_back({{"codec", encoder.codec},
+                            {"stream", is_depth(encoder.stream) ? "depth" : "color"},
+                            {"cpu_ms", encoder.cpu_ms},
+                            {"behind", encoder.behind},
+                            {"left_out", encoder.left_out}});
     nlohmann::json dropped;
     for (const auto& [reason, count] : drops(camera))
         dropped[reason] = count;
@@ -56,6 +63,7 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
             {"age_ms", f.age_seconds * 1000},
             {"sync_offset_ms", f.sync_offset_seconds * 1000},
             {"filter", f.filter},
+            {"encoders", encoders},
             {"dropped_newest", f.dropped_newest},
             {"dropped_slow_receiver", camera.dropped_slow},
             {"dropped", dropped},

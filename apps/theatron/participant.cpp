@@ -162,13 +162,10 @@ void Participant::on_control(ByteView message) {
             std::vector<Camera> cameras;
             for (const wire::Camera& camera : session_.cameras()) {
                 const auto calibration = decode_calibration(camera.calibration);
-                if (!calibration) {
-                    remark("The host's camera " + camera.name + " has a calibration that is " +
-                           std::string(to_text(calibration.error())) + "; it is left out.");
-                    continue;
-                }
-                cameras.push_back({camera, *calibration, {camera.id, {}, ""}});
+                cameras.push_back({camera, calibration.value(), {camera.id, {}, ""}});
             }
+            for (const std::string& problem : session_.left_out())
+                remark(problem);
             std::unique_lock lock(shared_->mutex);
             shared_->cameras = std::move(cameras);
             ++shared_->generation;

@@ -91,6 +91,8 @@ Result<Calibration> decode_calibration(ByteView bytes) {
     if (!in.rest().empty())
         return Status::trailing_bytes;
 
+    if (c.depth.size.area() > max_depth_pixels || c.color.size.area() > max_color_pixels)
+        return Status::too_large;
     const bool has_color = c.color.size != Size{};
     const bool unit_ok = c.depth_unit_mm > 1e-3 && c.depth_unit_mm < 1e3;
     if (registered > 1 || !plausible(c.depth) || (has_color && !plausible(c.color)) || !unit_ok ||

@@ -24,9 +24,14 @@ struct Calibration {
     bool operator==(const Calibration&) const = default;
 };
 
+// Pictures of more pixels than any camera gives are refused with their calibration: a few bytes
+// from outside must not make anybody take gigabytes.
+inline constexpr std::size_t max_depth_pixels = 2048 * 2048;
+inline constexpr std::size_t max_color_pixels = 4096 * 3072;
+
 Bytes encode_calibration(const Calibration& calibration);
 
-// Safe for untrusted input. Refuses sizes out of range, focal lengths that are
+// Safe for untrusted input. Refuses sizes out of range (Status::too_large), focal lengths that are
 // not positive, and anything that is not finite.
 Result<Calibration> decode_calibration(ByteView bytes);
 

@@ -5,14 +5,11 @@
 
 #include "base/error.h"
 #include "codec/strata.h"
+#include "geometry/calibration.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::receive {
 namespace {
-
-// Larger depth images than any camera gives are refused, so that a few hostile
-// bytes cannot make a viewer reserve gigabytes.
-constexpr std::size_t max_depth_pixels = 2048 * 2048;
 
 // A request for a key frame is repeated after this time without one.
 constexpr Duration key_patience = std::chrono::milliseconds(700);
@@ -24,16 +21,34 @@ std::int32_t frames_after(FrameNumber a, FrameNumber b) {
 
 }  // namespace
 
+std::size_t max_media_size(const wire::Camera& camera, StreamId stream) {
+    const auto calibration = decode_calibration(camera.calibration);
+    if (!calibration)
+        return 0;
+    if (stream == camera.depth_stream)
+        return max_media_size(calibration->depth.size.area());
+    return stream == camera.color_stream ? max_media_size(calibration->color.size.area()) : 0;
+}
+
 void Receiver::set_cameras(const std::vector<wire::Camera>& cameras) {
     streams_.clear();
     cameras_.clear();
     for (const wire::Camera& camera : cameras) {
+        const auto calibration = decode_calibration(camera.calibration);
+        if (!calibration)
+            continue;
         cameras_[camera.id].has_color = camera.has_color;
         Stream& depth = streams_[camera.depth_stream];
         depth.camera = camera.id;
         depth.is_depth = true;
-        if (camera.has_color)
-            streams_[camera.color_stream].camera = camera.id;
+        depth.size = calibration->depth.size;
+        depth.max_message = max_media_size(depth.size.area());
+        if (!camera.has_color)
+            continue;
+        Stream& color = streams_[camera.color_stream];
+        color.camera = camera.id;
+        color.size = calibration->color.size;
+        color.max_message = max_media_size(color.size.area());
     }
 }
 
@@ -82,6 +97,10 @@ Status Receiver::on_media(ByteView message, TimePoint now) {
         return Status::ok;
 
     Stream& stream = found->second;
+    if (message.size() > stream.max_message) {
+        ++refused_;
+        return Status::too_large;
+    }
     count(stream, *header, message.size(), now);
     const ByteView payload = wire::media_payload(message);
     const Status status = stream.is_depth ? decode_depth(stream, *header, payload, now)
@@ -114,8 +133,8 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     const auto size = stream.depth->read_size(payload);
     if (!size)
         return size.error();
-    if (size->area() > max_depth_pixels)
-        return Status::too_large;
+    if (*size != stream.size)
+        return Status::size_mismatch;
     const std::shared_ptr<CameraFrame> frame = frames_.take();
     frame->depth.resize(*size);
     const codec::FrameLink link{header.frame, header.reference, header.temporal_layer, header.key};
@@ -171,6 +190,12 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
                               TimePoint now) {
     if (header.codec != std::uint8_t(stream.color_codec))
         return Status::malformed;
+    // Seen before any memory is taken for the picture.
+    const auto size = video::read_color_size(stream.color_codec, payload);
+    if (!size)
+        return size.error();
+    if (*size != stream.size)
+        return Status::size_mismatch;
     const auto reference = std::exchange(stream.color_reference, std::nullopt);
     if (!header.key && reference != header.reference)
         return Status::missing_reference;

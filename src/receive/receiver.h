@@ -58,6 +58,14 @@ struct StreamFigures {
     double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
 };
 
+// The largest message of a stream whose pictures have `pixels`; a larger one is refused before
+// it is copied or decoded. No codec needs more.
+constexpr std::size_t max_media_size(std::size_t pixels) {
+    return wire::media_header_size + 64 * 1024 + 4 * pixels;
+}
+// The same for the streams of a camera, by its calibration; 0 for others.
+std::size_t max_media_size(const wire::Camera& camera, StreamId stream);
+
 class Receiver {
 public:
     // Called from on_media().
@@ -70,7 +78,8 @@ public:
 
     explicit Receiver(Events events) : events_(std::move(events)) {}
 
-    // What the host announced. Streams that are gone are forgotten.
+    // What the host announced. Streams that are gone are forgotten. A camera whose calibration
+    // cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
     // Throws Error if a codec is one that this build does not know.
     void set_settings(const std::vector<wire::StreamSetting>& settings);
@@ -89,6 +98,9 @@ private:
     struct Stream {
         CameraId camera{};
         bool is_depth = false;
+        // By the calibration. Pictures of other sizes are refused.
+        Size size;
+        std::size_t max_message = 0;
         // Empty until the host has said how it sends; there is a decoder from then on.
         std::optional<SettingId> setting;
         std::string codec;

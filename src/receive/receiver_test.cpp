@@ -6,11 +6,27 @@
 #include <random>
 
 #include "base/error.h"
+#include "geometry/calibration.h"
 
 namespace theatron::receive {
 namespace {
 
 constexpr CameraId camera{0};
+constexpr Size picture{32, 24};
+
+wire::Camera described(bool has_color = true, Size depth = picture, Size color = picture) {
+    Calibration calibration;
+    calibration.depth.size = depth;
+    calibration.color.size = color;
+    calibration.depth.fx = calibration.depth.fy = calibration.color.fx = calibration.color.fy = 30;
+    wire::Camera description;
+    description.id = camera;
+    description.depth_stream = depth_stream(camera);
+    description.color_stream = color_stream(camera);
+    description.has_color = has_color;
+    description.calibration = encode_calibration(calibration);
+    return description;
+}
 
 // One camera's encoders, as a host has them.
 class Source {
@@ -24,7 +40,7 @@ public:
           color_(video::make_color_encoder(color_setting_)) {}
 
     static DepthImage scene(FrameNumber n) {
-        DepthImage image({32, 24});
+        DepthImage image(picture);
         std::mt19937 rng(n);
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             image.pixels[i] = std::uint16_t(1000 + i + rng() % 4);
@@ -32,7 +48,7 @@ public:
     }
 
     Bytes depth(FrameNumber n, bool key = false) {
-        Bytes payload(depth_.max_encoded_size({32, 24}));
+        Bytes payload(depth_.max_encoded_size(picture));
         const auto encoded = depth_.encode(scene(n).view(), n, key, payload);
         payload.resize(encoded.bytes);
         wire::MediaHeader h;
@@ -47,7 +63,7 @@ public:
     void set_color_id(SettingId id) { color_id_ = id; }
     Bytes color(FrameNumber n, bool key = true) {
         ColorData data;
-        data.size = {32, 24};
+        data.size = picture;
         data.pixels = ColorImage(data.size);
         data.pixels.pixels[0] = {std::uint8_t(n), 2, 3};
         const auto encoded = color_->encode(data, key);
@@ -85,12 +101,7 @@ protected:
     explicit ReceiverTest(bool has_color = true)
         : receiver({[this](CameraFramePtr f) { frames.push_back(std::move(f)); },
                     [this](StreamId stream, SettingId) { keys_wanted.push_back(stream); }}) {
-        wire::Camera description;
-        description.id = camera;
-        description.depth_stream = depth_stream(camera);
-        description.color_stream = color_stream(camera);
-        description.has_color = has_color;
-        receiver.set_cameras({description});
+        receiver.set_cameras({described(has_color)});
         set_depth("trvl", SettingId{1});
     }
     void set_depth(const std::string& codec, SettingId id) {
@@ -233,17 +244,41 @@ TEST_F(DepthOnly, FiguresTellRateAndAge) {
 TEST(Receiver, MediaBeforeAnySettingIsPassedOver) {
     for (const SettingId setting : {SettingId{0}, SettingId{1}}) {
         Receiver receiver({[](CameraFramePtr) {}, [](StreamId, SettingId) {}});
-        wire::Camera description;
-        description.depth_stream = depth_stream(camera);
-        description.color_stream = color_stream(camera);
-        description.has_color = true;
-        receiver.set_cameras({description});
+        receiver.set_cameras({described()});
         Source source("trvl", setting);
         source.set_color_id(setting);
         EXPECT_EQ(receiver.on_media(source.depth(0), from_us(0)), Status::ok);
         EXPECT_EQ(receiver.on_media(source.color(0), from_us(0)), Status::ok);
         EXPECT_EQ(receiver.figures(from_us(0))[0].frames, 0u);
     }
+}
+
+TEST_F(ReceiverTest, PicturesOfAnotherSizeThanTheCalibrationsAreRefusedAndCounted) {
+    receiver.set_cameras({described(true, {64, 48}, picture)});
+    set_depth("trvl", SettingId{1});
+    Source source;
+    EXPECT_EQ(receiver.on_media(source.depth(0), at(0)), Status::size_mismatch);
+    EXPECT_EQ(receiver.on_media(source.color(0), at(0)), Status::ok);
+    receiver.set_cameras({described(true, picture, {64, 48})});
+    set_depth("trvl", SettingId{1});
+    EXPECT_EQ(receiver.on_media(source.depth(1, true), at(1)), Status::ok);
+    EXPECT_EQ(receiver.on_media(source.color(1), at(1)), Status::size_mismatch);
+    EXPECT_EQ(receiver.refused(), 2u);
+    EXPECT_EQ(receiver.figures(at(1))[1].dropped, 1u);
+}
+
+TEST_F(ReceiverTest, AMessageLargerThanThePictureCanNeedIsRefusedUnread) {
+    Source source;
+    Bytes huge = source.depth(0, true);
+    const std::size_t most = max_media_size(described(), depth_stream(camera));
+    EXPECT_EQ(most, max_media_size(picture.area()));
+    auto header = *wire::parse_media_header(huge);
+    header.payload_size = std::uint32_t(most + 1 - wire::media_header_size);
+    huge.resize(most + 1);
+    wire::write_media_header(header, huge.data());
+    EXPECT_EQ(receiver.on_media(huge, at(0)), Status::too_large);
+    EXPECT_EQ(receiver.refused(), 1u);
+    EXPECT_EQ(max_media_size(described(), StreamId{77}), 0u);
 }
 
 TEST_F(DepthOnly, ASettingOfNumberZeroIsLikeAnyOther) {

@@ -64,7 +64,7 @@ public:
 
     // Adds a camera or changes its calibration. Changing only where it stands
     // is cheap; a new lens costs some tens of milliseconds, and another image size
-    // also the camera's picture. Throws Error beyond max_cameras.
+    // also the camera's picture. Throws Error beyond max_cameras and beyond max_layer_depth_pixels.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
     // How much a camera shows, from 0 to 1, so that new ones fade in and stale ones fade

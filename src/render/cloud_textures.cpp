@@ -49,6 +49,10 @@ void CloudTextures::set_camera(CameraId camera, const Calibration& calibration) 
     if (known == sources_.end() && sources_.size() == std::size_t(max_cameras))
         throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
 
+    if (larger(calibration.depth.size, depth_size_).area() > max_layer_depth_pixels ||
+        larger(calibration.color.size, color_size_).area() > max_layer_color_pixels)
+        throw Error("The cameras' pictures are too large to be shown together.");
+
     CloudSource source;
     if (known != sources_.end()) {
         source.presence = known->second.presence;
@@ -91,7 +95,8 @@ void CloudTextures::remove_camera(CameraId camera) {
 
 Status CloudTextures::upload(CameraId camera, DepthView depth, ColorView color) {
     const auto known = sources_.find(camera);
-    if (known == sources_.end() || depth.size != known->second.calibration.depth.size)
+    if (known == sources_.end() || depth.size != known->second.calibration.depth.size ||
+        larger(color.size, color_size_).area() > max_layer_color_pixels)
         return Status::size_mismatch;
     CloudSource& source = known->second;
     source.revision = ++revision_;

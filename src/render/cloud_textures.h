@@ -19,6 +19,11 @@
 
 namespace theatron::render {
 
+// The largest layers that the arrays get, in pixels. Cameras that would need larger ones are
+// refused.
+inline constexpr std::size_t max_layer_depth_pixels = 2 * max_depth_pixels;
+inline constexpr std::size_t max_layer_color_pixels = 2 * max_color_pixels;
+
 // One camera's place in the set.
 struct CloudSource {
     Calibration calibration;

@@ -31,18 +31,35 @@ CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Eve
           return info;
       }()),
       newest_(options_.waiting_frames),
-      encoders_(
-          id,
-          [this](EncodedMedia media) {
-              meter_.on_bytes(is_depth(media.header.stream), media.message->size());
-              events_.media(std::move(media));
-          },
-          options_.clock.now) {
+      encoders_(id, encoder_events(), encoder_environment()) {
     told_.camera = id_;
     capture_ = std::make_unique<CaptureThread>(
         std::move(camera), options_.open_again,
         [this](FramePtr frame) { on_frame(std::move(frame)); }, options_.clock);
     ticket_ = workers_.look_after([this] { look(); });
+}
+
+LaneEncoders::Events CameraLane::encoder_events() {
+    LaneEncoders::Events events;
+    events.publish = [this](EncodedMedia media) {
+        meter_.on_bytes(is_depth(media.header.stream), media.message->size());
+        events_.media(std::move(media));
+    };
+    events.key_due = [this](StreamId stream, SettingId setting) { request_key(stream, setting); };
+    events.keeps_up = events_.keeps_up;
+    return events;
+}
+
+LaneEncoders::Environment CameraLane::encoder_environment() const {
+    LaneEncoders::Environment environment;
+    environment.now = options_.clock.now;
+    environment.behind = [this](std::function<void()> work) {
+        workers_.enqueue_behind(std::move(work));
+    };
+    environment.share =
+        encoder_share(info_.frames_per_second, workers_.threads(), options_.cameras);
+    environment.make_depth = options_.make_depth;
+    return environment;
 }
 
 CameraLane::~CameraLane() {
@@ -56,8 +73,11 @@ CameraLane::~CameraLane() {
 }
 
 void CameraLane::wait_idle() {
-    std::unique_lock lock(mutex_);
-    idle_.wait(lock, [this] { return !busy_; });
+    {
+        std::unique_lock lock(mutex_);
+        idle_.wait(lock, [this] { return !busy_; });
+    }
+    encoders_.wait_behind();
 }
 
 void CameraLane::set_settings(std::vector<LaneSetting> depth, std::vector<LaneSetting> color) {
@@ -260,7 +280,7 @@ void CameraLane::encode_frame(TimePoint begin) {
     const auto encode_color = [&] {
         if (encoders_.has_color() && !frame.color.empty())
             timed(Stage::color_encode, [&] {
-                if (encoders_.encode_color(frame.color, header, keys_) > 0)
+                if (encoders_.encode_color(last_->frame, header, keys_) > 0)
                     meter_.on_damaged_color();
             });
     };
@@ -271,6 +291,7 @@ void CameraLane::encode_frame(TimePoint begin) {
 
 LaneFigures CameraLane::figures() const {
     LaneFigures figures = meter_.figures(now());
+    figures.encoders = encoders_.figures();
     figures.name = info_.name;
     const std::lock_guard lock(status_mutex_);
     figures.camera = status_;

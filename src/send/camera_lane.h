@@ -37,6 +37,10 @@ public:
         std::function<void(EncodedMedia)> media;
         // Whenever the camera's condition has changed. From the workers' looking thread.
         std::function<void(wire::CameraState)> state;
+        // Encoding in this setting keeps up with the camera no longer, or does again; it takes
+        // `cpu` a picture. From a working thread.
+        std::function<void(SettingId, bool keeps_up, Duration cpu)> keeps_up = [](SettingId, bool,
+                                                                                  Duration) {};
     };
 
     struct Options {
@@ -48,6 +52,10 @@ public:
         std::shared_ptr<SharedMoments> moments;
         // Frames that are the second of their moment are passed over.
         bool one_per_moment = false;
+        // How many share the workers: a setting's share of their time follows from it.
+        std::size_t cameras = 1;
+        // As in LaneEncoders::Environment; empty: the usual ones.
+        std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
         // Of the camera's care, of header times and of waiting for key frames.
         capture::WatchedCamera::Clock clock = capture::WatchedCamera::steady_clock();
     };
@@ -82,7 +90,7 @@ public:
 
     LaneFigures figures() const;
 
-    // Returns once no work on frames runs or is due.
+    // Returns once no work on frames runs or is due, here or behind.
     void wait_idle();
 
 private:
@@ -103,6 +111,8 @@ private:
     void on_frame(FramePtr frame);
     void look();
     TimePoint now() const { return options_.clock.now(); }
+    LaneEncoders::Events encoder_events();
+    LaneEncoders::Environment encoder_environment() const;
     void begin_work();
     void work();
     void take_orders();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "send/lane_encoders.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -9,91 +11,293 @@
 namespace theatron::send {
 namespace {
 
-// Encoders by their settings: those that stay are moved over, new ones are made.
+// Encoders by their settings: those that stay are taken over, new ones are made.
 template <class Encoder, class Make>
-std::vector<Encoder> updated(std::vector<Encoder>& old, const std::vector<LaneSetting>& settings,
-                             StreamId stream, WantedKeys& keys, Make make) {
-    std::vector<Encoder> result;
+std::vector<std::shared_ptr<Encoder>> updated(const std::vector<std::shared_ptr<Encoder>>& old,
+                                              const std::vector<LaneSetting>& settings,
+                                              StreamId stream, WantedKeys& keys, Make make) {
+    std::vector<std::shared_ptr<Encoder>> result;
     for (const LaneSetting& s : settings) {
-        const auto same =
-            std::find_if(old.begin(), old.end(), [&](const auto& e) { return e.id == s.id; });
+        const auto same = std::find_if(old.begin(), old.end(),
+                                       [&](const auto& e) { return e->setting.id == s.id; });
         if (same != old.end()) {
-            result.push_back(std::move(*same));
+            result.push_back(*same);
             continue;
         }
-        result.push_back(make(s));
+        const auto encoder = std::make_shared<Encoder>();
+        encoder->setting = s;
+        make(*encoder, s.codec);
+        result.push_back(encoder);
         keys.insert({stream, s.id});
     }
     return result;
 }
 
+template <class E>
+void add_figures(const std::vector<std::shared_ptr<E>>& encoders, StreamId stream,
+                 std::vector<EncoderFigures>& figures) {
+    for (const auto& e : encoders) {
+        const std::lock_guard lock(e->mutex);
+        figures.push_back({stream, e->setting.id, e->setting.codec, to_ms(e->cost.typical()),
+                           e->behind, e->left_out});
+    }
+}
+
 }  // namespace
+
+Duration thread_cpu_time() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return Duration(time.tv_sec * 1'000'000 + time.tv_nsec / 1000);
+}
+
+LaneEncoders::LaneEncoders(CameraId camera, Events events, Environment environment)
+    : camera_(camera), events_(std::move(events)), environment_([&] {
+          if (!environment.make_depth)
+              environment.make_depth = video::make_depth_encoder;
+          if (!environment.make_color)
+              environment.make_color = video::make_color_encoder;
+          return std::move(environment);
+      }()) {}
+
+LaneEncoders::~LaneEncoders() {
+    {
+        const std::lock_guard lock(behind_mutex_);
+        stopping_ = true;
+    }
+    wait_behind();
+}
+
+void LaneEncoders::wait_behind() {
+    std::unique_lock lock(behind_mutex_);
+    behind_done_.wait(lock, [&] { return behind_ == 0; });
+}
 
 void LaneEncoders::set_settings(const std::vector<LaneSetting>& depth,
                                 const std::vector<LaneSetting>& color, WantedKeys& keys) {
-    depth_ = updated(depth_, depth, depth_stream(camera_), keys, [](const LaneSetting& s) {
-        const auto parsed = video::parse_depth_setting(s.codec);
-        assert(parsed.problem.empty());
-        return Depth{s.id, std::uint8_t(parsed.setting.id),
-                     video::make_depth_encoder(parsed.setting)};
-    });
-    color_ = updated(color_, color, color_stream(camera_), keys, [](const LaneSetting& s) {
-        const auto parsed = video::parse_color_setting(s.codec);
-        assert(parsed.problem.empty());
-        return Color{s.id, std::uint8_t(parsed.setting.id),
-                     video::make_color_encoder(parsed.setting), 0};
-    });
+    const std::lock_guard lock(list_mutex_);
+    depth_ = updated(depth_, depth, depth_stream(camera_), keys,
+                     [](Depth& encoder, const std::string& codec) {
+                         const auto parsed = video::parse_depth_setting(codec);
+                         assert(parsed.problem.empty());
+                         encoder.parsed = parsed.setting;
+                         encoder.codec = std::uint8_t(parsed.setting.id);
+                     });
+    color_ = updated(color_, color, color_stream(camera_), keys,
+                     [](Color& encoder, const std::string& codec) {
+                         const auto parsed = video::parse_color_setting(codec);
+                         assert(parsed.problem.empty());
+                         encoder.parsed = parsed.setting;
+                         encoder.codec = std::uint8_t(parsed.setting.id);
+                     });
 }
 
 void LaneEncoders::set_region(const codec::strata::Region& region) {
-    for (Depth& setting : depth_)
-        setting.encoder.set_region(region);
+    for (const auto& encoder : depth_) {
+        const std::lock_guard lock(encoder->mutex);
+        encoder->new_region = region;
+    }
+}
+
+std::vector<EncoderFigures> LaneEncoders::figures() const {
+    std::vector<EncoderFigures> figures;
+    const std::lock_guard lock(list_mutex_);
+    add_figures(depth_, depth_stream(camera_), figures);
+    add_figures(color_, color_stream(camera_), figures);
+    return figures;
 }
 
 void LaneEncoders::publish(wire::MediaHeader& header, ByteView payload) {
     header.payload_size = std::uint32_t(payload.size());
-    header.encoded = now_();
+    header.encoded = environment_.now();
     const std::shared_ptr<Bytes> message = messages_.take();
     message->resize(wire::media_header_size);
     wire::write_media_header(header, message->data());
     message->insert(message->end(), payload.begin(), payload.end());
-    publish_({header, message});
+    events_.publish({header, message});
+}
+
+template <class E>
+void LaneEncoders::choose(const std::vector<std::shared_ptr<E>>& encoders,
+                          std::vector<std::size_t>& at_once) {
+    if (encoders.size() == 1) {
+        at_once.assign(1, 0);
+    } else {
+        std::vector<EncoderCost> costs;
+        std::vector<bool> was_at_once;
+        for (const auto& e : encoders) {
+            const std::lock_guard lock(e->mutex);
+            costs.push_back(e->cost);
+            was_at_once.push_back(e->at_once);
+        }
+        choose_at_once(costs, was_at_once, environment_.share, at_once);
+    }
+    for (std::size_t i = 0; i < encoders.size(); ++i)
+        encoders[i]->at_once = std::find(at_once.begin(), at_once.end(), i) != at_once.end();
+}
+
+std::optional<bool> LaneEncoders::begin(Encoder& encoder, bool key) {
+    std::unique_lock lock(encoder.mutex);
+    encoder.behind = !encoder.at_once;
+    const bool changed = encoder.keeping_up.on_picture(!encoder.busy);
+    std::optional<bool> result;
+    if (encoder.busy) {
+        encoder.key_asked = encoder.key_asked || key;
+        ++encoder.left_out;
+    } else {
+        encoder.busy = true;
+        result = key || encoder.key_due;
+        encoder.key_due = true;  // until it is encoded
+    }
+    const bool keeps_up = encoder.keeping_up.keeps_up();
+    const Duration cpu = encoder.cost.typical();
+    lock.unlock();
+    if (changed)
+        events_.keeps_up(encoder.setting.id, keeps_up, cpu);
+    return result;
+}
+
+void LaneEncoders::end(Encoder& encoder, bool done, Duration cpu, StreamId stream) {
+    bool asked;
+    {
+        const std::lock_guard lock(encoder.mutex);
+        encoder.busy = false;
+        encoder.cost.add(cpu);
+        asked = std::exchange(encoder.key_asked, false);
+        if (done)
+            encoder.key_due = asked;
+    }
+    if (asked)
+        events_.key_due(stream, encoder.setting.id);
+}
+
+bool LaneEncoders::encode(Depth& e, DepthView depth, wire::MediaHeader header, bool key) {
+    if (!e.encoder)
+        e.encoder = environment_.make_depth(e.parsed);
+    std::optional<codec::strata::Region> region;
+    {
+        const std::lock_guard lock(e.mutex);
+        region.swap(e.new_region);
+    }
+    if (region)
+        e.encoder->set_region(std::move(*region));
+    e.scratch.resize(std::max(e.scratch.size(), e.encoder->max_encoded_size(depth.size)));
+    const auto encoded = e.encoder->encode(depth, header.frame, key, e.scratch);
+    header.key = encoded.key;
+    header.reference = encoded.reference_frame;
+    header.temporal_layer = std::uint8_t(encoded.layer);
+    publish(header, ByteView(e.scratch).first(encoded.bytes));
+    return true;
+}
+
+bool LaneEncoders::encode(Color& e, const ColorData& color, wire::MediaHeader header, bool key) {
+    if (!e.encoder)
+        e.encoder = environment_.make_color(e.parsed);
+    const auto encoded = e.encoder->encode(color, key);
+    // A camera's damaged picture is left out; its depth is not. What follows must not refer to
+    // what an encoder may have kept of it.
+    if (!encoded)
+        return false;
+    header.key = encoded->key;
+    header.reference = encoded->key ? header.frame : e.encoded_last;
+    e.encoded_last = header.frame;
+    publish(header, encoded->bytes);
+    return true;
+}
+
+template <class E, class Picture>
+bool LaneEncoders::encode_and_end(E& encoder, const Picture& picture,
+                                  const wire::MediaHeader& header, bool key) {
+    // Also where it throws: the next picture is then a key frame.
+    struct End {
+        LaneEncoders& encoders;
+        E& encoder;
+        const StreamId stream;
+        const Duration began;
+        bool done = false;
+        ~End() { encoders.end(encoder, done, encoders.environment_.cpu_time() - began, stream); }
+    } end{*this, encoder, header.stream, environment_.cpu_time()};
+    end.done = encode(encoder, picture, header, key);
+    return end.done;
+}
+
+template <class E, class Keep, class Picture>
+void LaneEncoders::encode_behind(std::shared_ptr<E> encoder, Keep keep, Picture picture,
+                                 const wire::MediaHeader& header, bool key) {
+    {
+        const std::lock_guard lock(behind_mutex_);
+        ++behind_;
+    }
+    environment_.behind(
+        [this, encoder = std::move(encoder), keep = std::move(keep), picture, header, key] {
+            bool stopping;
+            {
+                const std::lock_guard lock(behind_mutex_);
+                stopping = stopping_;
+            }
+            if (!stopping) {
+                try {
+                    encode_and_end(*encoder, picture(*keep), header, key);
+                } catch (const std::exception&) {
+                    // Memory is exhausted or a library failed: this picture is missing, the next is
+                    // a key frame.
+                }
+            }
+            // Notified under the lock: the encoders may be gone as soon as none is behind.
+            const std::lock_guard lock(behind_mutex_);
+            --behind_;
+            behind_done_.notify_all();
+        });
 }
 
 void LaneEncoders::encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys) {
     header.stream = depth_stream(camera_);
-    for (Depth& setting : depth_) {
-        header.setting = setting.id;
-        header.codec = setting.codec;
-        scratch_.resize(std::max(scratch_.size(), setting.encoder.max_encoded_size(depth.size)));
-        const bool key = keys.contains({header.stream, setting.id});
-        const auto encoded = setting.encoder.encode(depth, header.frame, key, scratch_);
-        header.key = encoded.key;
-        header.reference = encoded.reference_frame;
-        header.temporal_layer = std::uint8_t(encoded.layer);
-        publish(header, ByteView(scratch_).first(encoded.bytes));
+    const auto begin_with = [&](Depth& encoder) {
+        header.setting = encoder.setting.id;
+        header.codec = encoder.codec;
+        return begin(encoder, keys.contains({header.stream, header.setting}));
+    };
+    choose(depth_, depth_at_once_);
+    for (const std::size_t i : depth_at_once_)
+        if (const auto key = begin_with(*depth_[i]))
+            encode_and_end(*depth_[i], depth, header, *key);
+    std::shared_ptr<DepthImage> copy;
+    for (const auto& encoder : depth_) {
+        if (encoder->at_once)
+            continue;
+        const auto key = begin_with(*encoder);
+        if (!key)
+            continue;
+        if (!copy) {
+            copy = depths_.take();
+            copy->resize(depth.size);
+            copy_pixels(depth, copy->view());
+        }
+        encode_behind(
+            encoder, std::shared_ptr<const DepthImage>(copy),
+            [](const DepthImage& image) { return image.view(); }, header, *key);
     }
 }
 
-int LaneEncoders::encode_color(const ColorData& color, wire::MediaHeader header,
+int LaneEncoders::encode_color(const FramePtr& frame, wire::MediaHeader header,
                                const WantedKeys& keys) {
     header.stream = color_stream(camera_);
+    const auto begin_with = [&](Color& encoder) {
+        header.setting = encoder.setting.id;
+        header.codec = encoder.codec;
+        return begin(encoder, keys.contains({header.stream, header.setting}));
+    };
     int damaged = 0;
-    for (Color& setting : color_) {
-        header.setting = setting.id;
-        header.codec = setting.codec;
-        const bool key = keys.contains({header.stream, setting.id});
-        const auto encoded = setting.encoder->encode(color, key);
-        // A camera's damaged picture is left out; its depth is not.
-        if (!encoded) {
-            ++damaged;
-            continue;
-        }
-        header.key = encoded->key;
-        header.reference = encoded->key ? header.frame : setting.encoded_last;
-        setting.encoded_last = header.frame;
-        publish(header, encoded->bytes);
-    }
+    choose(color_, color_at_once_);
+    for (const std::size_t i : color_at_once_)
+        if (const auto key = begin_with(*color_[i]))
+            damaged += !encode_and_end(*color_[i], frame->color, header, *key);
+    for (const auto& encoder : color_)
+        if (!encoder->at_once)
+            if (const auto key = begin_with(*encoder))
+                encode_behind(
+                    encoder, frame, [](const Frame& f) -> const ColorData& { return f.color; },
+                    header, *key);
     return damaged;
 }
 

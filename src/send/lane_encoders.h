@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The encoders of one lane: one for each distinct setting that somebody receives.
+//
+// A frame is encoded at once in the cheapest setting and in those that take no more than their
+// share (encoder_cost.h), and each is published as soon as it is done. The others follow behind,
+// each on a thread that nothing waits for; while one is busy, frames are left out of its stream
+// alone. Its chain stays whole, since an encoder knows only the frames that it encoded.
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +21,8 @@
 #include "codec/depth_stream.h"
 #include "codec/strata_region.h"
 #include "image/frame.h"
+#include "send/encoder_cost.h"
+#include "send/lane_figures.h"
 #include "video/color_codec.h"
 #include "wire/media_header.h"
 
@@ -33,14 +43,35 @@ struct LaneSetting {
 // Frames whose key was asked for.
 using WantedKeys = std::set<std::pair<StreamId, SettingId>>;
 
+// CPU time of the calling thread.
+Duration thread_cpu_time();
+
 // Depth and colour may be encoded at the same time, each by one thread.
 class LaneEncoders {
 public:
-    using Publish = std::function<void(EncodedMedia)>;
+    struct Events {
+        // From whichever thread encodes.
+        std::function<void(EncodedMedia)> publish;
+        // A key frame that was wanted while the encoder was busy is due: from a thread behind.
+        std::function<void(StreamId, SettingId)> key_due = [](StreamId, SettingId) {};
+        // The setting keeps up with the camera no longer, or does again; what a picture takes.
+        std::function<void(SettingId, bool keeps_up, Duration cpu)> keeps_up = [](SettingId, bool,
+                                                                                  Duration) {};
+    };
+    // What the encoders use of the world around; tests give their own.
+    struct Environment {
+        std::function<TimePoint()> now;  // when a message was encoded
+        std::function<Duration()> cpu_time = thread_cpu_time;
+        // Does work later, on another thread.
+        std::function<void(std::function<void()>)> behind;
+        Duration share{};  // see encoder_share()
+        std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
+        std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color;
+    };
 
-    // `now` tells when a message was encoded.
-    LaneEncoders(CameraId camera, Publish publish, std::function<TimePoint()> now)
-        : camera_(camera), publish_(std::move(publish)), now_(std::move(now)) {}
+    LaneEncoders(CameraId camera, Events events, Environment environment);
+    // Returns when nothing is encoded behind any more.
+    ~LaneEncoders();
 
     // Encoders of settings that stay go on; they know their reference frames. A new
     // one begins with a key frame, which is added to `keys`.
@@ -54,30 +85,77 @@ public:
 
     // `header` holds what is the same for all settings of the frame.
     void encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys);
-    // Returns how many settings could not encode it because it is damaged.
-    int encode_color(const ColorData& color, wire::MediaHeader header, const WantedKeys& keys);
+    // Of frame->color, which is not empty. Returns how many settings could not encode it at once
+    // because it is damaged.
+    int encode_color(const FramePtr& frame, wire::MediaHeader header, const WantedKeys& keys);
+
+    // Returns when nothing is encoded behind and nothing waits for that.
+    void wait_behind();
+
+    // From any thread.
+    std::vector<EncoderFigures> figures() const;
 
 private:
-    struct Depth {
-        SettingId id{};
+    // What depth and colour have in common. One thread at a time encodes; `mutex` guards the rest.
+    struct Encoder {
+        LaneSetting setting;
         std::uint8_t codec = 0;
-        codec::DepthStreamEncoder encoder;
+        bool at_once = true;  // only on the lane's thread
+
+        mutable std::mutex mutex;
+        bool busy = false;
+        bool key_due = true;     // the next picture must be a key frame
+        bool key_asked = false;  // while it was busy
+        bool behind = false;
+        EncoderCost cost;
+        KeepingUp keeping_up;
+        std::uint64_t left_out = 0;
     };
-    struct Color {
-        SettingId id{};
-        std::uint8_t codec = 0;
+    struct Depth : Encoder {
+        codec::DepthSetting parsed;
+        std::optional<codec::DepthStreamEncoder> encoder;  // made with the first picture
+        std::optional<codec::strata::Region> new_region;   // guarded by `mutex`
+        Bytes scratch;                                     // encoded here before the size is known
+    };
+    struct Color : Encoder {
+        video::ColorSetting parsed;
         std::unique_ptr<video::ColorEncoder> encoder;
         FrameNumber encoded_last = 0;
     };
+
+    // Chooses which encode the picture at once, into at_once.
+    template <class E>
+    void choose(const std::vector<std::shared_ptr<E>>& encoders, std::vector<std::size_t>& at_once);
+    // Whether the encoder takes the picture, and whether it must be a key frame. If it does,
+    // end() follows.
+    std::optional<bool> begin(Encoder& encoder, bool key);
+    void end(Encoder& encoder, bool done, Duration cpu, StreamId stream);
+    // As one of a pair of begin() and end(); false if it could not be encoded.
+    bool encode(Depth& encoder, DepthView depth, wire::MediaHeader header, bool key);
+    bool encode(Color& encoder, const ColorData& color, wire::MediaHeader header, bool key);
+    // Encodes, with end(), whatever happens.
+    template <class E, class Picture>
+    bool encode_and_end(E& encoder, const Picture& picture, const wire::MediaHeader& header,
+                        bool key);
+    template <class E, class Keep, class Picture>
+    void encode_behind(std::shared_ptr<E> encoder, Keep keep, Picture picture,
+                       const wire::MediaHeader& header, bool key);
     void publish(wire::MediaHeader& header, ByteView payload);
 
     const CameraId camera_;
-    const Publish publish_;
-    const std::function<TimePoint()> now_;
-    std::vector<Depth> depth_;
-    std::vector<Color> color_;
-    Bytes scratch_;  // depth is encoded here before its size is known
+    const Events events_;
+    const Environment environment_;
+    mutable std::mutex list_mutex_;  // guards changes of both lists and reading them elsewhere
+    std::vector<std::shared_ptr<Depth>> depth_;
+    std::vector<std::shared_ptr<Color>> color_;
+    std::vector<std::size_t> depth_at_once_, color_at_once_;
+    Pool<DepthImage> depths_;  // for those behind
     Pool<Bytes> messages_;
+
+    std::mutex behind_mutex_;
+    std::condition_variable behind_done_;
+    int behind_ = 0;  // pictures given to threads behind
+    bool stopping_ = false;
 };
 
 }  // namespace theatron::send

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ids.h"
 #include "base/statistics.h"
 #include "capture/watched_camera.h"
 
@@ -33,6 +34,16 @@ enum class DropReason : std::uint8_t {
 inline constexpr int drop_reasons = 4;
 const char* text_of(DropReason reason);
 
+// How one setting is encoded.
+struct EncoderFigures {
+    StreamId stream{};
+    SettingId setting{};
+    std::string codec;
+    double cpu_ms = 0;           // of a picture
+    bool behind = false;         // not at once with each frame: see send/lane_encoders.h
+    std::uint64_t left_out = 0;  // pictures that came while it was busy
+};
+
 struct LaneFigures {
     std::string name;
     double frames_per_second = 0;
@@ -51,6 +62,7 @@ struct LaneFigures {
     double sync_offset_seconds = 0;  // of the newest frame to its moment
     capture::WatchedCamera::Status camera;
     std::string filter;  // which ran, empty: none
+    std::vector<EncoderFigures> encoders;
 };
 
 // Gathers them. Thread safe.
@@ -66,7 +78,7 @@ public:
     void on_filter(const std::string& spelling);
     std::string filter() const;
 
-    // Fills in all but name and camera.
+    // Fills in all but name, camera and encoders.
     LaneFigures figures(TimePoint now) const;
 
 private:

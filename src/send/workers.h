@@ -3,6 +3,7 @@
 // however many cameras there are, and one that looks after time.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <functional>
@@ -16,6 +17,7 @@
 #include <tbb/task_scheduler_observer.h>
 
 #include "base/time.h"
+#include "send/background.h"
 
 namespace theatron::send {
 
@@ -36,6 +38,9 @@ public:
             work();
         });
     }
+
+    // Does `work` later, behind everything else, on threads of their own. It throws nothing.
+    void enqueue_behind(std::function<void()> work) { background_.enqueue(std::move(work)); }
 
     // From within work: does both, on two threads if one is idle. Nothing else is
     // begun meanwhile, so that what is nearly done is done first. While other work
@@ -72,6 +77,7 @@ private:
     tbb::global_control limit_;
     tbb::task_arena arena_;
     Names names_{arena_};
+    Background background_{std::max(1, threads_ / 2)};
 
     std::mutex mutex_;  // guards all below; held while somebody looks
     std::condition_variable changed_;

@@ -10,16 +10,37 @@ namespace {
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
+RequestBudget::Kind kind_of(const wire::Control& message) {
+    using Kind = RequestBudget::Kind;
+    if (std::holds_alternative<wire::ChooseCodecs>(message))
+        return Kind::codecs;
+    if (std::holds_alternative<wire::ChooseDelivery>(message))
+        return Kind::delivery;
+    if (std::holds_alternative<wire::RequestKey>(message))
+        return Kind::key;
+    if (std::holds_alternative<wire::Ping>(message))
+        return Kind::ping;
+    if (std::holds_alternative<wire::Report>(message))
+        return Kind::report;
+    if (std::holds_alternative<wire::Received>(message))
+        return Kind::received;
+    return Kind::other;
+}
+
 std::string shown_name(const std::string& name) {
     return name.find_first_not_of(' ') == std::string::npos ? "guest" : name;
 }
 
 }  // namespace
 
-HostSession::HostSession(Config config) : config_(std::move(config)) {}
+HostSession::HostSession(Config config)
+    : config_(std::move(config)),
+      depth_(numbers_, config_.usual_depth),
+      color_(numbers_, config_.usual_color) {}
 
-void HostSession::on_connected(ParticipantId participant, TimePoint now) {
-    participants_[participant].connected = now;
+void HostSession::on_connected(ParticipantId id, TimePoint now) {
+    const auto found = participants_.try_emplace(id, 2 * config_.cameras.size()).first;
+    found->second.connected = now;
 }
 
 void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
@@ -28,37 +49,81 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         return;
     Participant& participant = found->second;
 
-    const auto message = wire::decode_control(bytes);
-    if (!message) {
-        // A newer participant may say things that this host need not understand.
-        if (message.error() != Status::unsupported)
-            refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
-        return;
+    auto message = wire::decode_control(bytes);
+    // A newer participant may say things that this host need not understand.
+    if (!message && message.error() != Status::unsupported)
+        return refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
+    if (message && !participant.joined) {
+        const auto* hello = std::get_if<wire::Join>(&*message);
+        return hello ? join(id, *hello) : refuse(id, "Join first.");
     }
-    if (const auto* hello = std::get_if<wire::Join>(&*message)) {
-        if (!participant.joined)
-            join(id, *hello);
-        return;
+    switch (participant.budget.ask(message ? kind_of(*message) : RequestBudget::Kind::other, now)) {
+        case RequestBudget::Answer::granted:
+            if (message)
+                carry_out(id, *message, now);
+            break;
+        case RequestBudget::Answer::too_often:
+            if (message)
+                keep_for_later(participant, std::move(*message));
+            break;
+        case RequestBudget::Answer::flood:
+            refuse(id, "There were far more requests than a host answers.");
+            break;
     }
-    if (!participant.joined)
-        return refuse(id, "Join first.");
+}
 
-    if (const auto* wish = std::get_if<wire::ChooseCodecs>(&*message)) {
+// A request of a participant who has joined.
+void HostSession::carry_out(ParticipantId id, const wire::Control& message, TimePoint now) {
+    const Participant& participant = participants_.at(id);
+    if (const auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
         choose(id, wish->depth_codec, wish->color_codec);
-    } else if (const auto* lost = std::get_if<wire::RequestKey>(&*message)) {
-        const bool own = lost->setting == participant.depth_setting ||
-                         lost->setting == participant.color_setting;
+    } else if (const auto* lost = std::get_if<wire::RequestKey>(&message)) {
+        const bool own = lost->setting == (is_depth(lost->stream) ? participant.depth_setting
+                                                                  : participant.color_setting);
         if (own && std::size_t(camera_of(lost->stream)) < config_.cameras.size())
             key_requests_.request({lost->stream, lost->setting});
-    } else if (const auto* ping = std::get_if<wire::Ping>(&*message)) {
+    } else if (const auto* ping = std::get_if<wire::Ping>(&message)) {
         send(id, wire::Pong{ping->sent, now, now});
-    } else if (const auto* report = std::get_if<wire::Report>(&*message)) {
+    } else if (const auto* report = std::get_if<wire::Report>(&message)) {
         note_report(id, *report, now);
-    } else if (const auto* received = std::get_if<wire::Received>(&*message)) {
-        actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, received->media_bytes});
-    } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&*message)) {
+    } else if (const auto* received = std::get_if<wire::Received>(&message)) {
+        acknowledge(id, *received);
+    } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&message)) {
         set_goal(id, *goal);
     }
+}
+
+// Of wishes the last counts, of word of media the newest; all else is asked for or said again.
+void HostSession::keep_for_later(Participant& participant, wire::Control message) {
+    if (auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
+        wire::ChooseCodecs& late =
+            participant.late_codecs ? *participant.late_codecs : participant.late_codecs.emplace();
+        if (!wish->depth_codec.empty())
+            late.depth_codec = std::move(wish->depth_codec);
+        if (!wish->color_codec.empty())
+            late.color_codec = std::move(wish->color_codec);
+    } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&message)) {
+        participant.late_goal = *goal;
+    } else if (const auto* word = std::get_if<wire::Received>(&message)) {
+        participant.late_word = *word;
+    }
+}
+
+void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
+    using Kind = RequestBudget::Kind;
+    RequestBudget& budget = participant.budget;
+    if (participant.late_codecs && budget.grant_later(Kind::codecs, now)) {
+        const auto wish = *std::exchange(participant.late_codecs, std::nullopt);
+        choose(id, wish.depth_codec, wish.color_codec);
+    }
+    if (participant.late_goal && budget.grant_later(Kind::delivery, now))
+        set_goal(id, *std::exchange(participant.late_goal, std::nullopt));
+    if (participant.late_word && budget.grant_later(Kind::received, now))
+        acknowledge(id, *std::exchange(participant.late_word, std::nullopt));
+}
+
+void HostSession::acknowledge(ParticipantId id, const wire::Received& word) {
+    actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, word.media_bytes});
 }
 
 void HostSession::join(ParticipantId id, const wire::Join& hello) {
@@ -85,7 +150,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
                       "This session is recorded " + std::to_string(max_recorders) +
                           " times already, which is as often as can be; end another recording.");
 
-    Participant& participant = participants_[id];
+    Participant& participant = participants_.at(id);
     participant.joined = true;
     participant.records = hello.records;
     participant.name = shown_name(hello.name);
@@ -103,7 +168,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
 }
 
 void HostSession::note_report(ParticipantId id, const wire::Report& report, TimePoint now) {
-    Participant& participant = participants_[id];
+    Participant& participant = participants_.at(id);
     participant.report = report.streams;
     std::string renderer = report.renderer;
     // Reports repeat it; who changes it all the time must not fill the log.
@@ -116,7 +181,7 @@ void HostSession::note_report(ParticipantId id, const wire::Report& report, Time
 
 // Says what holds for this one, if anything was ever said.
 void HostSession::tell_renderer(ParticipantId id) {
-    const Participant& participant = participants_[id];
+    const Participant& participant = participants_.at(id);
     const auto named = renderer_words_.find(participant.name);
     if (participant.renderer_word)
         send(id, *participant.renderer_word);
@@ -154,7 +219,7 @@ void HostSession::set_renderer(const std::string& name, const wire::SetRenderer&
 }
 
 void HostSession::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
-    participants_[id].delivery.set_goal(goal);
+    participants_.at(id).delivery.set_goal(goal);
     actions_.push_back({Action::Kind::set_ceiling, id, {}, {}, {}, goal.max_kbit_per_s * 125ull});
 }
 
@@ -176,7 +241,7 @@ void HostSession::choose(ParticipantId id, const std::string& depth, const std::
 
 // Notes what the participant asks for; an empty text keeps its codec.
 void HostSession::wish(ParticipantId id, const std::string& depth, const std::string& color) {
-    Participant& participant = participants_[id];
+    Participant& participant = participants_.at(id);
     if (!depth.empty()) {
         participant.asked_depth = depth;
         depth_.wish(id, depth);
@@ -194,8 +259,8 @@ void HostSession::wish(ParticipantId id, const std::string& depth, const std::st
 
 // Makes the ladder of what the participant wishes.
 void HostSession::set_wish(ParticipantId id) {
-    participants_[id].delivery.set_wish(depth_.wished(id), color_.wished(id), config_.steps,
-                                        region_is_drawn_);
+    participants_.at(id).delivery.set_wish(depth_.wished(id), color_.wished(id), config_.steps,
+                                           region_is_drawn_);
 }
 
 void HostSession::on_region(bool is_drawn) {
@@ -213,7 +278,7 @@ void HostSession::on_region(bool is_drawn) {
 
 // Asks for the encodings of the participant's step.
 void HostSession::take_step(ParticipantId id) {
-    const LadderStep& step = participants_[id].delivery.step();
+    const LadderStep& step = participants_.at(id).delivery.step();
     depth_.stopgap(id, step.depth_codec);
     color_.stopgap(id, step.color_codec);
     apply_settings();
@@ -228,7 +293,7 @@ std::string HostSession::check(const CheckCodec& check, const std::string& text,
 
 void HostSession::refuse(ParticipantId id, std::string reason) {
     send(id, wire::Refused{reason});
-    participants_[id].closing = true;
+    participants_.at(id).closing = true;
     actions_.push_back({Action::Kind::close, id, {}, std::move(reason), {}, 0});
 }
 
@@ -242,6 +307,8 @@ void HostSession::apply_settings() {
                 table.active().end()) {
                 key_requests_.forget(old.id);
                 rates_.forget(old.id);
+                made_in_.erase(old.id);
+                std::erase_if(slow_, [&](const auto& entry) { return entry.second == old.id; });
                 std::erase_if(newest_depth_,
                               [&](const auto& entry) { return entry.first.second == old.id; });
             }
@@ -300,6 +367,43 @@ void HostSession::on_camera(const wire::CameraState& state) {
             send(id, state);
 }
 
+void HostSession::on_encoding(CameraId camera, SettingId setting, bool keeps_up,
+                              double ms_per_picture) {
+    const auto is_slow = [&] {
+        return std::any_of(slow_.begin(), slow_.end(),
+                           [&](const auto& entry) { return entry.second == setting; });
+    };
+    const auto active = [&](const SettingTable& table) {
+        const auto found = std::find_if(table.active().begin(), table.active().end(),
+                                        [&](const ActiveSetting& s) { return s.id == setting; });
+        return found == table.active().end() ? nullptr : &*found;
+    };
+    const ActiveSetting* depth = active(depth_);
+    const ActiveSetting* color = active(color_);
+    if (!depth && !color)
+        return;  // it has been left meanwhile
+    const bool was_slow = is_slow();
+    if (keeps_up)
+        slow_.erase({camera, setting});
+    else
+        slow_.insert({camera, setting});
+    if (is_slow() == was_slow)
+        return;
+    if (!was_slow) {
+        const std::string note =
+            "Encoding " + (depth ? depth : color)->codec + " takes " +
+            std::to_string(int(ms_per_picture + 0.5)) +
+            " ms a picture here, more than its share, so you get fewer pictures than the cameras "
+            "take; another codec would be faster.";
+        for (const auto& [id, participant] : participants_)
+            if (participant.takes_part() &&
+                (participant.depth_setting == setting || participant.color_setting == setting))
+                send(id, wire::Settings{{}, note});
+    }
+    (depth ? depth_ : color_).set_slow(setting, !was_slow);
+    apply_settings();
+}
+
 void HostSession::on_broken_stream(StreamId stream, SettingId setting) {
     key_requests_.request({stream, setting});
 }
@@ -311,13 +415,23 @@ double HostSession::frames_per_second() const {
     return fastest;
 }
 
+// Of depth and colour the longer. Settings are measured apart: one that is encoded slowly makes
+// nobody else's frames late.
+Duration HostSession::made_in(const Participant& participant) const {
+    Duration longest{};
+    for (const SettingId setting : {participant.depth_setting, participant.color_setting})
+        if (const auto found = made_in_.find(setting); found != made_in_.end())
+            longest = std::max(longest, found->second);
+    return longest;
+}
+
 void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
     const auto found = participants_.find(id);
     if (found == participants_.end() || !found->second.takes_part())
         return;
     Delivery& delivery = found->second.delivery;
     const Delivery::Given given{depth_.given(id), color_.given(id), frames_per_second()};
-    if (!delivery.update(link, given, rates_, made_in_, now))
+    if (!delivery.update(link, given, rates_, made_in(found->second), now))
         return;
     const wire::Delivery message = delivery.message(link.delay);
     actions_.push_back(
@@ -346,16 +460,18 @@ bool HostSession::is_chain(SettingId id) const {
 
 std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
                                                  TimePoint now) {
+    const auto& active = (is_depth(header.stream) ? depth_ : color_).active();
+    const auto setting = std::find_if(active.begin(), active.end(),
+                                      [&](const auto& s) { return s.id == header.setting; });
+    if (setting == active.end())
+        return {};
     // A frame that is sent again, or of a camera that lags, says nothing about encoding.
     const Duration age = std::clamp(now - header.captured, Duration(0), longest_made_in);
-    made_in_ += (age - made_in_) / 16;
+    Duration& made_in = made_in_[header.setting];
+    made_in += (age - made_in) / 16;
 
     int layer = std::min(int(header.temporal_layer), served_layers - 1);
     if (is_depth(header.stream)) {
-        const auto setting = std::find_if(depth_.active().begin(), depth_.active().end(),
-                                          [&](const auto& s) { return s.id == header.setting; });
-        if (setting == depth_.active().end())
-            return {};
         if (config_.steps.layered && config_.steps.layered(setting->codec).independent)
             layer = layer_by_number(header.frame);
         newest_depth_[{camera_of(header.stream), header.setting}] = {header.frame, layer};
@@ -366,7 +482,7 @@ std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header
     if (!is_depth(header.stream) && is_chain(header.setting))
         return result;
     std::erase_if(result, [&](ParticipantId id) {
-        Participant& participant = participants_[id];
+        Participant& participant = participants_.at(id);
         return !participant.records &&
                !participant.delivery.lets_through(header.stream, layer_for(participant, header));
     });
@@ -374,10 +490,13 @@ std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header
 }
 
 void HostSession::on_tick(TimePoint now) {
-    for (auto& [id, participant] : participants_)
+    for (auto& [id, participant] : participants_) {
         if (!participant.joined && !participant.closing &&
             now - participant.connected > join_deadline)
             refuse(id, "No join came in time.");
+        if (participant.takes_part())
+            carry_out_late(id, participant, now);
+    }
     for (const KeyRequests::Key& key : key_requests_.take(now))
         actions_.push_back({Action::Kind::request_key, {}, {}, {}, key, 0});
 }

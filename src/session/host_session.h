@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "base/time.h"
 #include "session/delivery.h"
 #include "session/key_requests.h"
+#include "session/request_budget.h"
 #include "session/setting_table.h"
 #include "session/stream_rates.h"
 #include "wire/control.h"
@@ -38,6 +40,8 @@ public:
         // Compares secrets in constant time; given, because this module has no crypto.
         std::function<bool(std::string_view, std::string_view)> equal_secrets;
         CodecSteps steps;  // how to send less
+        // In their one spelling; others cannot take their places (SettingTable). Empty: none.
+        std::string usual_depth, usual_color;
     };
 
     // What the session wants done, in order.
@@ -64,6 +68,8 @@ public:
     };
 
     explicit HostSession(Config config);
+    HostSession(const HostSession&) = delete;
+    HostSession& operator=(const HostSession&) = delete;
 
     // Connections that have not joined by then are closed.
     static constexpr Duration join_deadline = std::chrono::seconds(5);
@@ -83,6 +89,9 @@ public:
     void set_renderer(ParticipantId participant, const wire::SetRenderer& word);
     // How those with this name should draw, now and when they join again.
     void set_renderer(const std::string& name, const wire::SetRenderer& word);
+    // Encoding one camera in this setting keeps up with it no longer, or does again: it takes
+    // `ms_per_picture` of a core. Those who get the setting are told.
+    void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture);
     // A frame could not be sent: this participant's stream needs a key frame.
     void on_broken_stream(StreamId stream, SettingId setting);
     // Ten times a second for each participant.
@@ -106,6 +115,9 @@ public:
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
 
     struct Participant {
+        // `streams`: how many the host has.
+        explicit Participant(std::size_t streams) : budget(streams) {}
+
         bool joined = false;
         bool closing = false;
         bool takes_part() const { return joined && !closing; }
@@ -119,11 +131,21 @@ public:
         TimePoint renderer_noted;                        // when that was last believed
         std::optional<wire::SetRenderer> renderer_word;  // said to this one alone
         Delivery delivery;
+        RequestBudget budget;
+        // The newest of what was asked for too often; carried out as soon as it may be.
+        std::optional<wire::ChooseCodecs> late_codecs;
+        std::optional<wire::ChooseDelivery> late_goal;
+        std::optional<wire::Received> late_word;
     };
     const std::map<ParticipantId, Participant>& participants() const { return participants_; }
 
 private:
     void join(ParticipantId id, const wire::Join& message);
+    void carry_out(ParticipantId id, const wire::Control& message, TimePoint now);
+    void keep_for_later(Participant& participant, wire::Control message);
+    void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
+    void acknowledge(ParticipantId id, const wire::Received& word);
+    Duration made_in(const Participant& participant) const;
     void choose(ParticipantId id, const std::string& depth, const std::string& color);
     void set_goal(ParticipantId id, const wire::ChooseDelivery& goal);
     void wish(ParticipantId id, const std::string& depth, const std::string& color);
@@ -145,11 +167,13 @@ private:
     bool region_is_drawn_ = false;
     std::optional<wire::SetRenderer> renderer_word_;           // to all
     std::map<std::string, wire::SetRenderer> renderer_words_;  // to those with a name
-    SettingTable depth_{SettingId{1}}, color_{SettingId{0x8001}};
+    SettingNumbers numbers_;
+    SettingTable depth_, color_;
+    std::set<std::pair<CameraId, SettingId>> slow_;
     std::vector<ActiveSetting> announced_depth_, announced_color_;
     KeyRequests key_requests_;
     StreamRates rates_;
-    Duration made_in_{};  // from exposure to encoded, about
+    std::map<SettingId, Duration> made_in_;  // from exposure to encoded, about
     struct NewestDepth {
         FrameNumber frame = 0;
         int layer = 0;

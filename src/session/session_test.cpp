@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "geometry/calibration.h"
 #include "session/host_session.h"
 #include "session/renderer_choice.h"
 #include "session/viewer_session.h"
@@ -13,7 +14,8 @@ namespace {
 constexpr ParticipantId alice{1}, bob{2}, carol{3}, dave{4};
 
 TEST(SettingTable, OneSettingPerDistinctWish) {
-    SettingTable table(SettingId{1});
+    SettingNumbers numbers;
+    SettingTable table(numbers);
     table.wish(alice, "trvl");
     table.wish(bob, "trvl");
     EXPECT_EQ(table.active().size(), 1u);
@@ -24,7 +26,8 @@ TEST(SettingTable, OneSettingPerDistinctWish) {
 }
 
 TEST(SettingTable, BeyondThreeTheNearestIsGivenUntilAPlaceIsFree) {
-    SettingTable table(SettingId{1});
+    SettingNumbers numbers;
+    SettingTable table(numbers);
     table.wish(alice, "trvl");
     table.wish(bob, "zstd");
     table.wish(carol, "raw");
@@ -37,13 +40,58 @@ TEST(SettingTable, BeyondThreeTheNearestIsGivenUntilAPlaceIsFree) {
     EXPECT_EQ(table.given(dave).codec, "lz4");
 }
 
-TEST(SettingTable, NumbersAreNotReused) {
-    SettingTable table(SettingId{1});
-    table.wish(alice, "trvl");
-    const SettingId first = table.given(alice).id;
-    table.wish(alice, "rvl");
-    table.wish(alice, "trvl");
-    EXPECT_NE(table.given(alice).id, first);
+TEST(SettingTable, NobodyTakesThePlaceOfTheUsualSetting) {
+    SettingNumbers numbers;
+    SettingTable table(numbers, "strata");
+    table.wish(alice, "zstd:level=19");
+    table.wish(bob, "ans");
+    table.wish(carol, "raw");
+    EXPECT_EQ(table.active().size(), SettingTable::max_active) << "nobody gets the usual one yet";
+    table.wish(dave, "strata");
+    EXPECT_EQ(table.given(dave).codec, "strata");
+    EXPECT_EQ(table.active().size(), SettingTable::max_active + 1);
+    table.wish(dave, "lz4");
+    EXPECT_EQ(table.given(dave).codec, "strata") << "nothing is nearer";
+    table.wish(dave, "zstd:level=1");
+    EXPECT_EQ(table.given(dave).codec, "zstd:level=19") << "the same codec is nearer";
+    table.set_slow(table.given(alice).id, true);
+    EXPECT_EQ(table.given(dave).codec, "strata") << "but not if it is slow";
+    EXPECT_EQ(table.given(alice).codec, "zstd:level=19") << "who wants it gets it";
+    table.leave(dave);
+    EXPECT_EQ(table.active().size(), SettingTable::max_active);
+}
+
+// Numbers are 16 bits wide in the media header and in recordings.
+TEST(SettingTable, NumbersInUseAreGivenToNothingElseHoweverManyThereWere) {
+    SettingNumbers numbers;
+    SettingTable depth(numbers, "strata"), color(numbers, "jpeg");
+    depth.wish(alice, "strata");
+    color.wish(alice, "jpeg");
+    const ActiveSetting usual_depth = depth.given(alice), usual_color = color.given(alice);
+    SettingId before{};
+    for (int i = 0; i < 200'000; ++i) {
+        depth.wish(bob, i % 2 ? "rvl" : "lz4");
+        if (i % 3 == 0)
+            color.wish(bob, i % 2 ? "raw" : "h264");
+        const std::set<SettingId> given{depth.given(alice).id, color.given(alice).id,
+                                        depth.given(bob).id, color.given(bob).id};
+        ASSERT_EQ(given.size(), 4u) << i;
+        ASSERT_FALSE(given.contains(SettingId{0})) << i;
+        ASSERT_NE(depth.given(bob).id, before) << i;
+        before = depth.given(bob).id;
+    }
+    EXPECT_EQ(depth.given(alice), usual_depth);
+    EXPECT_EQ(color.given(alice), usual_color);
+}
+
+TEST(SettingNumbers, ANumberComesAgainOnlyAfterAllOthers) {
+    SettingNumbers numbers;
+    const SettingId first = numbers.take();
+    numbers.give_back(first);
+    std::size_t others = 0;
+    for (SettingId next = numbers.take(); next != first; next = numbers.take(), ++others)
+        numbers.give_back(next);
+    EXPECT_EQ(others, SettingNumbers::how_many - 1);
 }
 
 TEST(KeyRequests, AreCoalescedAndNeverLost) {
@@ -67,7 +115,12 @@ protected:
                              : HostSession::CheckedCodec{text, ""};
     }
     static HostSession::Config config() {
+        Calibration calibration;
+        calibration.depth.size = calibration.color.size = {64, 48};
+        calibration.depth.fx = calibration.depth.fy = 60;
+        calibration.color.fx = calibration.color.fy = 60;
         wire::Camera camera;
+        camera.calibration = encode_calibration(calibration);
         camera.depth_stream = depth_stream(CameraId{0});
         camera.color_stream = color_stream(CameraId{0});
         camera.has_color = true;
@@ -100,6 +153,12 @@ protected:
                 if (const auto* m = std::get_if<T>(&a.message))
                     result.push_back(*m);
         return result;
+    }
+    static std::uint64_t bytes_of(HostSession::Action::Kind kind,
+                                  const std::vector<HostSession::Action>& actions) {
+        const auto found = std::find_if(actions.begin(), actions.end(),
+                                        [&](const auto& a) { return a.kind == kind; });
+        return found == actions.end() ? 0 : found->bytes;
     }
     static int count(const std::vector<HostSession::Action>& actions,
                      HostSession::Action::Kind kind) {
@@ -355,6 +414,126 @@ TEST_F(Host, FramesWaitOnlyWhileAllAreBehindWhoDoNotAdapt) {
     EXPECT_FALSE(all_wait()) << "bob is sent less instead";
     session.on_closed(bob);
     EXPECT_TRUE(all_wait());
+}
+
+TEST_F(Host, OfTooManyCodecChangesTheLastWishWins) {
+    join(alice);
+    session.take_actions();
+    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::codecs)];
+    for (int i = 0; i < 3 * limit.at_once; ++i)
+        say(alice, wire::ChooseCodecs{i % 2 ? "rvl" : "lz4", ""});
+    say(alice, wire::ChooseCodecs{"ans", ""});
+    say(alice, wire::ChooseCodecs{"", "raw"});
+    auto actions = session.take_actions();
+    EXPECT_EQ(count(actions, Kind::change_settings), limit.at_once);
+    EXPECT_EQ(count(actions, Kind::close), 0);
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::change_settings), 0) << "it is not yet time";
+    now += 2s;
+    session.on_tick(now);
+    EXPECT_EQ(session.depth_settings()[0].codec, "ans");
+    EXPECT_EQ(session.color_settings()[0].codec, "raw");
+    EXPECT_EQ(sent<wire::Settings>(alice, session.take_actions()).size(), 1u) << "none was queued";
+    now += 60s;
+    session.on_tick(now);
+    EXPECT_EQ(count(session.take_actions(), Kind::change_settings), 0);
+}
+
+TEST_F(Host, AFloodOfRequestsEndsTheConnectionWithAReason) {
+    join(alice);
+    join(bob);
+    session.take_actions();
+    int said = 0;
+    while (session.participants().at(alice).takes_part() && said < 70'000) {
+        say(alice, wire::ChooseCodecs{said % 2 ? "rvl" : "lz4", ""});
+        ++said;
+    }
+    EXPECT_LE(said, RequestBudget::patience.at_once + 10);
+    const auto actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("requests"), std::string::npos);
+    EXPECT_EQ(count(actions, Kind::close), 1);
+    EXPECT_TRUE(session.participants().at(bob).takes_part());
+    EXPECT_EQ(session.participants().at(alice).budget.refused(),
+              std::uint64_t(RequestBudget::patience.at_once) + 1);
+}
+
+TEST_F(Host, PingsKeysReportsAndGoalsBeyondTheirLimitsAreNotAnswered) {
+    join(alice);
+    session.take_actions();
+    using Asked = RequestBudget::Kind;
+    const auto at_once = [](Asked kind) {
+        return int(RequestBudget::limits[std::size_t(kind)].at_once);
+    };
+    for (int i = 0; i < 300; ++i)
+        say(alice, wire::Ping{from_us(i)});
+    EXPECT_EQ(int(sent<wire::Pong>(alice, session.take_actions()).size()), at_once(Asked::ping));
+    for (int i = 0; i < 100; ++i)
+        say(alice, wire::ChooseDelivery{0, std::uint32_t(1000 + i)});
+    EXPECT_EQ(count(session.take_actions(), Kind::set_ceiling), at_once(Asked::delivery));
+    now += 1s;
+    session.on_tick(now);
+    const auto actions = session.take_actions();
+    ASSERT_EQ(count(actions, Kind::set_ceiling), 1);
+    EXPECT_EQ(bytes_of(Kind::set_ceiling, actions), 1099u * 125) << "the last one counts";
+}
+
+// Flow control waits for the newest word.
+TEST_F(Host, WordOfMediaIsNeverLostHoweverOftenItComes) {
+    join(alice);
+    session.take_actions();
+    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::received)];
+    const int words = int(limit.at_once) + 100;
+    for (int i = 1; i <= words; ++i)
+        say(alice, wire::Received{std::uint64_t(i)});
+    EXPECT_EQ(count(session.take_actions(), Kind::acknowledged), limit.at_once);
+    now += 100ms;
+    session.on_tick(now);
+    const auto actions = session.take_actions();
+    ASSERT_EQ(count(actions, Kind::acknowledged), 1);
+    EXPECT_EQ(bytes_of(Kind::acknowledged, actions), std::uint64_t(words));
+}
+
+TEST_F(Host, ASettingThatCannotKeepUpIsToldToThoseWhoGetIt) {
+    join(alice, "trvl");
+    join(bob, "zstd:level=19");
+    session.take_actions();
+    const SettingId slow = session.depth_settings()[1].id;
+    session.on_encoding(CameraId{0}, slow, false, 151.6);
+    auto actions = session.take_actions();
+    EXPECT_TRUE(sent<wire::Settings>(alice, actions).empty());
+    ASSERT_EQ(sent<wire::Settings>(bob, actions).size(), 1u);
+    const auto told = sent<wire::Settings>(bob, actions)[0];
+    EXPECT_TRUE(told.settings.empty());
+    EXPECT_EQ(told.note.find("Encoding zstd:level=19 takes 152 ms"), 0u) << told.note;
+    session.on_encoding(CameraId{0}, slow, false, 160);
+    EXPECT_TRUE(session.take_actions().empty()) << "once is enough";
+    session.on_encoding(CameraId{0}, SettingId{999}, false, 160);
+    EXPECT_TRUE(session.take_actions().empty()) << "it is of the past";
+}
+
+TEST_F(Host, ASlowSettingMakesNobodyElsesFramesLate) {
+    join(alice, "trvl");
+    join(bob, "zstd:level=19");
+    for (const ParticipantId id : {alice, bob})
+        say(id, wire::ChooseDelivery{60, 0});
+    session.take_actions();
+    for (int i = 0; i < 300; ++i, now += 33ms) {
+        wire::MediaHeader h;
+        h.frame = FrameNumber(i);
+        h.setting = session.depth_settings()[0].id;
+        h.captured = now - 5ms;
+        (void)session.on_media(h, 1000, now);
+        h.setting = session.depth_settings()[1].id;
+        h.captured = now - 200ms;
+        (void)session.on_media(h, 1000, now);
+        for (const ParticipantId id : {alice, bob})
+            session.on_link(id, {1e7, 2ms, 20ms, 0}, now);
+    }
+    int alice_stepped = 0;
+    for (const auto& a : session.take_actions())
+        alice_stepped += a.kind == Kind::stepped && a.participant == alice;
+    EXPECT_EQ(alice_stepped, 0);
 }
 
 TEST(RendererChoice, TheLastWordHoldsUnlessTheHostLocksIt) {

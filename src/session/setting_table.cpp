@@ -34,9 +34,38 @@ void SettingTable::pin(ParticipantId participant) {
     wish(participant, given(participant).codec);
 }
 
+void SettingTable::set_slow(SettingId setting, bool is_slow) {
+    if (is_slow)
+        slow_.insert(setting);
+    else
+        slow_.erase(setting);
+    update();
+}
+
+const ActiveSetting* SettingTable::find(const std::string& codec) const {
+    const auto found = std::find_if(active_.begin(), active_.end(),
+                                    [&](const ActiveSetting& s) { return s.codec == codec; });
+    return found == active_.end() ? nullptr : &*found;
+}
+
 bool SettingTable::is_active(const std::string& codec) const {
-    return std::any_of(active_.begin(), active_.end(),
-                       [&](const ActiveSetting& s) { return s.codec == codec; });
+    return find(codec) != nullptr;
+}
+
+bool SettingTable::has_place(const std::string& codec) const {
+    const auto others = std::count_if(active_.begin(), active_.end(),
+                                      [&](const ActiveSetting& s) { return s.codec != usual_; });
+    return codec == usual_ || std::size_t(others) < max_active;
+}
+
+void SettingTable::add(const std::string& codec) {
+    active_.push_back({numbers_.take(), codec});
+}
+
+void SettingTable::remove(Active::iterator setting) {
+    numbers_.give_back(setting->id);
+    slow_.erase(setting->id);
+    active_.erase(setting);
 }
 
 void SettingTable::update() {
@@ -45,45 +74,68 @@ void SettingTable::update() {
             return entry.second.now() == codec && (!by_wish_only || entry.second.stopgap.empty());
         });
     };
-    std::erase_if(active_, [&](const ActiveSetting& s) { return !used(s.codec, false); });
+    // The usual setting may still be given instead of others; that is seen last.
+    for (std::size_t i = active_.size(); i-- > 0;)
+        if (active_[i].codec != usual_ && !used(active_[i].codec, false))
+            remove(active_.begin() + std::ptrdiff_t(i));
 
     // Participants are numbered as they join, so the longest present come first.
     for (const auto& [participant, entry] : entries_) {
         if (!entry.stopgap.empty() || is_active(entry.wish))
             continue;
-        if (active_.size() >= max_active) {
-            const auto stopgap =
-                std::find_if(active_.rbegin(), active_.rend(),
-                             [&](const ActiveSetting& s) { return !used(s.codec, true); });
+        if (!has_place(entry.wish)) {
+            const auto stopgap = std::find_if(
+                active_.rbegin(), active_.rend(),
+                [&](const ActiveSetting& s) { return s.codec != usual_ && !used(s.codec, true); });
             if (stopgap == active_.rend())
                 continue;
-            active_.erase(std::next(stopgap).base());
+            remove(std::next(stopgap).base());
         }
-        active_.push_back({SettingId(next_id_++), entry.wish});
+        add(entry.wish);
     }
     for (const auto& [participant, entry] : entries_)
-        if (!entry.stopgap.empty() && active_.size() < max_active && !is_active(entry.stopgap))
-            active_.push_back({SettingId(next_id_++), entry.stopgap});
+        if (!entry.stopgap.empty() && !is_active(entry.stopgap) && has_place(entry.stopgap))
+            add(entry.stopgap);
+
+    if (usual_.empty())
+        return;
+    const bool wanted =
+        used(usual_, false) || std::any_of(entries_.begin(), entries_.end(), [&](const auto& e) {
+            return nearest(e.second) == nullptr || nearest(e.second)->codec == usual_;
+        });
+    const auto usual = std::find_if(active_.begin(), active_.end(),
+                                    [&](const ActiveSetting& s) { return s.codec == usual_; });
+    if (wanted && usual == active_.end())
+        add(usual_);
+    else if (!wanted && usual != active_.end())
+        remove(usual);
+}
+
+// Null if that is the usual setting, which is not active yet.
+const ActiveSetting* SettingTable::nearest(const Entry& entry) const {
+    const std::string& codec = entry.now();
+    if (const ActiveSetting* exact = find(codec))
+        return exact;
+    const auto can_stand_in = [&](const ActiveSetting& s) {
+        return kind_of(s.codec) == kind_of(codec) && !slow_.contains(s.id);
+    };
+    if (!entry.stopgap.empty() && !active_.empty()) {
+        // The youngest is most likely another stopgap, and as small.
+        const auto near = std::find_if(active_.rbegin(), active_.rend(), can_stand_in);
+        return near == active_.rend() ? &active_.back() : &*near;
+    }
+    const auto near = std::find_if(active_.begin(), active_.end(), can_stand_in);
+    if (near != active_.end())
+        return &*near;
+    return usual_.empty() ? &active_.front() : find(usual_);
 }
 
 const ActiveSetting& SettingTable::given(ParticipantId participant) const {
     const auto entry = entries_.find(participant);
     assert(entry != entries_.end());
-    const std::string& codec = entry->second.now();
-    const auto same_kind = [&](const ActiveSetting& s) {
-        return kind_of(s.codec) == kind_of(codec);
-    };
-    const auto exact = std::find_if(active_.begin(), active_.end(),
-                                    [&](const ActiveSetting& s) { return s.codec == codec; });
-    if (exact != active_.end())
-        return *exact;
-    if (!entry->second.stopgap.empty()) {
-        // The youngest is most likely another stopgap, and as small.
-        const auto near = std::find_if(active_.rbegin(), active_.rend(), same_kind);
-        return near == active_.rend() ? active_.back() : *near;
-    }
-    const auto near = std::find_if(active_.begin(), active_.end(), same_kind);
-    return near == active_.end() ? active_.front() : *near;
+    const ActiveSetting* setting = nearest(entry->second);
+    assert(setting);
+    return *setting;
 }
 
 const std::string& SettingTable::wished(ParticipantId participant) const {

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which encodings are made, and who gets which: each participant has a wish,
-// each distinct wish is encoded once, and at most three are encoded at a time.
+// each distinct wish is encoded once, and at most three are encoded at a time
+// besides the usual one, which has a place of its own: nobody can take it away.
 // A slow link may make do with another encoding for a while; such stopgaps only
 // take places that no wish needs.
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/ids.h"
+#include "session/setting_numbers.h"
 
 namespace theatron::session {
 
@@ -23,10 +26,12 @@ struct ActiveSetting {
 // One table for depth, one for colour. Pure and deterministic.
 class SettingTable {
 public:
-    static constexpr std::size_t max_active = 3;
+    static constexpr std::size_t max_active = 3;  // besides the usual one
 
-    // `first_id` is the number of the first setting; numbers are not reused.
-    explicit SettingTable(SettingId first_id) : next_id_(std::uint16_t(first_id)) {}
+    // `usual` is the codec that has a place of its own, in its one spelling; empty: none has.
+    // `numbers`, common to depth and colour, outlives the table.
+    explicit SettingTable(SettingNumbers& numbers, std::string usual = "")
+        : numbers_(numbers), usual_(std::move(usual)) {}
 
     // `codec` must be in its one spelling, since equal texts share an encoder.
     void wish(ParticipantId participant, std::string codec);
@@ -35,12 +40,14 @@ public:
     void leave(ParticipantId participant);
     // Its wish becomes what it gets, so that no other participant's doing changes that.
     void pin(ParticipantId participant);
+    // Whether encoding cannot keep up with the cameras: such a setting stands in for no other.
+    void set_slow(SettingId setting, bool is_slow);
 
     // In the order in which they became active.
     const std::vector<ActiveSetting>& active() const { return active_; }
 
     // What the participant gets: its wish, or where too many others are in use
-    // the nearest (the same codec with other parameters, else the oldest).
+    // the nearest (the same codec with other parameters, else the usual one, else the oldest).
     // The participant must have a wish.
     const ActiveSetting& given(ParticipantId participant) const;
     const std::string& wished(ParticipantId participant) const;
@@ -51,12 +58,22 @@ private:
         const std::string& now() const { return stopgap.empty() ? wish : stopgap; }
     };
 
-    void update();
-    bool is_active(const std::string& codec) const;
+    using Active = std::vector<ActiveSetting>;
 
+    void update();
+    void add(const std::string& codec);
+    void remove(Active::iterator setting);
+    bool is_active(const std::string& codec) const;
+    // Whether `codec` may become active: the usual one always, others while there is a place.
+    bool has_place(const std::string& codec) const;
+    const ActiveSetting* find(const std::string& codec) const;
+    const ActiveSetting* nearest(const Entry& entry) const;
+
+    SettingNumbers& numbers_;
+    const std::string usual_;
     std::map<ParticipantId, Entry> entries_;
-    std::vector<ActiveSetting> active_;
-    std::uint16_t next_id_;
+    Active active_;
+    std::set<SettingId> slow_;
 };
 
 }  // namespace theatron::session

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/viewer_session.h"
 
+#include <algorithm>
+
+#include "session/announced_cameras.h"
+
 namespace theatron::session {
 namespace {
 
@@ -35,7 +39,11 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (!message)
         return Change::nothing;
     if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
+        AnnouncedCameras judged = judge_cameras(std::move(welcome->cameras));
         welcome_ = std::move(*welcome);
+        welcome_.cameras = std::move(judged.accepted);
+        left_out_ = std::move(judged.left_out);
+        camera_states_.clear();
         joined_ = true;
         return Change::welcomed;
     }
@@ -50,6 +58,11 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         return Change::settings;
     }
     if (auto* state = std::get_if<wire::CameraState>(&*message)) {
+        const bool known =
+            std::any_of(cameras().begin(), cameras().end(),
+                        [&](const wire::Camera& c) { return c.id == state->camera; });
+        if (!joined_ || !known)
+            return Change::nothing;
         camera_states_[state->camera] = std::move(*state);
         return Change::camera;
     }

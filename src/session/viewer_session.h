@@ -57,9 +57,13 @@ public:
 
     bool joined() const { return joined_; }
     const wire::Welcome& welcome() const { return welcome_; }
+    // Those that judge_cameras() accepts; their calibrations can be decoded.
     const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
+    // A sentence for the user about each camera of the host that was not accepted.
+    const std::vector<std::string>& left_out() const { return left_out_; }
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
     const std::string& note() const { return note_; }
+    // Of accepted cameras only.
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
     const std::string& refusal() const { return refusal_; }
     const wire::Pong& pong() const { return pong_; }
@@ -72,6 +76,7 @@ private:
     Wishes wishes_;
     bool joined_ = false;
     wire::Welcome welcome_;
+    std::vector<std::string> left_out_;
     std::vector<wire::StreamSetting> settings_;
     std::string note_;
     std::map<CameraId, wire::CameraState> camera_states_;

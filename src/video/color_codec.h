@@ -91,6 +91,10 @@ public:
     virtual void recycle(ColorImage image) = 0;
 };
 
+// The size that an encoded picture says it has; nothing is decoded, no memory taken. Safe for
+// untrusted input.
+Result<Size> read_color_size(ColorCodecId id, ByteView encoded);
+
 // Throw Error where this build has no such codec.
 std::unique_ptr<ColorEncoder> make_color_encoder(const ColorSetting& setting);
 std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id);

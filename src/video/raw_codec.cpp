@@ -15,7 +15,10 @@ public:
         ColorImage image = queue_.take_blank();
         image.resize(*size);
         const Status status = color_raw::decode(encoded, image.view());
-        queue_.put(frame, std::move(image));
+        if (status == Status::ok)
+            queue_.put(frame, std::move(image));
+        else
+            queue_.recycle(std::move(image));
         return status;
     }
     std::optional<Decoded> poll() override { return queue_.poll(); }

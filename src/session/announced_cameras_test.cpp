@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/announced_cameras.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/calibration.h"
+#include "session/viewer_session.h"
+
+namespace theatron::session {
+namespace {
+
+Calibration calibration(Size depth, Size color) {
+    Calibration c;
+    c.depth.size = depth;
+    c.depth.fx = c.depth.fy = c.color.fx = c.color.fy = 500;
+    c.color.size = color;
+    return c;
+}
+
+wire::Camera camera(int number, Size depth = {64, 48}, Size color = {128, 96}) {
+    wire::Camera c;
+    c.id = CameraId(number);
+    c.name = "camera " + std::to_string(number);
+    c.depth_stream = depth_stream(c.id);
+    c.color_stream = color_stream(c.id);
+    c.has_color = true;
+    c.frames_per_second = 30;
+    c.calibration = encode_calibration(calibration(depth, color));
+    return c;
+}
+
+std::size_t accepted(const std::vector<wire::Camera>& cameras) {
+    const AnnouncedCameras judged = judge_cameras(cameras);
+    EXPECT_EQ(judged.accepted.size() + judged.left_out.size(), cameras.size());
+    return judged.accepted.size();
+}
+
+TEST(AnnouncedCameras, OrdinaryOnesAreAccepted) {
+    EXPECT_EQ(accepted({camera(0), camera(1), camera(62)}), 3u);
+    wire::Camera without_color = camera(3, {640, 576}, {0, 0});
+    without_color.has_color = false;
+    EXPECT_EQ(accepted({without_color}), 1u);
+}
+
+TEST(AnnouncedCameras, NumbersAreInRangeAndDiffer) {
+    EXPECT_EQ(accepted({camera(int(wire::max_cameras))}), 0u);
+    EXPECT_EQ(accepted({camera(5), camera(5)}), 1u);
+    EXPECT_EQ(judge_cameras({camera(5), camera(5)}).left_out.front(),
+              "The host's camera camera 5 has a number that another one has; it is left out.");
+}
+
+TEST(AnnouncedCameras, StreamsAreTheirOwn) {
+    wire::Camera thief = camera(1);
+    thief.depth_stream = depth_stream(CameraId{0});
+    EXPECT_EQ(accepted({camera(0), thief}), 1u);
+    thief = camera(1);
+    thief.color_stream = thief.depth_stream;
+    EXPECT_EQ(accepted({thief}), 0u);
+}
+
+TEST(AnnouncedCameras, RatesAndCalibrationsMakeSense) {
+    for (const double rate : {-1.0, 1e9, std::nan(""), double(INFINITY)}) {
+        wire::Camera odd = camera(0);
+        odd.frames_per_second = rate;
+        EXPECT_EQ(accepted({odd}), 0u) << rate;
+    }
+    wire::Camera uncalibrated = camera(0);
+    uncalibrated.calibration.pop_back();
+    EXPECT_EQ(accepted({uncalibrated}), 0u);
+}
+
+TEST(AnnouncedCameras, PixelsAreLimitedForOneAndForAllTogether) {
+    EXPECT_EQ(accepted({camera(0, {2048, 2048})}), 1u);
+    EXPECT_EQ(accepted({camera(0, {2048, 2049})}), 0u);
+    EXPECT_EQ(accepted({camera(0, {8192, 8192})}), 0u);
+    EXPECT_EQ(accepted({camera(0, {64, 48}, {4096, 3072})}), 1u);
+    EXPECT_EQ(accepted({camera(0, {64, 48}, {8192, 8192})}), 0u);
+    std::vector<wire::Camera> many;
+    for (int i = 0; i < int(wire::max_cameras); ++i)
+        many.push_back(camera(i, {2048, 2048}, {4096, 3072}));
+    EXPECT_EQ(accepted(many), max_total_depth_pixels / max_depth_pixels);
+    for (auto& c : many)
+        c = camera(int(c.id), {64, 48}, {4096, 3072});
+    EXPECT_EQ(accepted(many), max_total_color_pixels / max_color_pixels);
+}
+
+// One picture of all cameras' is as wide and as high as the widest and the highest.
+TEST(AnnouncedCameras, WideAndHighOnesDoNotComeTogether) {
+    EXPECT_EQ(accepted({camera(0, {8192, 512}), camera(1, {512, 8192})}), 1u);
+    EXPECT_EQ(accepted({camera(0, {64, 48}, {8192, 1024}), camera(1, {64, 48}, {1024, 8192})}), 1u);
+    EXPECT_EQ(accepted({camera(0, {640, 576}, {3840, 2160}), camera(1, {512, 512}, {2160, 3840})}),
+              2u);
+}
+
+TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
+    ViewerSession viewer({});
+    wire::Welcome welcome{1, {}, "host", {camera(0), camera(0), camera(4)}};
+    ASSERT_EQ(viewer.on_control(wire::encode_control(welcome)), ViewerSession::Change::welcomed);
+    EXPECT_EQ(viewer.cameras().size(), 2u);
+    EXPECT_EQ(viewer.left_out().size(), 1u);
+
+    for (int id = 0; id < 4000; ++id)
+        (void)viewer.on_control(wire::encode_control(
+            wire::CameraState{CameraId(id), wire::CameraCondition::failed, "gone", ""}));
+    EXPECT_EQ(viewer.camera_states().size(), 2u);
+    EXPECT_EQ(viewer.camera_states().at(CameraId{4}).problem, "gone");
+}
+
+TEST(ViewerSession, KeepsNoStateOfCamerasBeforeTheyAreAnnounced) {
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::CameraState{CameraId{0}, {}, "", ""})),
+              ViewerSession::Change::nothing);
+    EXPECT_TRUE(viewer.camera_states().empty());
+}
+
+}  // namespace
+}  // namespace theatron::session

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often a participant may ask its host for something. Each kind of request has a bucket of
+// tokens that fills with time; a request beyond it is not queued: the caller drops it, or keeps
+// only the newest of its kind for later. Much too many end the connection.
+//
+// Pure; time is passed in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/time.h"
+
+namespace theatron::session {
+
+// Up to `most` tokens; `per_second` more each second. Full at first.
+class TokenBucket {
+public:
+    constexpr TokenBucket(double per_second, double most)
+        : per_second_(per_second), most_(most), tokens_(most) {}
+
+    // Takes a token if there is a whole one. Time that runs backwards adds none.
+    bool take(TimePoint now);
+
+private:
+    double per_second_, most_, tokens_;
+    TimePoint filled_;
+    bool began_ = false;
+};
+
+class RequestBudget {
+public:
+    enum class Kind : std::uint8_t {
+        codecs,    // other codecs
+        delivery,  // another goal
+        key,       // a key frame
+        ping,
+        report,
+        received,  // word of media that has come
+        other,     // what the host does not know or does not expect
+    };
+    static constexpr std::size_t kinds = 7;
+
+    struct Limit {
+        double per_second = 0;
+        double at_once = 0;
+    };
+    // Of key requests these are for each stream; a viewer repeats one after 700 ms.
+    static constexpr std::array<Limit, kinds> limits{
+        {{2, 5}, {2, 5}, {0.5, 4}, {20, 40}, {20, 40}, {20'000, 20'000}, {5, 20}}};
+    // Requests beyond the limits, of all kinds together, before the connection is ended.
+    static constexpr Limit patience{50, 1000};
+
+    // `streams`: how many the host has.
+    explicit RequestBudget(std::size_t streams);
+
+    enum class Answer : std::uint8_t { granted, too_often, flood };
+    // A request has come.
+    Answer ask(Kind kind, TimePoint now);
+    // One that came too often and was kept: whether it is granted now.
+    bool grant_later(Kind kind, TimePoint now) { return bucket(kind).take(now); }
+
+    // Requests that were not granted when they came.
+    std::uint64_t refused() const { return refused_; }
+
+private:
+    TokenBucket& bucket(Kind kind) { return buckets_[std::size_t(kind)]; }
+
+    std::array<TokenBucket, kinds> buckets_;
+    TokenBucket patience_{patience.per_second, patience.at_once};
+    std::uint64_t refused_ = 0;
+};
+
+}  // namespace theatron::session
