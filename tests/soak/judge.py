@@ -10,6 +10,7 @@ from stage import possible_kinds
 WARM_UP_S = 20     # until a process has taken what it needs
 LONG_LIVED_S = 90  # a slope of less says nothing
 GROWTH_MIB = 32    # allowed beyond the warm-up
+NEAR_S = 5         # faults before a finding that are told with it
 SHOWN_POINTS = 60  # of a process's memory over time
 LEAST_OUTSIDE = 0.2
 LONG_RUN_S = 300
@@ -77,6 +78,26 @@ def by_kind(run, account, entries, bytes_per_second):
     return table
 
 
+def incidents(found):
+    """Findings of several streams that overlap in time belong together."""
+    groups = []
+    for f in sorted(found, key=lambda f: f.begin):
+        if groups and f.begin <= max(g.end for g in groups[-1]):
+            groups[-1].append(f)
+        else:
+            groups.append([f])
+    return groups
+
+
+def incident_text(incident, run):
+    begin, end = min(f.begin for f in incident), max(f.end for f in incident)
+    near = [h.fault for h in run.happened if h.begin <= end and h.end >= begin - NEAR_S]
+    streams = ", ".join(str(s) for s in sorted({f.stream for f in incident}))
+    return (f"{begin - run.begin:.2f} to {end - run.begin:.2f} s: {sum(f.pictures for f in incident)} pictures of "
+            f"streams {streams}: {'; '.join(sorted({f.what for f in incident}))} (at that time: "
+            f"{', '.join(f'{f.kind} at {f.at:.2f} s' for f in near) or 'no fault'})")
+
+
 def judge(run, stage, examiner, seed):
     starts = [child.started for child in stage.host.children]
     size = sum(found["bytes"] for found in examiner.files.values())
@@ -90,9 +111,7 @@ def judge(run, stage, examiner, seed):
     account = accountant.account
 
     findings = list(run.findings)
-    for f in account.findings:
-        findings.append(f"stream {f.stream}, {f.begin - run.begin:.2f} to {f.end - run.begin:.2f} s: {f.pictures} pictures: "
-                        f"{f.what}")
+    findings += [incident_text(incident, run) for incident in incidents(account.findings)]
     for name, found in sorted(examiner.files.items()):
         findings += [f"{name}: {problem}" for problem in found["problems"]]
     outside = share_outside(windows, run.begin, run.end)
