@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compares docs/limits.md with the constants in the sources.
 
-Each row of its tables whose second column names a constant, `path:name`, must give in its first column the value that
-the source has. With --all, each constant of the folders below whose name says that it is a bound must have a row.
+Each row of its tables whose second column names a constant, `path:name` or `path:name[n]` for the n-th number of a list,
+must give in its first column the value that the source has. With --all, each constant of the folders below whose name says that it is a bound must have a row.
 """
 import ast
 import pathlib
@@ -22,6 +22,9 @@ UNITS = {"": 1, "B": 1, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30,
          "us": 1e-6, "ms": 1e-3, "s": 1, "min": 60, "h": 3600}
 DEFINITION = re.compile(
     r"\bconstexpr\s+[\w:<> ]+?\s(?=\w+\s*=)((?:\w+\s*=\s*[^;{}]+?)(?:,\s*\w+\s*=\s*[^;{},]+?)*);", re.DOTALL)
+
+
+LIST = re.compile(r"\bconstexpr\s+[\w:<>, ]+?\s(\w+)\s*(?:=\s*)?(\{[^;]*\});", re.DOTALL)
 
 
 class Problem(Exception):
@@ -45,6 +48,9 @@ def constants_of(text):
             name, _, expression = part.partition("=")
             if re.fullmatch(r"\s*\w+\s*", name) and expression:
                 found[name.strip()] = expression.strip()
+    for name, content in LIST.findall(text):
+        numbers = [number.strip() for number in re.sub(r"[{}]", "", content).split(",")]
+        found.update({f"{name}[{n}]": number for n, number in enumerate(numbers)})
     return found
 
 
@@ -104,7 +110,7 @@ def rows_of(page):
     """(line, value, path, name) of each row that names a constant."""
     for line, text in enumerate(page.splitlines(), 1):
         cells = [cell.strip() for cell in text.strip().strip("|").split("|")]
-        named = re.fullmatch(r"`([\w/.\-]+):(\w+)`", cells[1]) if text.startswith("|") and len(cells) > 2 else None
+        named = re.fullmatch(r"`([\w/.\-]+):(\w+(?:\[\d+\])?)`", cells[1]) if text.startswith("|") and len(cells) > 2 else None
         if named:
             yield line, cells[0], named[1], named[2]
 

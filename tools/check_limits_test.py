@@ -11,6 +11,8 @@ inline constexpr int max_b = 8'192, max_c = 2 * max_b;
     static constexpr Duration patience = std::chrono::milliseconds(250);
 constexpr Duration waits = 2s, longest_wait = 1500ms;
 constexpr std::size_t max_d = sizeof(int);
+static constexpr std::array<Limit, 2> limits{
+    {{2, 5}, {0.5, 20'000}}};
 constexpr std::size_t max_e = wire::max_b + 1;
 """
 
@@ -27,6 +29,9 @@ class Limits(unittest.TestCase):
         self.assertEqual((self.value("max_b"), self.value("max_c"), self.value("max_e")), (8192, 16384, 8193))
         self.assertAlmostEqual(self.value("patience"), 0.25)
         self.assertAlmostEqual(self.value("longest_wait"), 1.5)
+
+    def test_numbers_of_a_list_are_counted_from_0(self):
+        self.assertEqual([self.value(f"limits[{n}]") for n in range(4)], [2, 5, 0.5, 20000])
 
     def test_an_expression_that_is_not_understood_is_no_value(self):
         self.assertRaises(Problem, self.value, "max_d")
