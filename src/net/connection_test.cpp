@@ -90,7 +90,6 @@ TEST(Connection, CarriesControlBothWaysAndMediaWhole) {
 }
 
 TEST(Connection, RefusesAnotherCertificate) {
-    std::promise<void> connected;
     Server::Handler handler;
     handler.connected = [&](PeerId, const std::string&) {
         ADD_FAILURE() << "must not get this far";

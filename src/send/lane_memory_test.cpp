@@ -18,6 +18,17 @@ std::atomic<std::uint64_t> allocations{0}, large_allocations{0};
 
 }  // namespace
 
+// Sanitizers see allocations by an operator new of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define THEATRON_COUNTS_ALLOCATIONS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define THEATRON_COUNTS_ALLOCATIONS 0
+#endif
+#endif
+#ifndef THEATRON_COUNTS_ALLOCATIONS
+#define THEATRON_COUNTS_ALLOCATIONS 1
+
 // The whole test program's; they count while the test below asks for it.
 void* operator new(std::size_t size) {
     if (counting) {
@@ -35,6 +46,7 @@ void operator delete(void* memory) noexcept {
 void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
+#endif
 
 namespace theatron::send {
 namespace {
@@ -71,7 +83,10 @@ private:
 };
 
 TEST(LaneMemory, ARunningLaneAllocatesNoPictures) {
-    Workers workers;
+    if (!THEATRON_COUNTS_ALLOCATIONS)
+        GTEST_SKIP() << "a sanitizer's own operator new is in the place of the one that counts";
+    // One thread: each makes its scratch memory with its first frame, which may come late.
+    Workers workers(1);
     std::atomic<std::uint64_t> messages{0};
     CameraLane::Events events;
     events.media = [&](const EncodedMedia&) { ++messages; };
@@ -88,18 +103,12 @@ TEST(LaneMemory, ARunningLaneAllocatesNoPictures) {
         return messages - before;
     };
     ASSERT_GE(wait_for(150), 150u);
-    // A hundred frames, each of several pictures and messages. A thread that has its first frame
-    // only now makes its scratch memory, which it keeps: each may do so once.
-    std::uint64_t made = 0;
-    for (unsigned i = 0; i <= std::thread::hardware_concurrency(); ++i) {
-        allocations = large_allocations = 0;
-        counting = true;
-        made = wait_for(300);
-        counting = false;
-        ASSERT_GE(made, 300u);
-        if (large_allocations <= 3)
-            break;
-    }
+    // A hundred frames, each of several pictures and messages.
+    allocations = large_allocations = 0;
+    counting = true;
+    const std::uint64_t made = wait_for(300);
+    counting = false;
+    ASSERT_GE(made, 300u);
     EXPECT_LE(large_allocations, 3u);
     EXPECT_LE(double(allocations) / double(made), 4);
     std::printf("%llu allocations, %llu of them large, for %llu messages\n",

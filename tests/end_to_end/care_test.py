@@ -6,12 +6,11 @@ import re
 import shutil
 import ssl
 import tempfile
-import time
 import unittest
 import urllib.error
 import urllib.request
 
-from theatron_process import Process, host, make_recording, run
+from theatron_process import Process, host, make_recording, run, wait_until
 
 
 def get(greeting, path, token=None, query=""):
@@ -78,20 +77,42 @@ class Care(unittest.TestCase):
             self.assertIn("token is wrong", errors)
             self.assertIn("Theatron host", get(greeting, "/")[2])
 
+    def if_all_went_on(self, before, now):
+        """`now` if both cameras are live and have had 30 frames since `before`."""
+        cameras = [f'camera="{i}",name="box"' for i in (0, 1)]
+        if all(now["theatron_frames_total"][c] >= before["theatron_frames_total"][c] + 30
+               and now["theatron_frames_per_second"][c] > 5 and now["theatron_age_seconds"][c] < 1
+               and now["theatron_camera_stale"][c] == 0 for c in cameras):
+            return now
+        return None
+
+    def sums_by_buckets(self, buckets, labels, count):
+        """The least and the largest sum that a histogram's buckets allow."""
+        bounds = sorted((float(key.removeprefix(labels + ',le="').rstrip('"')), value)
+                        for key, value in buckets.items() if key.startswith(labels + ',le='))
+        self.assertEqual(bounds[-1], (float("inf"), count))
+        least = most = below = lower = 0
+        for upper, cumulative in bounds:
+            self.assertGreaterEqual(cumulative, below)
+            inside, below = cumulative - below, cumulative
+            least += inside * lower
+            most += inside * upper if inside else 0
+            lower = upper
+        return least * (1 - 1e-6), most * (1 + 1e-6)
+
     def test_metrics_tell_what_every_camera_does(self):
         with host(self.state, self.camera, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as viewer:
             viewer.wait_for(lambda f: f["fps"] > 5, 20)
-            time.sleep(1)
-            first = metrics(h.greeting, self.token(h.greeting))
-            time.sleep(1)
-            second = metrics(h.greeting, self.token(h.greeting))
+            token = self.token(h.greeting)
+            first = metrics(h.greeting, token)
+            # A busy machine may stall a camera for a moment, but not for good.
+            second = wait_until(lambda: self.if_all_went_on(first, metrics(h.greeting, token)))
             for i in (0, 1):
                 camera = f'camera="{i}",name="box"'
                 self.assertGreater(second["theatron_frames_per_second"][camera], 5)
                 self.assertLess(second["theatron_age_seconds"][camera], 1)
                 self.assertLess(abs(second["theatron_sync_offset_seconds"][camera]), 0.02)
-                self.assertIn(second["theatron_camera_stale"][camera], (0, 1))  # a busy machine may stall it
                 self.assertEqual(second["theatron_reopens_total"][camera], 0)
                 for kind in ("depth", "color"):
                     bits = f'{camera},kind="{kind}"'
@@ -100,23 +121,27 @@ class Care(unittest.TestCase):
                     labels = f'{camera},stage="{stage}"'
                     count = second["theatron_stage_seconds_count"][labels]
                     self.assertGreater(count, 10)
-                    self.assertEqual(second["theatron_stage_seconds_bucket"][labels + ',le="+Inf"'], count)
-                    self.assertGreaterEqual(second["theatron_stage_seconds_sum"][labels], 0)
+                    least, most = self.sums_by_buckets(second["theatron_stage_seconds_bucket"], labels, count)
+                    self.assertGreaterEqual(second["theatron_stage_seconds_sum"][labels], least)
+                    self.assertLessEqual(second["theatron_stage_seconds_sum"][labels], most)
                 for reason in ("newer", "moment", "repeated", "time_jump", "slow_receiver"):
                     self.assertIn(f'{camera},reason="{reason}"', second["theatron_frames_dropped_total"])
             self.assertEqual(second["theatron_participants"][""], 1)
 
     def test_status_shows_the_same_to_people_and_scripts(self):
         with host(self.state, self.camera) as h:
-            time.sleep(1.2)
-            code, out, errors = run("status", h.greeting["link"], "--json")
-            self.assertEqual(code, 0, errors)
-            camera = json.loads(out)["cameras"][0]
-            self.assertIn(camera["state"], ("live", "stale"))
-            self.assertGreater(camera["fps"], 5)
-            code, out, _ = run("status", h.greeting["link"])
-            self.assertEqual(code, 0)
-            self.assertRegex(out, r"box +(live|stale) +\d")
+            def camera():
+                code, out, errors = run("status", h.greeting["link"], "--json")
+                self.assertEqual(code, 0, errors)
+                return json.loads(out)["cameras"][0]
+
+            def page():
+                code, out, _ = run("status", h.greeting["link"])
+                self.assertEqual(code, 0)
+                return out
+            # On a busy machine a camera is stale for moments.
+            wait_until(lambda: (found := camera())["state"] == "live" and found["fps"] > 5)
+            wait_until(lambda: re.search(r"box +live +\d", page()))
             for link, expected in ((h.greeting["link"].replace("join=", "join=x"), "token"),
                                    (h.greeting["link"].replace("cert=", "cert=0")[:-1], "certificate")):
                 code, _, errors = run("status", link)

@@ -6,8 +6,8 @@ import shutil
 import tempfile
 import unittest
 
-from theatron_process import Process, host, read_png, run, write_png
-from virtual_screen import VirtualScreen, difference, wait_until
+from theatron_process import Process, host, read_png, run, wait_until, write_png
+from virtual_screen import VirtualScreen, difference
 
 WIDTH, HEIGHT, FOCAL = 160, 120, 130
 CAMERA_Y = 1.2

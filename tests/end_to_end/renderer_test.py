@@ -7,8 +7,8 @@ import signal
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, run
-from virtual_screen import VirtualScreen, wait_until
+from theatron_process import Process, host, make_recording, read_png, run, wait_until
+from virtual_screen import VirtualScreen
 
 WIDTH, HEIGHT = 480, 360
 

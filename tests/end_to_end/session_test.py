@@ -6,10 +6,9 @@ import shutil
 import signal
 import socket
 import tempfile
-import time
 import unittest
 
-from theatron_process import DATA, Process, host, make_recording, read_png, run, write_png
+from theatron_process import DATA, Process, host, make_recording, read_png, run, wait_until, write_png
 
 
 class Session(unittest.TestCase):
@@ -62,9 +61,9 @@ class Session(unittest.TestCase):
             viewer.say("color raw")
             viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["fps"] > 0, 15)
             viewer.say("depth nonsense")
-            time.sleep(1)
-            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["fps"] > 0, 15)
-            self.assertIn("nonsense", "".join(viewer.errors))
+            wait_until(lambda: "nonsense" in "".join(viewer.errors))
+            frames = viewer.newest_json()["cameras"][0]["frames"]
+            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["cameras"][0]["frames"] > frames + 30, 30)
             viewer.say("quit")
             self.assertEqual(viewer.end(10), 0)
 
@@ -74,12 +73,17 @@ class Session(unittest.TestCase):
                 Process("join", h.greeting["link"], "--depth-codec", "zstd", "--every", "0.2") as sleeper:
             for viewer in (lively, sleeper):
                 viewer.wait_for(lambda f: f["fps"] > 20, 20)
-            before = lively.newest_json()["cameras"][0]["frames"]
+            def encoded():
+                _, out, _ = run("status", h.greeting["link"], "--json")
+                camera = json.loads(out)["cameras"][0]
+                return camera["frames"] - camera["dropped"]["newer"]
             memory = h.memory_mb()
             sleeper.send(signal.SIGSTOP)
-            time.sleep(5)
-            after = lively.newest_json()["cameras"][0]["frames"]
-            self.assertGreater(after - before, 5 * 30 * 0.9)
+            encoded_before = encoded()
+            before = lively.newest_json()["cameras"][0]["frames"]
+            # Five seconds of the camera, however long a busy machine takes for them.
+            after = lively.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 5 * 30, 60)["cameras"][0]["frames"]
+            self.assertGreater(after - before, 0.9 * (encoded() - encoded_before))
             self.assertLess(h.memory_mb(), memory + 16)
             sleeper.newest_json() if not sleeper.lines.empty() else None
             sleeper.send(signal.SIGCONT)
@@ -108,18 +112,20 @@ class Session(unittest.TestCase):
                 Process("join", h.greeting["link"], "--every", "0.2") as dies:
             for viewer in (stays, dies):
                 viewer.wait_for(lambda f: f["fps"] > 20, 20)
-            dropped = stays.newest_json()["dropped"]
             dies.send(signal.SIGKILL)
-            time.sleep(2)
-            figures = stays.newest_json()
+            dies.end()
+            before = stays.newest_json()["cameras"][0]["frames"]
+            figures = stays.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 2 * 30, 60)
             self.assertEqual(figures["phase"], "joined")
-            self.assertGreater(figures["fps"], 20)
-            self.assertEqual(figures["dropped"], dropped)
+            self.assertEqual(figures["joins"], 1)
             self.assertIsNone(h.process.poll())
 
     def test_an_ended_camera_is_shown_to_those_who_come_later(self):
         with host(self.state, f"folder:{self.recording}") as h:
-            time.sleep(1.5)
+            def state():
+                _, out, _ = run("status", h.greeting["link"], "--json")
+                return json.loads(out)["cameras"][0]["state"]
+            wait_until(lambda: state() == "ended")
             picture = self.folder / "ended.png"
             code, out, errors = run("join", h.greeting["link"], "--offscreen", picture, "--size", "160x120",
                                     "--seconds", "0.5", "--json")

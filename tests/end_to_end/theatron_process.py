@@ -111,6 +111,18 @@ def run(*arguments, timeout=60):
     return done.returncode, done.stdout, done.stderr
 
 
+def wait_until(condition, timeout=60, every=0.1):
+    """The condition's first true value; fails when there is none in time."""
+    deadline = time.monotonic() + timeout
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not in {timeout} s")
+        time.sleep(every)
+
+
 def write_png(path, width, height, bits, channels, rows):
     """rows: one bytes object each, big endian for 16 bits."""
     color_type = {1: 0, 3: 2}[channels]

@@ -6,7 +6,6 @@ import pathlib
 import struct
 import subprocess
 import tempfile
-import time
 
 
 class VirtualScreen:
@@ -62,15 +61,3 @@ def difference(one, other):
 def brightness(rows):
     """Mean of the green values."""
     return sum(sum(row[1::4]) for row in rows) / sum(len(row) // 4 for row in rows)
-
-
-def wait_until(condition, timeout=60, every=0.1):
-    """The condition's first true value; fails when there is none in time."""
-    deadline = time.monotonic() + timeout
-    while True:
-        value = condition()
-        if value:
-            return value
-        if time.monotonic() > deadline:
-            raise AssertionError(f"not in {timeout} s")
-        time.sleep(every)

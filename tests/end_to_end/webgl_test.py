@@ -54,6 +54,8 @@ class WebGl(unittest.TestCase):
                 differences = [abs(a - b) for a, b in zip(drawn, golden)]
                 # As in golden_test.cpp: drivers may round differently.
                 self.assertLess(sum(differences) / len(differences), 2.5)
+                outliers = sum(sum(differences[i:i + 3]) > 60 for i in range(0, len(differences), 3))
+                self.assertLess(outliers, len(differences) // 3 // 25)
 
 
 if __name__ == "__main__":

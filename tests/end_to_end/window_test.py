@@ -9,8 +9,8 @@ import subprocess
 import tempfile
 import unittest
 
-from theatron_process import PROGRAM, Process, host, make_recording
-from virtual_screen import VirtualScreen, brightness, difference, wait_until
+from theatron_process import PROGRAM, Process, host, make_recording, wait_until
+from virtual_screen import VirtualScreen, brightness, difference
 
 WIDTH, HEIGHT = 480, 360
 
