@@ -3,12 +3,15 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup build demo test soak test-arm64 format fuzz bench-web clean
+.PHONY: help setup build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web clean
 
 help:
 	@echo "make demo               install what is needed, build, and show a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
-	@echo "make test               build and run every check"
+	@echo "make test               build and run every check that takes seconds, 40 minutes in all"
+	@echo "make test-all           the same with what takes long"
+	@echo "make test-tsan          the modules that have threads under the thread sanitizer"
+	@echo "make tidy               clang-tidy on what differs from main; ALL=1: on everything"
 	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"
 	@echo "make test-arm64         tests of the SIMD kernels on emulated 64-bit ARM"
 	@echo "make build              build/release/apps/theatron/theatron"
@@ -28,6 +31,15 @@ demo: build
 
 test: setup
 	@tools/test.sh
+
+test-all: setup
+	@tools/test.sh --all
+
+test-tsan: setup
+	@tools/test_tsan.sh $(MODULES)
+
+tidy: setup
+	@tools/tidy.sh $(if $(ALL),--all,$$(git merge-base HEAD main))
 
 soak: build
 	@cmake --build --preset release --target link_shaper slow_disk

@@ -25,4 +25,5 @@ function(theatron_flatbuffers schema target)
     COMMAND ${FLATC} --cpp --scoped-enums -o ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${schema}
     DEPENDS ${schema})
   add_custom_target(${target} DEPENDS ${header})
+  set_property(GLOBAL APPEND PROPERTY THEATRON_GENERATED ${target})
 endfunction()

@@ -1,6 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 # One folder, one library, its tests and fuzz targets found by file name.
 
+# theatron_unit_test(NAME TARGET [ENVIRONMENT variable=value...])
+#
+# A test that runs the program TARGET in the repository's root, in sanitizer builds with the lists of what
+# is not reported (each entry with its reason). It counts as skipped where every test in it is.
+function(theatron_unit_test name target)
+  cmake_parse_arguments(T "" "" "ENVIRONMENT" ${ARGN})
+  add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  if(THEATRON_SANITIZE)
+    set(lists ${CMAKE_SOURCE_DIR}/tests/sanitizers)
+    list(APPEND T_ENVIRONMENT "LSAN_OPTIONS=suppressions=${lists}/leaks.txt" "UBSAN_OPTIONS=print_stacktrace=1"
+      "TSAN_OPTIONS=suppressions=${lists}/threads.txt:second_deadlock_stack=1")
+  endif()
+  set_tests_properties(${name} PROPERTIES
+    LABELS unit
+    ENVIRONMENT "${T_ENVIRONMENT}"
+    SKIP_REGULAR_EXPRESSION "\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\]")
+  set_property(GLOBAL APPEND PROPERTY THEATRON_UNIT_TESTS ${target})
+endfunction()
+
 # theatron_module(NAME [WEB] [PURE] [DEPENDS module...] [LINK library...])
 #
 # Builds theatron_NAME from the .cpp files of the current folder. Files that end in _test.cpp become one
@@ -46,7 +65,7 @@ function(theatron_module name)
   if(tests)
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE ${library} theatron_testing GTest::gmock GTest::gtest_main Threads::Threads)
-    add_test(NAME ${name} COMMAND ${name}_test WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+    theatron_unit_test(${name} ${name}_test)
   endif()
   if(THEATRON_FUZZ)
     foreach(fuzzer ${fuzzers})

@@ -8,24 +8,25 @@ cd "$(dirname "$0")/.."
 time=${1:-60}
 shift || true
 
-cmake --preset fuzz > /dev/null
-cmake --build --preset fuzz --target fuzzers
-mapfile -t targets < build/fuzz/fuzzers.txt
+cmake --preset dev > /dev/null
+cmake --build --preset dev --target fuzzers
+mapfile -t targets < build/dev/fuzzers.txt
 [ $# -eq 0 ] || targets=("$@")
 
-for target in "${targets[@]}"; do
-    binary=$(find build/fuzz -type f -name "$target" -perm -u+x | head -n 1)
-    found=build/fuzz/corpus/$target
+# Two at a time where there are two cores; each says how it went when it has ended.
+fuzz_one() {
+    local time=$1 target=$2 binary found=build/dev/corpus/$2 log=build/dev/$2.log seeds=()
+    binary=$(find build/dev -type f -name "$target" -perm -u+x | head -n 1)
     mkdir -p "$found"
     [ -f "tests/corpus/$target.tar.gz" ] && tar -xzf "tests/corpus/$target.tar.gz" -C "$found"
-    seeds=()
     [ -d "tests/corpus/$target" ] && seeds=("tests/corpus/$target")
-    printf '%-28s' "$target"
     if ! "$binary" -max_total_time="$time" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
-        -artifact_prefix="build/fuzz/$target-" "$found" "${seeds[@]}" > "build/fuzz/$target.log" 2>&1; then
-        echo " FAILED"
-        tail -n 40 "build/fuzz/$target.log"
-        exit 1
+        -artifact_prefix="build/dev/$target-" "$found" "${seeds[@]}" > "$log" 2>&1; then
+        printf '%-28s FAILED\n%s\n' "$target" "$(tail -n 40 "$log")"
+        return 1
     fi
-    echo " ok, $(grep -oE 'stat::number_of_executed_units: [0-9]+' "build/fuzz/$target.log" | grep -oE '[0-9]+$') runs"
-done
+    printf '%-28s ok, %s runs\n' "$target" \
+        "$(grep -oE 'stat::number_of_executed_units: [0-9]+' "$log" | grep -oE '[0-9]+$')"
+}
+export -f fuzz_one
+printf '%s\n' "${targets[@]}" | xargs -I{} -P "$(nproc)" bash -c 'fuzz_one "$@"' fuzz "$time" {}

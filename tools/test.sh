@@ -1,31 +1,55 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every check that must hold, the quick ones first. Used by `make test` and by CI.
+# Every check that must hold, the quick ones first, then a table of what each step took.
+# Used by `make test` and by CI. With --all also what takes long (`make test-all`).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+all=${1:-}
 
-step() { printf '\n== %s (%s)\n' "$1" "$(date +%H:%M:%S)"; }
+table=$(mktemp)
+finish() {
+    local code=$?
+    printf '\n%-46s %8s %8s\n' "step" "seconds" "CPU s"
+    awk -F'\t' '{ printf "%-46s %8.0f %8.0f\n", $1, $2, $3 + $4; wall += $2; cpu += $3 + $4 }
+        END { printf "%-46s %8.0f %8.0f\n", "together", wall, cpu }' "$table"
+    rm -f "$table" "$table.step"
+    [ "$code" -eq 0 ] && echo "Every check holds." || echo "Failed in the last step above."
+}
+trap finish EXIT
 
-step "Format and licence lines"
-tools/check_sources.py
+# step NAME COMMAND...: runs it and keeps what it took.
+step() {
+    local name=$1 code=0 TIMEFORMAT=$'%R\t%U\t%S'
+    shift
+    printf '\n== %s (%s)\n' "$name" "$(date +%H:%M:%S)"
+    { time "$@" 2>&3 || code=$?; } 3>&2 2> "$table.step"
+    printf '%s\t%s\n' "$name" "$(tail -n 1 "$table.step")" >> "$table"
+    return "$code"
+}
 
-step "Directions of dependencies"
-tools/check_includes.py
+build() {
+    cmake --preset "$1" > /dev/null
+    cmake --build --preset "$@"
+}
 
-step "Release build"
-cmake --preset release > /dev/null
-cmake --build --preset release
-
-step "Sanitizer build of what reads outside bytes"
-cmake --preset fuzz > /dev/null
-cmake --build --preset fuzz --target fuzzers
-
-step "Web modules with em++"
-cmake --preset web > /dev/null
-cmake --build --preset web
-
-step "Every fuzz target for a few seconds"
-tools/fuzz.sh 5
-
-step "Tests"
-ctest --preset release
+step "Format and licence lines" tools/check_sources.py
+step "Directions of dependencies" tools/check_includes.py
+step "Build: release" build release
+step "Build: assertions, ASan, UBSan, fuzz targets" build dev --target unit_tests fuzzers
+step "Build: web modules with em++" build web
+step "clang-tidy on what the last commit changed" tools/tidy.sh HEAD~1 12
+step "Unit tests with assertions, ASan and UBSan" ctest --preset dev
+if [ "$all" = --all ]; then
+    step "Threaded modules under TSan" tools/test_tsan.sh
+    step "Every fuzz target for a minute" tools/fuzz.sh 60
+else
+    step "Some threaded modules under TSan" tools/test_tsan.sh base net record send
+    step "Every fuzz target for a few seconds" tools/fuzz.sh 5
+fi
+# Last, so that its closing lines are those of the whole.
+if [ "$all" = --all ]; then
+    step "Tests" ctest --preset release
+else
+    step "Tests" ctest --preset release --label-exclude '^long$'
+fi
+tools/skipped_tests.py build/release build/dev build/tsan
