@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron: the command-line program.
+#include <csignal>
 #include <cstdio>
 
 #include "base/error.h"
 #include "commands.h"
 
 int main(int argc, char** argv) {
+    // A file that reaches the size that is allowed is an error to report, not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(
         "Theatron: open telepresence for the operating room.\n\n"
         "A host streams its RGB-D cameras; others join with the link that it prints:\n"

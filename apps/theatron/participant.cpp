@@ -43,7 +43,7 @@ struct Participant::Shared {
 Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
-                options_.delivery}),
+                options_.delivery, options_.records}),
       shared_(std::make_unique<Shared>()),
       decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
@@ -93,6 +93,7 @@ void Participant::run() {
             shared_->client = &client;
             shared_->clock = {};
             shared_->status.round_trip = {};
+            shared_->status.clock_known = false;
         }
         const net::Client::End end = client.run();
 
@@ -178,9 +179,12 @@ void Participant::on_control(ByteView message) {
             shared_->renderer_word = wire::SetRenderer{};
             const bool again = ++shared_->status.joins > 1;
             lock.unlock();
+            ping(steady_now());
             announce();
             if (again)
                 remark("Connected again.");
+            if (options_.described)
+                options_.described();
             break;
         }
         case Change::settings:
@@ -190,6 +194,8 @@ void Participant::on_control(ByteView message) {
                 const std::lock_guard lock(shared_->mutex);
                 shared_->settings = session_.settings();
             }
+            if (options_.described)
+                options_.described();
             try {
                 decoders_->set_settings(session_.settings());
             } catch (const Error& e) {
@@ -201,10 +207,17 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::pong: {
             const wire::Pong& pong = session_.pong();
-            const std::lock_guard lock(shared_->mutex);
-            shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
-            shared_->status.round_trip = shared_->clock.round_trip();
-            shared_->status.clock_error = shared_->clock.error_bound();
+            bool is_new = false;
+            {
+                const std::lock_guard lock(shared_->mutex);
+                shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
+                Status& status = shared_->status;
+                status.round_trip = shared_->clock.round_trip();
+                status.clock_error = shared_->clock.error_bound();
+                is_new = shared_->clock.known() && !std::exchange(status.clock_known, true);
+            }
+            if (is_new && options_.described)
+                options_.described();
             break;
         }
         case Change::delivery: {
@@ -258,16 +271,19 @@ void Participant::on_camera_states() {
         remark(text);
 }
 
+void Participant::ping(TimePoint local) {
+    shared_->client->send_control(wire::encode_control(wire::Ping{local}));
+    // The offset is wanted soon; then it only has to follow the drift.
+    next_ping_ = local + (++pings_ < 8 ? 100ms : 1000ms);
+}
+
 void Participant::on_tick() {
     const TimePoint local = steady_now();
     net::Client& client = *shared_->client;
     if (!session_.joined())
         return;
-    if (local >= next_ping_) {
-        client.send_control(wire::encode_control(wire::Ping{local}));
-        // The offset is wanted soon; then it only has to follow the drift.
-        next_ping_ = local + (++pings_ < 8 ? 100ms : 1000ms);
-    }
+    if (local >= next_ping_)
+        ping(local);
 
     std::string depth_wish, color_wish;
     std::optional<wire::ChooseDelivery> delivery_wish;

@@ -26,12 +26,16 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
+        bool records = false;  // as in wire::Join
         // Told what a person should know: reconnecting, refused, a camera ended.
         // Called from the participant's thread.
         std::function<void(const std::string&)> remark;
         // If set, media goes here as it comes instead of being decoded. Called
         // from the participant's thread; the message is valid during the call.
         std::function<void(const wire::MediaHeader&, ByteView message)> media;
+        // Told that cameras() or settings() are new, or that the clock is known on this connection.
+        // Called from the participant's thread, before the media that this is about.
+        std::function<void()> described;
         // Told that a frame can be taken or the connection has changed. Called from
         // the participant's thread.
         std::function<void()> news;
@@ -49,7 +53,8 @@ public:
         std::string host_name;
         Duration round_trip{};
         Duration clock_error{};
-        int joins = 0;  // how often it got in, 1 without any loss
+        bool clock_known = false;  // now() is the session's time
+        int joins = 0;             // how often it got in, 1 without any loss
         wire::ChooseDelivery goal;
         wire::Delivery delivery;  // how much of what was asked for the host sends
     };
@@ -66,7 +71,7 @@ public:
     // How the host sends each stream to this participant.
     std::vector<wire::StreamSetting> settings() const;
 
-    // From within `media` only: asks the host for a key frame.
+    // From within `media` and `described` only: asks the host for a key frame.
     void request_key(StreamId stream, SettingId setting);
 
     // The newest frame of each camera that is newer than what was taken before.
@@ -101,6 +106,7 @@ private:
     void on_media(ByteView message);
     void on_camera_states();
     void on_tick();
+    void ping(TimePoint local);
     void announce() const;
     void remark(const std::string& text) const;
 

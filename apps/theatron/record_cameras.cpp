@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
+#include <cstdio>
+#include <set>
 
 #include "base/error.h"
-#include "base/steady_clock.h"
 #include "record_source.h"
 #include "send/camera_lane.h"
 
@@ -37,34 +37,32 @@ record::RecordedCamera describe(CameraId id, const capture::CameraInfo& info,
 class CameraRecording final : public RecordSource {
 public:
     CameraRecording(const std::vector<std::string>& specifications, const std::string& file,
-                    const RecordCodecs& codecs, const capture::Progress& progress)
-        : codecs_(codecs) {
+                    const RecordCodecs& codecs, const record::Recorder::Options& recorder,
+                    const capture::Progress& progress)
+        : codecs_(codecs), intake_(file, recorder) {
         std::vector<std::unique_ptr<capture::Camera>> cameras;
-        std::vector<record::RecordedCamera> descriptions;
+        double fps = 1;
         for (const std::string& specification : specifications) {
             cameras.push_back(capture::open_camera(specification, progress));
-            descriptions.push_back(
-                describe(CameraId(descriptions.size()), cameras.back()->info(), codecs));
+            fps = std::max(fps, cameras.back()->info().frames_per_second);
+            names_.push_back(cameras.back()->info().name);
         }
-        recorder_ = std::make_unique<record::Recorder>(file, descriptions,
-                                                       record::ClockPair{steady_now(), utc_now()});
         opened_ = steady_now();
-        double fps = 1;
-        for (const auto& camera : cameras)
-            fps = std::max(fps, camera->info().frames_per_second);
         const auto moments = std::make_shared<send::SharedMoments>(fps);
-        for (auto& camera : cameras) {
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
             send::CameraLane::Events events;
-            events.media = [this](send::EncodedMedia media) {
-                (void)recorder_->add(media.header, std::move(media.message), steady_now());
-            };
-            events.state = [this](wire::CameraState state) { on_state(std::move(state)); };
+            events.media = [this](send::EncodedMedia media) { on_media(std::move(media)); };
+            events.state = [this](wire::CameraState state) { on_state(state); };
             send::CameraLane::Options options;
             options.waiting_frames = waiting_frames;
             options.moments = moments;
+            options.open_again = [specification = specifications[i]] {
+                return capture::open_camera(specification);
+            };
             lanes_.push_back(std::make_unique<send::CameraLane>(
-                CameraId(lanes_.size()), std::move(camera), events, workers_, std::move(options)));
+                CameraId(i), std::move(cameras[i]), events, workers_, std::move(options)));
         }
+        not_encoded_before_.resize(lanes_.size());
     }
 
     ~CameraRecording() override { lanes_.clear(); }
@@ -78,28 +76,46 @@ public:
         if (!all_there && steady_now() - opened_ < first_frame_patience)
             return;
         begun_ = true;
+        std::vector<record::RecordedCamera> cameras;
+        std::map<StreamId, SettingId> settings;
         for (const auto& lane : lanes_) {
-            const send::LaneFigures figures = lane->figures();
-            dropped_before_ += figures.dropped_newest;
-            lane->set_settings({{depth_setting, codecs_.depth}}, {{color_setting, codecs_.color}});
+            cameras.push_back(describe(lane->id(), lane->info(), codecs_));
+            settings[depth_stream(lane->id())] = depth_setting;
+            settings[color_stream(lane->id())] = color_setting;
         }
-    }
-
-    record::Recorder* recorder() override { return begun_ ? recorder_.get() : nullptr; }
-
-    bool ended(std::string& remark) override {
+        intake_.describe(std::move(cameras), std::move(settings), true, steady_now());
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            not_encoded_before_[i] = lanes_[i]->figures().dropped_newest;
+            lanes_[i]->set_settings({{depth_setting, codecs_.depth}},
+                                    {{color_setting, codecs_.color}});
+        }
         const std::lock_guard lock(mutex_);
-        if (over_ < lanes_.size() || steady_now() - over_since_ < encoding_patience)
-            return false;
-        remark = problem_;
-        return true;
+        for (const CameraId camera : ended_)
+            intake_.on_end(camera);
     }
 
-    std::uint64_t lost() const override {
-        std::uint64_t dropped = 0;
-        for (const auto& lane : lanes_)
-            dropped += lane->figures().dropped_newest;
-        return dropped - dropped_before_;
+    record::Intake& intake() override { return intake_; }
+    record::Intake::Now now() const override { return {steady_now(), {steady_now(), utc_now()}}; }
+
+    std::optional<End> ended() override {
+        const std::lock_guard lock(mutex_);
+        if (ended_.size() + failed_.size() < lanes_.size() ||
+            steady_now() - over_since_ < encoding_patience)
+            return std::nullopt;
+        return End{"", !failed_.empty()};
+    }
+
+    std::uint64_t not_encoded(CameraId camera) const override {
+        const auto i = std::size_t(camera);
+        return begun_ ? lanes_[i]->figures().dropped_newest - not_encoded_before_[i] : 0;
+    }
+
+    bool was_gone(CameraId camera) const override {
+        const std::lock_guard lock(mutex_);
+        return failed_.contains(camera) ||
+               lanes_[std::size_t(camera)]
+                       ->figures()
+                       .camera.figures.troubles[int(capture::Trouble::gone)] > 0;
     }
 
     void stop() override {
@@ -108,27 +124,49 @@ public:
     }
 
 private:
-    void on_state(wire::CameraState state) {
+    // On working threads.
+    void on_media(send::EncodedMedia media) {
+        const wire::MediaHeader header = media.header;
+        if (intake_.take(header, std::move(media.message), "", now()))
+            lanes_[std::size_t(camera_of(header.stream))]->request_key(header.stream,
+                                                                       header.setting);
+    }
+
+    // On the workers' looking thread.
+    void on_state(const wire::CameraState& state) {
         using Condition = wire::CameraCondition;
-        if (state.condition == Condition::live || state.condition == Condition::stale)
-            return;
         const std::lock_guard lock(mutex_);
-        ++over_;
-        over_since_ = steady_now();
-        if (state.condition == Condition::failed)
-            problem_ = state.problem;
+        const std::string camera = "Camera " + names_[std::size_t(state.camera)];
+        Condition& before = conditions_[state.camera];
+        if (state.condition == before)
+            return;
+        before = state.condition;
+        if (state.condition == Condition::stale) {
+            std::fprintf(stderr, "%s stands still. %s\n", camera.c_str(), state.problem.c_str());
+        } else if (state.condition == Condition::live) {
+            std::fprintf(stderr, "%s is live again.\n", camera.c_str());
+        } else if (state.condition == Condition::failed) {
+            std::fprintf(stderr, "%s has failed: %s\n", camera.c_str(), state.problem.c_str());
+            failed_.insert(state.camera);
+            over_since_ = steady_now();
+        } else {
+            ended_.insert(state.camera);
+            over_since_ = steady_now();
+            intake_.on_end(state.camera);
+        }
     }
 
     const RecordCodecs codecs_;
-    std::unique_ptr<record::Recorder> recorder_;
+    record::Intake intake_;
+    std::vector<std::string> names_;
     TimePoint opened_;
-    bool begun_ = false;
-    std::uint64_t dropped_before_ = 0;
+    std::atomic<bool> begun_ = false;
+    std::vector<std::uint64_t> not_encoded_before_;
 
-    std::mutex mutex_;      // guards all below
-    std::size_t over_ = 0;  // cameras that have ended or failed
+    mutable std::mutex mutex_;  // guards all up to the workers
+    std::map<CameraId, wire::CameraCondition> conditions_;
+    std::set<CameraId> ended_, failed_;
     TimePoint over_since_;
-    std::string problem_;
 
     send::Workers workers_;
     // Last: their threads use all of the above.
@@ -139,8 +177,9 @@ private:
 
 std::unique_ptr<RecordSource> record_cameras(const std::vector<std::string>& specifications,
                                              const std::string& file, const RecordCodecs& codecs,
+                                             const record::Recorder::Options& options,
                                              const capture::Progress& progress) {
-    return std::make_unique<CameraRecording>(specifications, file, codecs, progress);
+    return std::make_unique<CameraRecording>(specifications, file, codecs, options, progress);
 }
 
 }  // namespace theatron::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron record
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -22,12 +23,16 @@
 namespace theatron::app {
 namespace {
 
+// The recording ended as it should, but something of what there was to record is not in it.
+constexpr int exit_incomplete = 3;
+
 struct Flags {
     std::vector<std::string> names;  // [LINK] FILE
     std::vector<std::string> cameras;
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     double seconds = 0;
+    int buffer_mb = int(record::Recorder::Options{}.buffer_bytes >> 20);
     bool raw = false;
     bool overwrite = false;
     bool json = false;
@@ -50,8 +55,17 @@ RecordCodecs check_codecs(const Flags& flags) {
     return {depth.setting.text, color.setting.text};
 }
 
+record::Recorder::Options recorder_options(const Flags& flags) {
+    constexpr int least_mb = 1, most_mb = 1'000'000;
+    if (flags.buffer_mb < least_mb || flags.buffer_mb > most_mb)
+        throw Error("--buffer is from " + std::to_string(least_mb) + " to " +
+                    std::to_string(most_mb) + " megabytes.");
+    return {std::size_t(flags.buffer_mb) << 20};
+}
+
 std::unique_ptr<RecordSource> open_source(const Flags& flags) {
     const RecordCodecs codecs = check_codecs(flags);
+    const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
     if (!flags.overwrite && std::filesystem::exists(file))
         throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
@@ -60,11 +74,11 @@ std::unique_ptr<RecordSource> open_source(const Flags& flags) {
             throw Error(
                 "Say what to record: 'theatron record LINK FILE.mkv' or 'theatron record "
                 "--camera SPEC FILE.mkv'.");
-        return record_session(net::parse_link(flags.names[0]), file, codecs);
+        return record_session(net::parse_link(flags.names[0]), file, codecs, options);
     }
     if (flags.names.size() != 1)
         throw Error("With --camera, only the file to record into can be named.");
-    return record_cameras(flags.cameras, file, codecs, show_progress());
+    return record_cameras(flags.cameras, file, codecs, options, show_progress());
 }
 
 double free_gigabytes(const std::string& file) {
@@ -74,7 +88,7 @@ double free_gigabytes(const std::string& file) {
     return problem ? 0 : double(space.available) * 1e-9;
 }
 
-std::string status_line(const record::Recorder::Figures& f, std::uint64_t lost,
+std::string status_line(const record::Recorder::Figures& f, std::uint64_t missing,
                         const std::string& file) {
     const double seconds = to_seconds(f.duration), megabytes = double(f.bytes) * 1e-6;
     char text[160];
@@ -82,7 +96,7 @@ std::string status_line(const record::Recorder::Figures& f, std::uint64_t lost,
                   "%02d:%04.1f  %.1f MB  %.1f Mbit/s  %llu pictures, %llu lost  %.1f GB free",
                   int(seconds) / 60, seconds - int(seconds) / 60 * 60, megabytes,
                   seconds > 0 ? megabytes * 8 / seconds : 0, (unsigned long long)f.frames,
-                  (unsigned long long)(f.dropped + lost), free_gigabytes(file));
+                  (unsigned long long)missing, free_gigabytes(file));
     return text;
 }
 
@@ -95,19 +109,90 @@ double cpu_seconds() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
+// Pictures that came and are not in the recording, or never came.
+struct Missing {
+    std::uint64_t lost = 0, dropped = 0, interruptions = 0;
+    bool any() const { return lost + dropped + interruptions > 0; }
+};
+
+// Says what the recording has of each camera, and sums up what is missing.
+nlohmann::json describe(RecordSource& source, TimePoint begin, Missing& missing) {
+    nlohmann::json cameras = nlohmann::json::array();
+    for (const record::Intake::Stream& stream : source.intake().streams(steady_now())) {
+        const CameraId camera = camera_of(stream.id);
+        if (cameras.empty() || cameras.back()["camera"] != int(camera)) {
+            cameras.push_back({{"camera", int(camera)},
+                               {"name", stream.camera},
+                               {"not_encoded", source.not_encoded(camera)},
+                               {"was_gone", source.was_gone(camera)}});
+            missing.lost += source.not_encoded(camera);
+            missing.interruptions += source.was_gone(camera);
+        }
+        const auto time = [&](const std::optional<TimePoint>& came) {
+            return came ? nlohmann::json(to_seconds(std::max(*came - begin, Duration(0))))
+                        : nlohmann::json();
+        };
+        cameras.back()[is_depth(stream.id) ? "depth" : "color"] = {
+            {"pictures", stream.figures.recorded}, {"lost", stream.figures.lost},
+            {"dropped", stream.figures.dropped},   {"interruptions", stream.interruptions},
+            {"first_seconds", time(stream.first)}, {"last_seconds", time(stream.last)}};
+        missing.lost += stream.figures.lost;
+        missing.dropped += stream.figures.dropped;
+        missing.interruptions += stream.interruptions + (stream.figures.recorded == 0);
+    }
+    return cameras;
+}
+
+// Looks whether the file that is written to is still there.
+class FileWatch {
+public:
+    explicit FileWatch(std::filesystem::path first) : first_(std::move(first)) {}
+
+    // The file that is gone, deleted or renamed, or empty. Each is told once.
+    std::filesystem::path gone(std::uint32_t segment) {
+        const auto path = record::segment_path(first_, segment);
+        struct stat info {};
+        if (stat(path.c_str(), &info) == 0) {
+            if (segment != segment_)
+                file_ = {info.st_dev, info.st_ino};
+            segment_ = segment;
+            if (file_ == std::pair(info.st_dev, info.st_ino))
+                return {};
+        }
+        if (std::exchange(told_, segment) == segment)
+            return {};
+        return path;
+    }
+
+private:
+    const std::filesystem::path first_;
+    std::uint32_t segment_ = 0, told_ = 0;
+    std::pair<dev_t, ino_t> file_{};
+};
+
 void run(const Flags& flags) {
     catch_stop_signals();
     const std::string& file = flags.names.back();
     const std::unique_ptr<RecordSource> source = open_source(flags);
+    record::Intake& intake = source->intake();
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
-    std::string remark;
-    TimePoint begin{}, next_line{};
+    const auto say = [&](const std::string& text) {
+        std::fprintf(stderr, "%s%s\n", live_line ? "\r\033[K" : "", text.c_str());
+    };
+    FileWatch watch(file);
+    bool deleted = false;
+    std::optional<RecordSource::End> end;
+    TimePoint begin{}, next_look{};
     double cpu_before = 0;
 
-    while (!stop_requested() && !source->ended(remark)) {
+    while (!stop_requested() && !(end = source->ended())) {
         std::this_thread::sleep_for(20ms);
         source->tick();
-        const record::Recorder* recorder = source->recorder();
+        for (const std::string& sentence : intake.news(steady_now()))
+            say(sentence);
+        if (!intake.problem().empty())
+            break;
+        const record::Recorder* recorder = intake.recorder();
         if (!recorder)
             continue;
         const TimePoint now = steady_now();
@@ -115,43 +200,69 @@ void run(const Flags& flags) {
             begin = now;
             cpu_before = cpu_seconds();
         }
-        if (!recorder->figures().problem.empty() ||
-            (flags.seconds > 0 && now - begin >= seconds_to_duration(flags.seconds)))
+        if (flags.seconds > 0 && now - begin >= seconds_to_duration(flags.seconds))
             break;
-        if (live_line && now >= next_line) {
-            std::cout << "\r\033[K" << status_line(recorder->figures(), source->lost(), file)
+        if (now < next_look)
+            continue;
+        next_look = now + 500ms;
+        if (const auto gone = watch.gone(recorder->figures().segments); !gone.empty()) {
+            say("'" + gone.string() +
+                "' was deleted or renamed; the recording goes on in a new file beside it.");
+            deleted = true;
+            intake.begin_segment(source->now());
+        }
+        if (live_line) {
+            Missing missing;
+            describe(*source, begin, missing);
+            std::cout << "\r\033[K"
+                      << status_line(recorder->figures(), missing.lost + missing.dropped, file)
                       << std::flush;
-            next_line = now + 500ms;
         }
     }
     const double wall = to_seconds(steady_now() - begin), cpu = cpu_seconds() - cpu_before;
-    const std::uint64_t lost = source->lost();
+    Missing missing;
+    nlohmann::json cameras = describe(*source, begin, missing);
     source->stop();
-    record::Recorder* recorder = source->recorder();
+    record::Recorder* recorder = intake.recorder();
     if (!recorder)
-        throw Error("Stopped before the first picture came, so nothing was recorded.");
+        throw Error(intake.problem().empty()
+                        ? "Stopped before the first picture came, so nothing was recorded."
+                        : intake.problem());
     recorder->finish();
     if (live_line)
         std::cout << "\r\033[K";
-    if (!remark.empty())
-        std::fprintf(stderr, "%s\n", remark.c_str());
+    if (end && !end->remark.empty())
+        say(end->remark);
 
     const record::Recorder::Figures f = recorder->figures();
+    for (std::uint32_t segment = 1; segment <= f.segments; ++segment)
+        if (const auto path = record::segment_path(file, segment); !std::filesystem::exists(path)) {
+            say("'" + path.string() + "' was deleted or renamed while the recording went on.");
+            deleted = true;
+        }
+    const bool complete = !missing.any() && !deleted && !(end && end->fault) && f.problem.empty();
     if (flags.json)
         std::cout << nlohmann::json{{"file", file},
+                                    {"segments", f.segments},
                                     {"seconds", to_seconds(f.duration)},
                                     {"bytes", f.bytes},
                                     {"pictures", f.frames},
-                                    {"dropped", f.dropped},
-                                    {"lost", lost},
+                                    {"dropped", missing.dropped},
+                                    {"lost", missing.lost},
+                                    {"complete", complete},
+                                    {"cameras", std::move(cameras)},
                                     {"cpu_cores", cpu / wall},
                                     {"problem", f.problem}}
-                         .dump()
+                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                   << std::endl;
     else
-        std::cout << status_line(f, lost, file) << std::endl;
+        std::cout << status_line(f, missing.lost + missing.dropped, file) << std::endl;
     if (!f.problem.empty())
         throw Error(f.problem);
+    if (!complete) {
+        say("Something is missing in this recording; --json lists what, camera by camera.");
+        throw CLI::RuntimeError(exit_incomplete);
+    }
 }
 
 }  // namespace
@@ -164,6 +275,9 @@ void add_record_command(CLI::App& app) {
         "camera by camera; colour plays in ordinary players. Cameras of one's own are recorded as\n"
         "they are, before any filter. Whatever happens, the file opens up to its last moments.\n"
         "Ctrl-C ends the recording.\n"
+        "Exit code 0: every picture is in it; 3: something is missing; 1: it could not be made, "
+        "or\n"
+        "the disk ended it.\n"
         "\nExamples:\n"
         "  theatron record LINK operation.mkv --seconds 60\n"
         "  theatron record --camera folder:left,loop=1 --camera folder:right,loop=1 both.mkv\n"
@@ -183,6 +297,10 @@ void add_record_command(CLI::App& app) {
     command->add_flag("--raw", flags->raw,
                       "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
     command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    command
+        ->add_option("--buffer", flags->buffer_mb,
+                     "Megabytes of pictures that may wait for a disk that stands still")
+        ->capture_default_str();
     command->add_flag("--overwrite", flags->overwrite, "Replace a file that is there");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->callback([flags] { run(*flags); });

@@ -1,61 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <map>
 
 #include "base/error.h"
-#include "base/steady_clock.h"
 #include "participant.h"
-#include "record/stream_gate.h"
 #include "record_source.h"
 
 namespace theatron::app {
 namespace {
 
 constexpr Duration join_patience = std::chrono::seconds(15);
+// Pictures may come before the session's clock is known, on a connection of long delay.
+constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
 class SessionRecording final : public RecordSource {
 public:
-    SessionRecording(const net::Link& link, std::string file, const RecordCodecs& codecs)
-        : file_(std::move(file)), created_(steady_now()) {
+    SessionRecording(const net::Link& link, const std::string& file, const RecordCodecs& codecs,
+                     const record::Recorder::Options& recorder)
+        : created_(steady_now()), intake_(file, recorder) {
         Participant::Options options;
         options.link = link;
         options.name = "recorder";
         options.depth_codec = codecs.depth;
         options.color_codec = codecs.color;
         options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
+        options.records = true;
         options.remark = [](const std::string& text) {
             std::fprintf(stderr, "%s\n", text.c_str());
         };
         options.media = [this](const wire::MediaHeader& header, ByteView message) {
-            on_media(header, message);
+            on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
         };
+        options.described = [this] { on_described(); };
+        // Its thread may be in on_described() at once, and waits there until it can be used.
+        const std::lock_guard lock(mutex_);
         participant_ = std::make_unique<Participant>(options);
     }
 
+    ~SessionRecording() override { stop(); }
+
     void tick() override {
         const Participant::Status status = participant_->status();
-        if (status.phase == Participant::Phase::refused)
+        const bool begun = intake_.recorder() != nullptr;
+        if (status.phase == Participant::Phase::refused && !begun)
             throw Error(status.problem);
-        if (!recorder_ && steady_now() - created_ > join_patience)
+        if (!begun && steady_now() - created_ > join_patience)
             throw Error(status.problem.empty() ? "The host sent nothing to record."
                                                : status.problem);
-        if (status.phase == Participant::Phase::joined) {
-            note_filters();
-            take_over(status);
-        }
+        if (status.phase == Participant::Phase::refused)
+            end_ = End{status.problem, true};
+        if (status.phase == Participant::Phase::joined)
+            note_states();
     }
 
-    record::Recorder* recorder() override {
-        const std::lock_guard lock(mutex_);
-        return recorder_.get();
+    record::Intake& intake() override { return intake_; }
+    record::Intake::Now now() const override {
+        return {steady_now(), {participant_->now(), utc_now()}};
     }
-
-    bool ended(std::string& remark) override {
-        remark = end_;
-        return !end_.empty();
-    }
-
-    std::uint64_t lost() const override { return lost_; }
+    std::optional<End> ended() override { return end_; }
+    std::uint64_t not_encoded(CameraId) const override { return 0; }
+    bool was_gone(CameraId) const override { return false; }
 
     void stop() override {
         {
@@ -67,36 +72,52 @@ public:
     }
 
 private:
-    struct Stream {
-        SettingId setting{};
-        std::string codec;
-        record::StreamGate gate;
-        std::optional<FrameNumber> newest;
+    struct Early {
+        wire::MediaHeader header;
+        std::shared_ptr<const Bytes> message;
     };
 
-    // The cameras and codecs of a host that was joined, once they are all known.
-    void take_over(const Participant::Status& status) {
-        std::uint64_t generation = 0;
-        const auto cameras = participant_->cameras(generation);
-        const auto settings = participant_->settings();
-        if ((generation == generation_ && settings == settings_) || cameras.empty() ||
-            settings.empty())
+    // On the participant's thread, before the media that it is about.
+    void on_described() {
+        const std::lock_guard lock(mutex_);
+        if (stopped_)
             return;
+        const Participant::Status status = participant_->status();
+        if (status.joins != joins_) {
+            joins_ = status.joins;
+            new_connection_ = true;
+            early_.clear();
+            early_bytes_ = 0;
+        }
+        std::vector<record::RecordedCamera> cameras;
+        std::map<StreamId, SettingId> settings;
+        if (describe(cameras, settings)) {
+            intake_.describe(std::move(cameras), std::move(settings), new_connection_,
+                             steady_now());
+            new_connection_ = false;
+        }
+        clock_known_ = status.clock_known;
+        if (!clock_known_)
+            return;
+        for (Early& early : std::exchange(early_, {}))
+            record(early.header, std::move(early.message));
+        early_bytes_ = 0;
+    }
 
-        std::vector<record::RecordedCamera> descriptions;
-        std::map<StreamId, Stream> streams;
-        for (const Participant::Camera& camera : cameras) {
+    // False as long as the settings are still on their way.
+    bool describe(std::vector<record::RecordedCamera>& cameras,
+                  std::map<StreamId, SettingId>& settings) {
+        std::uint64_t generation = 0;
+        const auto sent = participant_->settings();
+        for (const Participant::Camera& camera : participant_->cameras(generation)) {
             const wire::Camera& d = camera.description;
             const auto codec_of = [&](StreamId id) -> std::string {
-                for (const wire::StreamSetting& s : settings)
-                    if (s.stream == id) {
-                        streams.emplace(
-                            id,
-                            Stream{
-                                s.setting, s.codec, record::StreamGate(participant_->now()), {}});
-                        return s.codec;
-                    }
-                return "";
+                const auto found = std::find_if(sent.begin(), sent.end(),
+                                                [&](const auto& s) { return s.stream == id; });
+                if (found == sent.end())
+                    return "";
+                settings[id] = found->setting;
+                return found->codec;
             };
             const Size depth = camera.calibration.depth.size, color = camera.calibration.color.size;
             record::RecordedCamera r;
@@ -109,41 +130,25 @@ private:
                 r.color =
                     record::RecordedStream{codec_of(d.color_stream), color.width, color.height};
             if (r.depth.codec.empty() || (r.color && r.color->codec.empty()))
-                return;  // the settings are still on their way
-            descriptions.push_back(std::move(r));
+                return false;
+            cameras.push_back(std::move(r));
         }
-        generation_ = generation;
-        settings_ = settings;
-
-        const std::lock_guard lock(mutex_);
-        if (!recorder_) {
-            recorder_ = std::make_unique<record::Recorder>(
-                file_, descriptions, record::ClockPair{participant_->now(), utc_now()});
-            descriptions_ = std::move(descriptions);
-        } else if (!(descriptions_ == descriptions)) {
-            end_ =
-                "The cameras of the host, or how it sends them, have changed, so the recording "
-                "ends here.";
-        }
-        // Setting numbers and references are the connection's: both begin anew.
-        if (joins_ != status.joins) {
-            streams_ = std::move(streams);
-            joins_ = status.joins;
-            return;
-        }
-        for (auto& [id, stream] : streams_)
-            if (const auto found = streams.find(id); found != streams.end())
-                stream.setting = found->second.setting;
+        return !cameras.empty();
     }
 
     // The host says on another way than the pictures' which filters run: to within the
     // pictures that are on their way.
-    void note_filters() {
+    void note_states() {
         std::uint64_t generation = 0;
         const auto cameras = participant_->cameras(generation);
-        const std::lock_guard lock(mutex_);
+        {
+            const std::lock_guard lock(mutex_);
+            for (const Participant::Camera& camera : cameras)
+                filters_[camera.description.depth_stream] = camera.state.filter;
+        }
         for (const Participant::Camera& camera : cameras)
-            filters_[camera.description.depth_stream] = camera.state.filter;
+            if (camera.state.condition == wire::CameraCondition::ended)
+                intake_.on_end(camera_of(camera.description.depth_stream));
     }
 
     // Of a frame that went through some.
@@ -152,41 +157,37 @@ private:
         return filters.empty() ? "unnamed" : filters;
     }
 
-    void on_media(const wire::MediaHeader& header, ByteView message) {
+    void on_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
         const std::lock_guard lock(mutex_);
-        const auto found = streams_.find(header.stream);
-        if (stopped_ || !recorder_ || found == streams_.end() ||
-            header.setting != found->second.setting)
+        if (stopped_)
             return;
-        Stream& stream = found->second;
-        const auto answer = stream.gate.on_frame(header, participant_->now());
-        if (answer.ask_for_key)
-            participant_->request_key(header.stream, header.setting);
-        if (!answer.record)
-            return;
-        // Frames that the host or the way left out.
-        if (stream.newest && std::int32_t(header.frame - *stream.newest) > 1)
-            lost_ += header.frame - *stream.newest - 1;
-        stream.newest = header.frame;
-        (void)recorder_->add(header, std::make_shared<Bytes>(message.begin(), message.end()),
-                             participant_->now(),
-                             header.filtered == TimePoint{} ? "" : filters_of(header.stream));
+        if (clock_known_)
+            return record(header, std::move(message));
+        early_bytes_ += message->size();
+        // What is left out shows as a gap in the frames' numbers.
+        if (early_bytes_ <= max_early_bytes)
+            early_.push_back({header, std::move(message)});
     }
 
-    const std::string file_;
-    const TimePoint created_;
-    std::uint64_t generation_ = 0;
-    std::vector<wire::StreamSetting> settings_;
-    std::vector<record::RecordedCamera> descriptions_;
-    std::string end_;
-    int joins_ = 0;
+    // The mutex is held; on the participant's thread.
+    void record(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+        const std::string filters = header.filtered == TimePoint{} ? "" : filters_of(header.stream);
+        if (intake_.take(header, std::move(message), filters, now()))
+            participant_->request_key(header.stream, header.setting);
+    }
 
-    std::mutex mutex_;  // guards the next four
+    const TimePoint created_;
+    record::Intake intake_;
+    std::optional<End> end_;
+
+    std::mutex mutex_;  // guards all below but the participant
     bool stopped_ = false;
-    std::unique_ptr<record::Recorder> recorder_;
-    std::map<StreamId, Stream> streams_;
+    int joins_ = 0;
+    bool new_connection_ = false;
+    bool clock_known_ = false;
+    std::vector<Early> early_;  // came before the clock was known
+    std::size_t early_bytes_ = 0;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
-    std::atomic<std::uint64_t> lost_{0};
 
     // Last: its thread uses all of the above.
     std::unique_ptr<Participant> participant_;
@@ -195,8 +196,9 @@ private:
 }  // namespace
 
 std::unique_ptr<RecordSource> record_session(const net::Link& link, const std::string& file,
-                                             const RecordCodecs& codecs) {
-    return std::make_unique<SessionRecording>(link, file, codecs);
+                                             const RecordCodecs& codecs,
+                                             const record::Recorder::Options& options) {
+    return std::make_unique<SessionRecording>(link, file, codecs, options);
 }
 
 }  // namespace theatron::app

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/steady_clock.h"
 #include "capture/camera.h"
 #include "net/link.h"
-#include "record/recorder.h"
+#include "record/intake.h"
 
 namespace theatron::app {
 
@@ -24,12 +26,20 @@ public:
     // Does what is to be done between frames. Throws Error if there will be no
     // recording. From one thread.
     virtual void tick() = 0;
-    // Null before the first frames have come.
-    virtual record::Recorder* recorder() = 0;
-    // True if nothing more will come; `remark` then says why, if that is of interest.
-    virtual bool ended(std::string& remark) = 0;
-    // Frames that were lost before the recorder got them.
-    virtual std::uint64_t lost() const = 0;
+    virtual record::Intake& intake() = 0;
+    virtual record::Intake::Now now() const = 0;
+
+    // Nothing more will come.
+    struct End {
+        std::string remark;  // why, if that is of interest
+        bool fault = false;  // more was to be expected
+    };
+    virtual std::optional<End> ended() = 0;
+
+    // Frames that a camera gave but that were never encoded.
+    virtual std::uint64_t not_encoded(CameraId camera) const = 0;
+    // A camera was gone for a while.
+    virtual bool was_gone(CameraId camera) const = 0;
     // No more frames from now on.
     virtual void stop() = 0;
 };
@@ -40,11 +50,13 @@ struct RecordCodecs {
 
 // Joins the session and records what comes as it comes.
 std::unique_ptr<RecordSource> record_session(const net::Link& link, const std::string& file,
-                                             const RecordCodecs& codecs);
+                                             const RecordCodecs& codecs,
+                                             const record::Recorder::Options& options);
 
 // Opens the cameras, waits for all of them, and begins with all at once.
 std::unique_ptr<RecordSource> record_cameras(const std::vector<std::string>& specifications,
                                              const std::string& file, const RecordCodecs& codecs,
+                                             const record::Recorder::Options& options,
                                              const capture::Progress& progress);
 
 }  // namespace theatron::app

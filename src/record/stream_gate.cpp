@@ -6,30 +6,57 @@
 namespace theatron::record {
 namespace {
 
-// A key frame exposed this long before the beginning is as good as one after it.
-constexpr Duration fresh = std::chrono::milliseconds(500);
-// A camera that stands still sends its last picture again, however old that is.
-constexpr Duration begin_patience = std::chrono::seconds(2);
-constexpr Duration key_patience = std::chrono::milliseconds(700);
+// No codec refers further back.
 constexpr std::size_t kept_numbers = 64;
 
 }  // namespace
 
 StreamGate::Answer StreamGate::on_frame(const wire::MediaHeader& header, TimePoint now) {
-    if (!begun_) {
-        const bool is_fresh = header.captured >= opened_ - fresh;
-        begun_ = header.key && (is_fresh || now >= opened_ + begin_patience);
-        if (!begun_)
-            return {.record = false, .ask_for_key = ask(now)};
+    const bool has_reference = header.key || (open_ && has_recorded(header.reference));
+    // A camera's frame may come without colour. Its next colour then refers to the last one.
+    const bool whole_chain = !is_depth(header.stream) && !header.key && has_reference;
+    if (newest_) {
+        const auto step = std::int32_t(header.frame - *newest_);
+        if (step > 1 && !whole_chain)
+            figures_.lost += std::uint64_t(step - 1);
     }
-    if (!header.key &&
-        std::find(recorded_.begin(), recorded_.end(), header.reference) == recorded_.end())
+    newest_ = header.frame;
+
+    if (!has_reference) {
+        if (begun_)
+            ++figures_.lost;
         // A frame of an upper layer is only skipped: the next of layer 0 does not need it.
-        return {.record = false, .ask_for_key = header.temporal_layer == 0 && ask(now)};
+        return {.record = false, .ask_for_key = (!open_ || header.temporal_layer == 0) && ask(now)};
+    }
+    open_ = begun_ = true;
     recorded_.push_back(header.frame);
     if (recorded_.size() > kept_numbers)
         recorded_.pop_front();
-    return {.record = true};
+    ++figures_.recorded;
+    if (!next_key_)
+        next_key_ = now + (phase_ > Duration(0) ? phase_ : key_period);
+    if (header.key || now < *next_key_)
+        return {.record = true};
+    *next_key_ += ((now - *next_key_) / key_period + 1) * key_period;
+    asked_ = now;
+    return {.record = true, .ask_for_key = true};
+}
+
+void StreamGate::on_dropped() {
+    --figures_.recorded;
+    ++figures_.dropped;
+    open_ = false;
+    recorded_.clear();
+}
+
+void StreamGate::close() {
+    open_ = false;
+    recorded_.clear();
+    asked_.reset();
+}
+
+bool StreamGate::has_recorded(FrameNumber frame) const {
+    return std::find(recorded_.begin(), recorded_.end(), frame) != recorded_.end();
 }
 
 bool StreamGate::ask(TimePoint now) {

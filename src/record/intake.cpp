@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/intake.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace theatron::record {
+namespace {
+
+// After so long without a look the recorder itself was held up, which says nothing of the streams.
+constexpr Duration late_look = std::chrono::milliseconds(500);
+// A disk that takes nothing for so long is worth a word.
+constexpr Duration late_disk = std::chrono::milliseconds(1500);
+// A picture this old begins no segment: its camera stands still.
+constexpr Duration oldest_beginning = std::chrono::seconds(60);
+
+std::string name_of(const Intake::Stream& stream) {
+    return "camera " + stream.camera + (is_depth(stream.id) ? ", depth" : ", colour");
+}
+
+std::string count(std::uint64_t pictures) {
+    return std::to_string(pictures) + (pictures == 1 ? " picture" : " pictures");
+}
+
+std::string megabytes(std::size_t bytes) {
+    return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
+}
+
+// The session's clock is what the host says, which may be anything.
+Duration between(TimePoint from, TimePoint to) {
+    return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
+}
+
+}  // namespace
+
+void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
+                      bool new_connection, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::pair<StreamId, const RecordedCamera*>> streams;
+    for (const RecordedCamera& camera : cameras) {
+        streams.emplace_back(depth_stream(camera.id), &camera);
+        if (camera.color)
+            streams.emplace_back(color_stream(camera.id), &camera);
+    }
+    for (auto& [id, entry] : entries_)
+        entry.ended = std::none_of(streams.begin(), streams.end(),
+                                   [&, id = id](const auto& s) { return s.first == id; });
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+        const auto& [id, camera] = streams[i];
+        const auto phase =
+            StreamGate::key_period * std::int64_t(i + 1) / std::int64_t(streams.size());
+        auto [at, is_new] = entries_.try_emplace(id, Entry{.gate = StreamGate(phase)});
+        Entry& entry = at->second;
+        entry.stream.id = id;
+        entry.stream.camera = camera->name;
+        entry.patience =
+            std::max(silence_limit, camera->frames_per_second > 0
+                                        ? seconds_to_duration(3 / camera->frames_per_second)
+                                        : Duration(0));
+        if (is_new)
+            entry.heard = now;
+        else if (new_connection && entry.gate.figures().recorded > 0)
+            ++entry.stream.interruptions;
+        if (new_connection) {
+            entry.gate.close();
+            entry.captured.reset();
+        }
+    }
+    // What a former connection's numbers meant is no matter any more.
+    if (new_connection)
+        current_.settings.clear();
+    const bool was_pending = pending_ && pending_->new_connection;
+    pending_ = {std::move(cameras), std::move(settings), new_connection || was_pending};
+    if (!pending_->new_connection && pending_->cameras == current_.cameras) {
+        current_ = *std::move(pending_);
+        pending_.reset();
+    }
+}
+
+bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+                  const std::string& filters, const Now& now) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entries_.find(header.stream);
+    if (!problem_.empty() || found == entries_.end())
+        return false;
+    Entry& entry = found->second;
+    const auto is_setting = [&](const Description& description) {
+        const auto setting = description.settings.find(header.stream);
+        return setting != description.settings.end() && setting->second == header.setting;
+    };
+    if (!is_setting(current_)) {
+        // Of an older setting: what was on its way when it changed.
+        if (!pending_ || !is_setting(*pending_))
+            return false;
+        if (!header.key)
+            entry.gate.close();
+        else if (!begin(header, now))
+            return false;
+    }
+    const StreamGate::Answer answer = entry.gate.on_frame(header, now.local);
+    note_time(entry, header, now.local);
+    if (!answer.record)
+        return answer.ask_for_key;
+    switch (recorder_->add(header, std::move(message), now.clock.session, filters)) {
+        case Recorder::Added::taken:
+            if (!entry.stream.first)
+                entry.stream.first = now.local;
+            entry.stream.last = now.local;
+            return answer.ask_for_key;
+        case Recorder::Added::dropped:
+            entry.gate.on_dropped();
+            return true;
+        case Recorder::Added::ended:
+        case Recorder::Added::not_recorded:
+            entry.gate.on_dropped();
+            return false;
+    }
+    return false;
+}
+
+// The segment that was described begins with this frame.
+bool Intake::begin(const wire::MediaHeader& header, const Now& now) {
+    Description description = *std::exchange(pending_, std::nullopt);
+    // Block times count from there, so no earlier than need be and no later than the frame.
+    ClockPair clock = now.clock;
+    const Duration age = between(header.captured, clock.session);
+    if (age > Duration(0) && age < oldest_beginning)
+        clock = {header.captured, clock.utc - age};
+    try {
+        if (!recorder_)
+            recorder_ = std::make_unique<Recorder>(file_, description.cameras, clock, options_);
+        else
+            recorder_->begin_segment(description.cameras, clock);
+    } catch (const std::exception& e) {
+        problem_ = e.what();
+        return false;
+    }
+    // Each segment can be read without the others.
+    for (auto& [id, entry] : entries_)
+        entry.gate.close();
+    current_ = std::move(description);
+    return true;
+}
+
+void Intake::begin_segment(const Now& now) {
+    const std::lock_guard lock(mutex_);
+    if (!recorder_ || !problem_.empty())
+        return;
+    recorder_->begin_segment(current_.cameras, now.clock);
+    for (auto& [id, entry] : entries_) {
+        entry.gate.close();
+        ++entry.stream.interruptions;
+    }
+}
+
+// Pictures that come late are not missing: what counts is when they were exposed.
+void Intake::note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now) {
+    if (entry.captured && between(*entry.captured, header.captured) > entry.patience)
+        ++entry.stream.interruptions;
+    entry.captured = header.captured;
+    entry.heard = now;
+}
+
+void Intake::on_end(CameraId camera) {
+    const std::lock_guard lock(mutex_);
+    for (const StreamId id : {depth_stream(camera), color_stream(camera)})
+        if (const auto found = entries_.find(id); found != entries_.end())
+            found->second.ended = true;
+}
+
+std::vector<std::string> Intake::news(TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::string> sentences;
+    const bool held_up = looked_ != TimePoint{} && now - looked_ > late_look;
+    looked_ = now;
+    const bool say = now - said_ >= news_interval;
+    for (auto& [id, entry] : entries_) {
+        if (held_up)
+            entry.heard = now;
+        const bool silent = !entry.ended && now - entry.heard > entry.patience;
+        if (silent && !entry.silent)
+            sentences.push_back(
+                "No picture of " + name_of(entry.stream) + ", for " +
+                std::to_string((now - entry.heard).count() / 100'000 / 10.0).substr(0, 3) + " s.");
+        else if (entry.silent && !silent && !entry.ended)
+            sentences.push_back("Pictures of " + name_of(entry.stream) + ", come again.");
+        entry.silent = silent;
+
+        const StreamGate::Figures& figures = entry.gate.figures();
+        if (const std::uint64_t missing = figures.lost + figures.dropped;
+            say && missing > entry.said) {
+            sentences.push_back("Missing: " + count(missing - entry.said) + " of " +
+                                name_of(entry.stream) +
+                                (figures.dropped > 0 ? ", since the disk was too slow." : "."));
+            entry.said = missing;
+            said_ = now;
+        }
+    }
+    if (recorder_ && !held_up) {
+        const Recorder::Figures figures = recorder_->figures();
+        const bool late = figures.late > late_disk;
+        if (late && !disk_is_late_)
+            sentences.push_back("The disk does not keep up: " + megabytes(figures.waiting_bytes) +
+                                " wait to be written, and what exceeds " +
+                                megabytes(options_.buffer_bytes) + " will be lost.");
+        else if (!late && disk_is_late_ && figures.problem.empty())
+            sentences.push_back("The disk keeps up again.");
+        disk_is_late_ = late;
+    }
+    return sentences;
+}
+
+std::vector<Intake::Stream> Intake::streams(TimePoint now) const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Stream> result;
+    for (const auto& [id, entry] : entries_) {
+        Stream stream = entry.stream;
+        stream.figures = entry.gate.figures();
+        if (!entry.ended && stream.figures.recorded > 0 && now - entry.heard > entry.patience)
+            ++stream.interruptions;
+        result.push_back(std::move(stream));
+    }
+    return result;
+}
+
+Recorder* Intake::recorder() const {
+    const std::lock_guard lock(mutex_);
+    return recorder_.get();
+}
+
+std::string Intake::problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_.empty() && recorder_ ? recorder_->figures().problem : problem_;
+}
+
+}  // namespace theatron::record

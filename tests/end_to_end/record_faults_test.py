@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recordings under faults: other clocks, slow and full disks, restarts, guests, cameras that are unplugged."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from raw_peer import RawPeer
+from slow_disk import SlowDisk
+from theatron_process import Process, host, make_recording, run
+
+DAY_S = 86_400
+COMPLETE, ENDED_BY_THE_DISK, INCOMPLETE = 0, 1, 3
+
+
+def clock_ahead(seconds):
+    """What to put before a command so that its steady clock is ahead; None where that is not allowed."""
+    prefix = ("unshare", "--time", "--monotonic", str(seconds))
+    if subprocess.run([*prefix, "true"], capture_output=True).returncode != 0:
+        return None
+    return prefix
+
+
+def wait_until(condition, timeout=60):
+    deadline = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not in {timeout} s")
+        time.sleep(0.02)
+
+
+class RecordFaults(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
+        self.source = make_recording(self.folder / "source", 160, 120, 6, color=False)
+        self.camera = f"folder:{self.source},loop=1,preload=1"
+        self.state = self.folder / "state"
+        self.file = self.folder / "a.mkv"
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def recorder(self, *arguments, **options):
+        return Process("record", *arguments, "--json", **options)
+
+    def begun(self, recorder, file=None, more_than=3000):
+        """Waits until some of the file is there."""
+        file = file or self.file
+        wait_until(lambda: recorder.process.poll() is not None or file.exists() and file.stat().st_size > more_than)
+        self.assertIsNone(recorder.process.poll(), "".join(recorder.errors))
+
+    def says(self, recorder, text, timeout=60):
+        wait_until(lambda: recorder.process.poll() is not None or any(text in line for line in list(recorder.errors)),
+                   timeout)
+        self.assertIn(text, "".join(recorder.errors))
+
+    def ends(self, recorder, expected, sig=signal.SIGINT):
+        """Ends it and returns its figures."""
+        if sig:
+            recorder.send(sig)
+        figures = recorder.read_json()
+        self.assertEqual(recorder.end(), expected, "".join(recorder.errors) + json.dumps(figures))
+        self.assertEqual(figures["complete"], expected == COMPLETE)
+        return figures
+
+    def assert_decodes(self, file, at_least=1):
+        """Every picture of camera 0 that is in the file can be decoded."""
+        code, out, errors = run("inspect", file, "--json")
+        self.assertEqual(code, 0, errors)
+        depth = json.loads(out)["cameras"][0]["depth"]
+        target = self.folder / "png"
+        code, _, errors = run("export", file, "--camera", 0, "--png", target)
+        self.assertEqual(code, 0, errors)
+        self.assertEqual(len(list(target.glob("depth/*.png"))), depth["frames"])
+        self.assertGreaterEqual(depth["frames"], at_least)
+        shutil.rmtree(target)
+        return depth
+
+    def test_clocks_that_are_a_day_apart_lose_nothing(self):
+        ahead = clock_ahead(DAY_S)
+        if not ahead:
+            self.skipTest("time namespaces are not allowed here")
+        for host_prefix, recorder_prefix in (((), ahead), (ahead, ())):
+            with host(self.state, self.camera, prefix=host_prefix) as h, \
+                    self.recorder(h.greeting["link"], self.file, prefix=recorder_prefix) as recorder:
+                self.begun(recorder, more_than=10_000)
+                figures = self.ends(recorder, COMPLETE)
+            self.assertEqual(figures["lost"] + figures["dropped"], 0)
+            self.assertEqual(self.assert_decodes(self.file)["frames"], figures["cameras"][0]["depth"]["pictures"])
+            self.file.unlink()
+
+    def test_a_stalled_disk_loses_only_what_exceeds_the_buffer_and_decodes_again(self):
+        disk = SlowDisk(self.folder)
+        file = disk.folder / "a.mkv"
+        camera = ("--camera", f"folder:{make_recording(self.folder / 'large', 320, 288, 6, color=False)},loop=1")
+        with self.recorder(*camera, file, "--depth-codec", "zstd:delta=1", "--buffer", "1",
+                           env=disk.environment) as recorder:
+            self.begun(recorder, file, 100_000)
+            disk.be("stall")
+            self.says(recorder, "Missing: ")
+            before = file.stat().st_size
+            disk.be("well")
+            # The buffer, and then as much again of what comes afterwards.
+            self.begun(recorder, file, before + 2_500_000)
+            figures = self.ends(recorder, INCOMPLETE)
+        self.assertGreater(figures["dropped"], 0)
+        depth = figures["cameras"][0]["depth"]
+        self.assertEqual(self.assert_decodes(file)["frames"], depth["pictures"])
+
+    def test_a_stall_that_fits_the_buffer_loses_nothing(self):
+        disk = SlowDisk(self.folder)
+        file = disk.folder / "a.mkv"
+        with self.recorder("--camera", self.camera, file, env=disk.environment) as recorder:
+            self.begun(recorder, file)
+            disk.be("stall")
+            self.says(recorder, "The disk does not keep up")
+            disk.be("well")
+            self.says(recorder, "The disk keeps up again")
+            figures = self.ends(recorder, COMPLETE)
+        self.assertEqual(self.assert_decodes(file)["frames"], figures["pictures"])
+
+    def test_a_disk_that_is_full_or_gone_ends_it_with_a_word_and_keeps_what_was_before(self):
+        disk = SlowDisk(self.folder)
+        for state in ("full", "gone"):
+            file = disk.folder / f"{state}.mkv"
+            with self.recorder("--camera", self.camera, file, env=disk.environment) as recorder:
+                self.begun(recorder, file, 10_000)
+                disk.be(state)
+                figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
+                self.assertIn("what came before is kept", figures["problem"])
+            disk.be("well")
+            self.assert_decodes(file)
+
+    def test_a_size_limit_of_the_system_is_a_sentence(self):
+        limited = ("bash", "-c", 'ulimit -f 100; exec "$@"', "-")  # blocks of 1024 bytes
+        with self.recorder("--camera", self.camera, self.file, prefix=limited) as recorder:
+            figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
+        self.assertIn("size that the system allows", figures["problem"])
+        self.assert_decodes(self.file)
+
+    def test_a_file_that_is_deleted_meanwhile_is_noticed(self):
+        second = self.folder / "a.002.mkv"
+        with self.recorder("--camera", self.camera, self.file) as recorder:
+            self.begun(recorder)
+            self.file.unlink()
+            self.says(recorder, "was deleted or renamed")
+            self.begun(recorder, second)
+            self.ends(recorder, INCOMPLETE)
+        self.assertGreater(second.stat().st_size, 3000)
+
+    def test_other_participants_never_end_or_change_a_recording(self):
+        with host(self.state, self.camera) as h:
+            link = h.greeting["link"]
+            peers = [RawPeer(link) for _ in range(3)]
+            try:
+                for peer, codec in zip(peers, ("rvl", "trvl", "lz4")):
+                    peer.join(depth_codec=codec)
+                    peer.receive_control("Settings")
+                with self.recorder(link, self.file, "--depth-codec", "strata") as recorder:
+                    self.begun(recorder)
+                    peers[0].close()
+                    peers[1].send_control("ChooseCodecs", depth_codec="raw")
+                    size = self.file.stat().st_size
+                    self.begun(recorder, more_than=size + 10_000)
+                    figures = self.ends(recorder, COMPLETE)
+            finally:
+                for peer in peers:
+                    peer.close()
+        self.assertEqual(figures["segments"], 1)
+        self.assert_decodes(self.file)
+
+    def test_a_restarted_host_begins_a_segment_that_plays(self):
+        second = self.folder / "a.002.mkv"
+        later = clock_ahead(DAY_S) or ()
+        with host(self.state, self.camera, prefix=later) as h:
+            port = h.greeting["port"]
+            with self.recorder(h.greeting["link"], self.file) as recorder:
+                self.begun(recorder)
+                h.process.kill()
+                h.process.wait()
+                # Its machine was started anew as well: the clock goes back.
+                with host(self.state, self.camera, listen=f"127.0.0.1:{port}"):
+                    self.begun(recorder, second)
+                    figures = self.ends(recorder, INCOMPLETE)
+        self.assertEqual(figures["segments"], 2)
+        self.assertLess(figures["seconds"], 3600)
+        self.assert_decodes(second)
+
+    def test_a_recorder_that_is_late_by_seconds_gets_everything(self):
+        with host(self.state, self.camera) as h, RawPeer(h.greeting["link"]) as viewer:
+            viewer.join(target_latency_ms=150)
+            with self.recorder(h.greeting["link"], self.file) as recorder:
+                self.begun(recorder)
+                recorder.send(signal.SIGSTOP)
+                time.sleep(1.5)  # the fault itself
+                recorder.send(signal.SIGCONT)
+                self.begun(recorder, more_than=self.file.stat().st_size + 40_000)
+                figures = self.ends(recorder, COMPLETE)
+        self.assertEqual(figures["lost"], 0)
+        self.assert_decodes(self.file)
+
+    def test_a_camera_that_was_unplugged_is_opened_again_and_said(self):
+        # Every second one fault of the six that cameras have.
+        faulty = self.camera + ",faults=1,faults_every=1"
+        with self.recorder("--camera", faulty, "--camera", self.camera, self.file) as recorder:
+            self.says(recorder, "is not there")
+            self.says(recorder, "is live again")
+            self.begun(recorder, more_than=self.file.stat().st_size + 10_000)
+            figures = self.ends(recorder, INCOMPLETE)
+        self.assertTrue(figures["cameras"][0]["was_gone"])
+        self.assertFalse(figures["cameras"][1]["was_gone"])
+        self.assert_decodes(self.file)
+
+
+if __name__ == "__main__":
+    unittest.main()
