@@ -10,7 +10,7 @@ import tempfile
 import time
 import unittest
 
-from raw_peer import RawPeer
+from raw_peer import FakeHost, RawPeer, camera, media_message
 from slow_disk import SlowDisk
 from theatron_process import Process, host, make_recording, run
 
@@ -93,6 +93,47 @@ class RecordFaults(unittest.TestCase):
             self.assertEqual(figures["lost"] + figures["dropped"], 0)
             self.assertEqual(self.assert_decodes(self.file)["frames"], figures["cameras"][0]["depth"]["pictures"])
             self.file.unlink()
+
+    def record_from_a_fake_host(self, cameras, expected):
+        """Pictures of camera 0 come before the session's clock is known, then others in another codec."""
+        def script(guest):
+            guest.receive_control("Join")
+            guest.welcome(cameras=[camera(number, has_color=False) for number in range(cameras)])
+
+            def settings(number, codec):
+                guest.send_control("Settings", settings=[{"stream": 2 * n, "setting": number, "codec": codec}
+                                                         for n in range(cameras)])
+
+            def pictures(setting, first):
+                for n in range(first, first + 5):
+                    guest.send_media(media_message(b"12345678", setting=setting, frame=n, key=n == first,
+                                                   reference=max(first, n - 1), captured_us=10**12 + n * 33_333))
+
+            settings(1, "trvl")
+            pictures(1, 10)
+            _, ping = guest.receive_control("Ping")
+            guest.send_control("Pong", ping_sent_us=ping["sent_us"], received_us=10**12, sent_us=10**12)
+            settings(2, "strata")
+            pictures(2, 15)
+            for n in range(cameras):
+                guest.send_control("CameraState", camera=n, state=2)
+            guest.wait_for_end()
+
+        with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
+            self.says(recorder, f"camera {cameras - 1} has ended")
+            figures = self.ends(recorder, expected)
+            self.assertEqual(fake.faults, [])
+        self.assertEqual(figures["cameras"][0]["depth"]["pictures"], 10)
+        self.assertEqual(figures["lost"] + figures["dropped"], 0)
+        self.assertEqual(figures["segments"], 2)
+        return figures
+
+    def test_other_codecs_of_a_host_go_into_a_new_segment_without_loss(self):
+        self.record_from_a_fake_host(1, COMPLETE)
+
+    def test_a_stream_without_any_picture_is_missing(self):
+        figures = self.record_from_a_fake_host(2, INCOMPLETE)
+        self.assertEqual(figures["cameras"][1]["depth"]["pictures"], 0)
 
     def test_a_stalled_disk_loses_only_what_exceeds_the_buffer_and_decodes_again(self):
         disk = SlowDisk(self.folder)
