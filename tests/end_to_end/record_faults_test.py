@@ -12,10 +12,11 @@ import unittest
 
 from raw_peer import FakeHost, RawPeer, camera, media_message
 from slow_disk import SlowDisk
-from theatron_process import Process, host, make_recording, run
+from theatron_process import Process, host, make_recording, run, write_png
 
 DAY_S = 86_400
 COMPLETE, ENDED_BY_THE_DISK, INCOMPLETE = 0, 1, 3
+BUFFER_MB = 1
 
 
 def clock_ahead(seconds):
@@ -32,6 +33,15 @@ def wait_until(condition, timeout=60):
         if time.monotonic() > deadline:
             raise AssertionError(f"not in {timeout} s")
         time.sleep(0.02)
+
+
+def make_noise(folder, width, height, frames=3):
+    """Depth of which no codec makes much less than a byte for each pixel."""
+    (folder / "depth").mkdir(parents=True)
+    for n in range(frames):
+        rows = [b"".join(bytes((5, low)) for low in os.urandom(width)) for _ in range(height)]
+        write_png(folder / "depth" / f"{n:05}.png", width, height, 16, 1, rows)
+    return folder
 
 
 class RecordFaults(unittest.TestCase):
@@ -138,16 +148,16 @@ class RecordFaults(unittest.TestCase):
     def test_a_stalled_disk_loses_only_what_exceeds_the_buffer_and_decodes_again(self):
         disk = SlowDisk(self.folder)
         file = disk.folder / "a.mkv"
-        camera = ("--camera", f"folder:{make_recording(self.folder / 'large', 320, 288, 6, color=False)},loop=1")
-        with self.recorder(*camera, file, "--depth-codec", "zstd:delta=1", "--buffer", "1",
+        camera = f"folder:{make_noise(self.folder / 'noise', 320, 240)},loop=1,preload=1"
+        with self.recorder("--camera", camera, file, "--depth-codec", "zstd:delta=1", "--buffer", BUFFER_MB,
                            env=disk.environment) as recorder:
             self.begun(recorder, file, 100_000)
             disk.be("stall")
             self.says(recorder, "Missing: ")
             before = file.stat().st_size
             disk.be("well")
-            # The buffer, and then as much again of what comes afterwards.
-            self.begun(recorder, file, before + 2_500_000)
+            # What the buffer held, and then some that came afterwards.
+            self.begun(recorder, file, before + (BUFFER_MB << 20) + 500_000)
             figures = self.ends(recorder, INCOMPLETE)
         self.assertGreater(figures["dropped"], 0)
         depth = figures["cameras"][0]["depth"]
@@ -178,7 +188,7 @@ class RecordFaults(unittest.TestCase):
             self.assert_decodes(file)
 
     def test_a_size_limit_of_the_system_is_a_sentence(self):
-        limited = ("bash", "-c", 'ulimit -f 100; exec "$@"', "-")  # blocks of 1024 bytes
+        limited = ("bash", "-c", 'ulimit -f 20; exec "$@"', "-")  # blocks of 1024 bytes
         with self.recorder("--camera", self.camera, self.file, prefix=limited) as recorder:
             figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
         self.assertIn("size that the system allows", figures["problem"])
