@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/outside_text.h"
 #include "net/certificate.h"
 #include "net/https_get.h"
 
@@ -67,14 +68,42 @@ std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
                            .body = to_prometheus(figures())};
 }
 
+namespace {
+
+// The same with every text fit to be shown. `figures` is not nested deeply.
+nlohmann::json cleaned(const nlohmann::json& figures) {
+    if (figures.is_string())
+        return clean_text(figures.get_ref<const std::string&>(), max_status_text);
+    if (!figures.is_structured())
+        return figures;
+    nlohmann::json result =
+        figures.is_object() ? nlohmann::json::object() : nlohmann::json::array();
+    for (const auto& [key, value] : figures.items()) {
+        if (figures.is_object())
+            result[clean_text(key, max_status_text)] = cleaned(value);
+        else
+            result.push_back(cleaned(value));
+    }
+    return result;
+}
+
+}  // namespace
+
 nlohmann::json status_of_host(const net::Link& link) {
     const net::HttpsAnswer answer = net::https_get(link, "/status");
     if (answer.status == 401)
         throw Error("The host does not know the link's token; ask for its current link.");
-    auto figures = nlohmann::json::parse(answer.body, nullptr, false);
-    if (answer.status != 200 || !figures.is_object())
+    bool too_deep = false;
+    const auto figures = nlohmann::json::parse(
+        answer.body,
+        [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+            too_deep = too_deep || depth > max_status_depth;
+            return !too_deep;
+        },
+        false);
+    if (answer.status != 200 || too_deep || !figures.is_object())
         throw Error("The host does not tell its status; it may be of an older version.");
-    return figures;
+    return cleaned(figures);
 }
 
 }  // namespace theatron::app

@@ -19,7 +19,11 @@ std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
                                            const std::vector<std::string>& tokens,
                                            const std::function<HostFigures()>& figures);
 
-// What a host, perhaps on another machine, answers to /status: see to_json(). Throws Error.
+// What a host, perhaps on another machine, answers to /status: see to_json(). Its texts are clean
+// (base/outside_text.h). Throws Error, also at an answer that is nested more deeply than any
+// host's.
+inline constexpr int max_status_depth = 16;
+inline constexpr std::size_t max_status_text = 1000;  // characters of one text in it
 nlohmann::json status_of_host(const net::Link& link);
 
 }  // namespace theatron::app

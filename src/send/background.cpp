@@ -4,14 +4,16 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "base/thread_name.h"
 
 namespace theatron::send {
 namespace {
 
-// With a tenth of the weight of the other threads it still gets somewhere on a machine that is
-// fully used.
-constexpr int niceness = 10;
+// Beyond the process's own. With a tenth of the weight of the other threads it still gets somewhere
+// on a machine that is fully used.
+constexpr int added_niceness = 10, highest_niceness = 19;
 
 }  // namespace
 
@@ -42,7 +44,8 @@ void Background::enqueue(std::function<void()> work) {
 void Background::run() {
     name_this_thread("behind");
     // Of this thread alone; where it is not possible, the number of threads still bounds the work.
-    (void)setpriority(PRIO_PROCESS, id_t(gettid()), niceness);
+    const int niceness = getpriority(PRIO_PROCESS, id_t(getpid())) + added_niceness;
+    (void)setpriority(PRIO_PROCESS, id_t(gettid()), std::min(niceness, highest_niceness));
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
