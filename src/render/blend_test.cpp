@@ -107,9 +107,10 @@ TEST_F(BlendTest, IsCloserToTheTruthThanTheMeshesAndFlickersLess) {
     const Picture mesh_later = scene->render(view, picture_size, "mesh");
     const Picture blend_later = scene->render(view, picture_size, "blend");
 
-    EXPECT_GT(psnr_db(blend, truth), psnr_db(mesh, truth) + 1);
+    // The aims that docs/rendering.md names; here it is 3.3 dB and less than a thirtieth.
+    EXPECT_GT(psnr_db(blend, truth), psnr_db(mesh, truth) + 3);
     EXPECT_LT(mean_difference(blend.color, blend_later.color),
-              mean_difference(mesh.color, mesh_later.color) / 2);
+              mean_difference(mesh.color, mesh_later.color) / 3);
 }
 
 TEST_F(BlendTest, DoesNotDependOnTheOrderOfTheCameras) {

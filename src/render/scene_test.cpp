@@ -86,6 +86,12 @@ TEST_F(SceneTest, LowQualityHasShadowsToo) {
     EXPECT_LT(at(picture, {-0.85, 0, -0.08}).g + 25, at(picture, {-0.85, 0, 0.5}).g);
 }
 
+// Steps of 255 between both qualities where nothing stands near. Low quality lights matt surfaces
+// at the corners of their triangles, without the sheen that high quality gives a floor seen
+// from the side: it is 2.0 and 2.2 steps darker at the two places below. While it lit each
+// pixel they were equal within 1.
+constexpr double open_tolerance = 2.5;
+
 TEST_F(SceneTest, InCornersLessLightArrivesInHighQuality) {
     const auto brightness = [&](Vec3 place) {
         const Picture picture = draw({320, 240});
@@ -99,7 +105,7 @@ TEST_F(SceneTest, InCornersLessLightArrivesInHighQuality) {
     const double corner_high = brightness(corner), open_high = brightness(open);
     frame.quality = SceneQuality::low;
     EXPECT_LT(corner_high, brightness(corner) - 8);
-    EXPECT_NEAR(open_high, brightness(open), 3);
+    EXPECT_NEAR(open_high, brightness(open), open_tolerance);
 }
 
 TEST_F(SceneTest, TheFloorBeforeABoxIsDarkerToo) {
@@ -115,7 +121,7 @@ TEST_F(SceneTest, TheFloorBeforeABoxIsDarkerToo) {
     const double before_high = brightness(0.12), open_high = brightness(0.9);
     frame.quality = SceneQuality::low;
     EXPECT_LT(before_high, brightness(0.12) - 10);
-    EXPECT_NEAR(open_high, brightness(0.9), 4);
+    EXPECT_NEAR(open_high, brightness(0.9), open_tolerance);
 }
 
 TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
