@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web clean
+.PHONY: help setup build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
 
 help:
 	@echo "make demo               install what is needed, build, and show a streamed room"
@@ -17,6 +17,7 @@ help:
 	@echo "make build              build/release/apps/theatron/theatron"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
 	@echo "make bench-web FOLDERS='DIR ...'   depth codecs natively and under node"
+	@echo "make figures            repeat the sizes and likenesses that docs/ states, and compare"
 	@echo "make format             clang-format over all sources"
 
 setup:
@@ -53,6 +54,9 @@ fuzz: setup
 
 bench-web: setup
 	@tools/bench_web.sh $(FOLDERS)
+
+figures: build
+	@tools/figures.py --program build/release/apps/theatron/theatron
 
 format: setup
 	@git ls-files '*.h' '*.cpp' '*.cu' | xargs clang-format -i

@@ -17,8 +17,9 @@ namespace theatron::app {
 // psnr_patterned_registered_db}]}.
 //
 // psnr_db and ssim: over all pixels whose surface some camera sees; psnr_overlap_db where two
-// have measured it. holes_percent: of a person's pixels that some camera sees. silhouette_px: how
-// far outlines of people are from where they belong. flicker_overlap: root mean square of
+// have measured it. holes_percent: of the pixels of people that some camera sees, but for those
+// within two pixels of the exact outline (render::Holes). silhouette_px: how far outlines of people
+// are from where they belong. flicker_overlap: root mean square of
 // the change from one frame to the next where nothing moves but noise, in steps of 255.
 // psnr_patterned_db: of patterned surfaces from near by, with colour pictures of
 // ViewBenchOptions::color; ..._fine_db: of fine_color; ..._depth_sized_db and ..._registered_db:
