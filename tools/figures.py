@@ -208,6 +208,17 @@ def border(program, table, row):
     return dict(zip(table.columns[1:], ([s] for s in (*sizes, sizes[2] - sizes[1]))))
 
 
+@Figure("docs/decisions/cropping.md", "full resolution",
+        "theatron bench color FOLDER --tile SIZE --frames 30 "
+        "--codecs jpeg:quality=85 h264:crf=20 h264:crf=24 h264:crf=24,preset=veryfast")
+def full_resolution(program, table, row):
+    codecs = full_resolution.command.partition("--codecs ")[2].split()
+    name, size = row[0].split(", ")
+    tile = ["--tile", size] if name == "table-person" else []
+    codec = program.codecs("color", program.sequence(name), codecs, *tile, "--frames", 30)[row[1]]
+    return {"kB": [kilobytes(codec)], "PSNR dB": [codec["psnr_db"]]}
+
+
 @Figure("docs/filters.md", "truth", "theatron bench filter --quality --room", slow=True)
 def truth(program, table, row):
     chains = {c["name"]: c for c in program.bench("filter", "--quality", "--room")}

@@ -13,6 +13,13 @@ std::string milliseconds(Duration d) {
     return std::to_string(d.count() / 1000) + " ms";
 }
 
+// To a tenth, which is not written if it is 0.
+std::string megabits_per_second(std::uint32_t kbit_per_second) {
+    const std::uint32_t tenths = (kbit_per_second + 50) / 100;
+    return std::to_string(tenths / 10) +
+           (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10)) + " Mbit/s";
+}
+
 }  // namespace
 
 int layer_by_number(FrameNumber frame) {
@@ -95,8 +102,7 @@ wire::Delivery Delivery::message(Duration delay) const {
             message.reason = "frames took " + milliseconds(delay) + " to arrive";
             break;
         case SendingReason::ceiling:
-            message.reason =
-                "your ceiling is " + std::to_string(goal_.max_kbit_per_s / 1000) + " Mbit/s";
+            message.reason = "your ceiling is " + megabits_per_second(goal_.max_kbit_per_s);
             break;
         case SendingReason::room:
             message.reason = "the link has room for more";

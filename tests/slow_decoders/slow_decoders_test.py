@@ -10,8 +10,10 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 import payload
+import recording
 from ans import decode_ans
 from byte_codecs import decode_lz4, decode_raw, decode_zstd
 from rvl import decode_rvl, decode_trvl
@@ -77,6 +79,67 @@ class Pages(unittest.TestCase):
             with self.subTest(page):
                 (vector,) = page_vectors(f"depth_{page}.md")
                 self.assertEqual(decode(vector, reference)[0], expected)
+
+
+def png_pixels(path):
+    """Of a 16-bit grey PNG."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height = struct.unpack_from(">II", data, at + 8)
+        elif kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, pixels = zlib.decompress(packed), []
+    stride, above = 2 * width, bytes(2 * width)
+    for y in range(height):
+        how, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            a, b, c = (line[i - 2] if i > 1 else 0), above[i], (above[i - 2] if i > 1 else 0)
+            paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+            line[i] = line[i] + (0, a, b, (a + b) // 2, paeth)[how] & 255
+        pixels += struct.unpack(f">{width}H", line)
+        above = line
+    return pixels
+
+
+def write_png(path, width, height, pixel):
+    """16-bit grey; `pixel` gives the value at x, y."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    rows = b"".join(b"\0" + struct.pack(f">{width}H", *(pixel(x, y) for x in range(width))) for y in range(height))
+    head = struct.pack(">IIBBBBB", width, height, 16, 0, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows))
+                     + chunk(b"IEND", b""))
+
+
+class Recordings(unittest.TestCase):
+    def test_a_recordings_depth_is_what_the_program_exports(self):
+        """Key and delta frames from the file's own bytes to pixels, by the pages."""
+        theatron = os.environ["THEATRON"]
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "camera/depth").mkdir(parents=True)
+            for i in range(5):
+                def pixel(x, y):
+                    hole = (x // 8 + y // 8) % 5 == 0
+                    return 0 if hole else 900 + 2 * y + x + 700 * (x > 60 + i) + (x * 7 + y * 13 + i * 5) % 4
+                write_png(folder / f"camera/depth/{i}.png", 132, 64, pixel)
+            subprocess.run([theatron, "record", "--camera", f"folder:{folder}/camera,loop=1", "--seconds", "1",
+                            folder / "some.mkv"], check=True, capture_output=True)
+            subprocess.run([theatron, "export", folder / "some.mkv", "--png", folder / "png"],
+                           check=True, capture_output=True)
+            pictures = sorted((folder / "png").rglob("depth/*.png"))
+            frames = [f for f in recording.frames_of((folder / "some.mkv").read_bytes()) if f.stream % 2 == 0]
+            self.assertEqual(len(frames), len(pictures))
+            self.assertTrue(frames[0].key)
+            remembered = {}
+            for frame, picture in list(zip(frames, pictures))[:6]:
+                before = None if frame.key else remembered[frame.reference]
+                pixels, remembered[frame.frame] = decode(frame.payload, before)
+                self.assertEqual(pixels, png_pixels(picture), f"frame {frame.frame}")
+            self.assertFalse(all(f.key for f in frames[:6]))
 
 
 class Payloads(unittest.TestCase):

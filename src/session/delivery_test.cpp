@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/delivery.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::session {
+namespace {
+
+// 2 Mbit/s of depth that needs no reference, so that half of the frames can be left out.
+std::string reason_with_ceiling_of(std::uint32_t kbit_per_second) {
+    Delivery delivery;
+    CodecSteps codecs;
+    codecs.layered = [](const std::string& codec) { return CodecSteps::Layered{codec, true}; };
+    delivery.set_wish("rvl", "", codecs, false);
+    wire::ChooseDelivery goal;
+    goal.target_latency_ms = 150;
+    goal.max_kbit_per_s = kbit_per_second;
+    delivery.set_goal(goal);
+    const ActiveSetting depth{SettingId(1), "rvl"}, color{SettingId(2), ""};
+    StreamRates rates;
+    TimePoint now{std::chrono::seconds(10)};
+    for (int frame = 0; frame < 60; ++frame, now += std::chrono::milliseconds(33))
+        rates.add(StreamId(0), depth.id, layer_by_number(FrameNumber(frame)), 2'000'000 / 8 / 30,
+                  now);
+    LinkMeasure link;
+    link.bytes_per_second = 1e7;
+    delivery.update(link, {depth, color}, rates, Duration(0), now);
+    return delivery.message(Duration(0)).reason;
+}
+
+TEST(Delivery, NamesTheCeilingAsItWasGiven) {
+    EXPECT_EQ(reason_with_ceiling_of(1500), "your ceiling is 1.5 Mbit/s");
+    EXPECT_EQ(reason_with_ceiling_of(1000), "your ceiling is 1 Mbit/s");
+}
+
+}  // namespace
+}  // namespace theatron::session
