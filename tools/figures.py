@@ -232,12 +232,29 @@ def truth(program, table, row):
             for name, cell in zip(table.columns[1:], row[1:]) if cell}
 
 
+@Figure("docs/filters.md", "saved", "theatron bench filter --quality --room", slow=True)
+def saved(program, table, row):
+    chains = {c["name"]: c for c in program.bench("filter", "--quality", "--room")}
+    if row[0] not in chains:
+        return {}  # these need a recorded background, or chains of their own
+    room = next(s for s in chains[row[0]]["scenes"] if s["scene"] == "operating_room")
+    return {"depth, Mbit/s": [room["depth_mbit_per_second"]]}
+
+
 @Figure("docs/rendering.md", "view", "theatron bench view --cameras 4 --filter FILTER", slow=True)
 def view(program, table, row):
     result = program.bench("view", "--cameras", 4, "--filter", row[0])
     drawn = {r["name"]: r for r in result["renderers"]}[row[1]]
     keys = ("psnr_db", "psnr_overlap_db", "ssim", "holes_percent", "silhouette_px", "flicker_overlap")
     return {column: [drawn[key]] for column, key in zip(table.columns[2:], keys)}
+
+
+@Figure("docs/rendering.md", "patterned", "theatron bench view --cameras 4 --filter FILTER", slow=True)
+def patterned(program, table, row):
+    result = program.bench("view", "--cameras", 4, "--filter", "default")
+    drawn = {r["name"]: r for r in result["renderers"]}[row[0]]
+    keys = ("fine_db", "db", "depth_sized_db", "registered_db")
+    return {column: [drawn[f"psnr_patterned_{key}"]] for column, key in zip(table.columns[1:], keys)}
 
 
 # ---- pictures with an empty border
