@@ -28,8 +28,7 @@ step() {
 }
 
 build() {
-    cmake --preset "$1" > /dev/null
-    cmake --build --preset "$@"
+    cmake --preset "$1" > /dev/null && cmake --build --preset "$@"
 }
 
 step "Format and licence lines" tools/check_sources.py

@@ -109,10 +109,11 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
             entry.stream.last = now.local;
             return answer.ask_for_key;
         case Recorder::Added::dropped:
-            return entry.gate.on_dropped(now.local);
+            entry.gate.on_dropped();
+            return true;
         case Recorder::Added::ended:
         case Recorder::Added::not_recorded:
-            (void)entry.gate.on_dropped(now.local);
+            entry.gate.on_dropped();
             return false;
     }
     return false;

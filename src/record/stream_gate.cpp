@@ -42,12 +42,11 @@ StreamGate::Answer StreamGate::on_frame(const wire::MediaHeader& header, TimePoi
     return {.record = true, .ask_for_key = true};
 }
 
-bool StreamGate::on_dropped(TimePoint now) {
+void StreamGate::on_dropped() {
     --figures_.recorded;
     ++figures_.dropped;
     open_ = false;
     recorded_.clear();
-    return ask(now);
 }
 
 void StreamGate::close() {

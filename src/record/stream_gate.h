@@ -34,9 +34,8 @@ public:
     };
     Answer on_frame(const wire::MediaHeader& header, TimePoint now);
 
-    // The frame that was to be recorded just now could not be: what follows waits for a key frame.
-    // True if that should be asked for.
-    bool on_dropped(TimePoint now);
+    // The frame that was to be recorded just now could not be: what follows waits for a key.
+    void on_dropped();
     // What follows waits for a key frame: a segment or a connection begins.
     void close();
 
