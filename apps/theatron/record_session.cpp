@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "participant.h"
 #include "record_source.h"
+#include "session/request_budget.h"
 
 namespace theatron::app {
 namespace {
@@ -13,6 +14,12 @@ namespace {
 constexpr Duration join_patience = std::chrono::seconds(15);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
+
+// The host grants each key frame that a recorder asks for in its turn.
+static_assert(
+    to_seconds(record::StreamGate::key_period) *
+        session::RequestBudget::limits[std::size_t(session::RequestBudget::Kind::key)].per_second >=
+    1);
 
 class SessionRecording final : public RecordSource {
 public:

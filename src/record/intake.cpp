@@ -109,11 +109,10 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
             entry.stream.last = now.local;
             return answer.ask_for_key;
         case Recorder::Added::dropped:
-            entry.gate.on_dropped();
-            return true;
+            return entry.gate.on_dropped(now.local);
         case Recorder::Added::ended:
         case Recorder::Added::not_recorded:
-            entry.gate.on_dropped();
+            (void)entry.gate.on_dropped(now.local);
             return false;
     }
     return false;

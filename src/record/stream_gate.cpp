@@ -42,11 +42,12 @@ StreamGate::Answer StreamGate::on_frame(const wire::MediaHeader& header, TimePoi
     return {.record = true, .ask_for_key = true};
 }
 
-void StreamGate::on_dropped() {
+bool StreamGate::on_dropped(TimePoint now) {
     --figures_.recorded;
     ++figures_.dropped;
     open_ = false;
     recorded_.clear();
+    return ask(now);
 }
 
 void StreamGate::close() {

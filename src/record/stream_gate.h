@@ -34,8 +34,9 @@ public:
     };
     Answer on_frame(const wire::MediaHeader& header, TimePoint now);
 
-    // The frame that was to be recorded just now could not be: what follows waits for a key.
-    void on_dropped();
+    // The frame that was to be recorded just now could not be: what follows waits for a key frame.
+    // True if that should be asked for.
+    bool on_dropped(TimePoint now);
     // What follows waits for a key frame: a segment or a connection begins.
     void close();
 

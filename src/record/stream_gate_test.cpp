@@ -63,10 +63,10 @@ TEST(StreamGate, ADroppedFrameClosesTheChainUntilTheNextKey) {
     StreamGate gate;
     EXPECT_TRUE(gate.on_frame(frame(0, 0), begin).record);
     EXPECT_TRUE(gate.on_frame(frame(1, 0), begin).record);
-    gate.on_dropped();
+    EXPECT_TRUE(gate.on_dropped(begin)) << "a key frame is asked for at once";
     const auto follower = gate.on_frame(frame(2, 1), begin);
     EXPECT_FALSE(follower.record);
-    EXPECT_TRUE(follower.ask_for_key);
+    EXPECT_FALSE(follower.ask_for_key) << "and not again so soon";
     EXPECT_FALSE(gate.on_frame(frame(3, 0), begin).record) << "the chain is not taken up again";
     EXPECT_TRUE(gate.on_frame(frame(4, 4), begin).record);
     EXPECT_EQ(gate.figures().recorded, 2u);

@@ -139,7 +139,9 @@ void LaneEncoders::choose(const std::vector<std::shared_ptr<E>>& encoders,
 std::optional<bool> LaneEncoders::begin(Encoder& encoder, bool key) {
     std::unique_lock lock(encoder.mutex);
     encoder.behind = !encoder.at_once;
-    const bool changed = encoder.keeping_up.on_picture(!encoder.busy);
+    // A new one may have waited behind others until it was measured.
+    const bool changed =
+        encoder.cost.known() && encoder.keeping_up.on_picture(!encoder.busy || encoder.at_once);
     std::optional<bool> result;
     if (encoder.busy) {
         encoder.key_asked = encoder.key_asked || key;

@@ -209,6 +209,22 @@ TEST_F(Encoders, ASettingWithinItsShareComesAtOnceSoonAfterItsFirstFrames) {
     expect_whole_chain(other, "ans:delta=1");
 }
 
+TEST_F(Encoders, NobodyIsToldThatASettingIsTooDearBeforeItIsMeasured) {
+    set({{cheap, "trvl"}});
+    for (int i = 0; i < 5; ++i)
+        give_depth();
+    set({{cheap, "trvl"}, {other, "ans:delta=1"}});
+    // The threads behind are busy with what others asked for.
+    for (int i = 0; i < 2 * KeepingUp::window; ++i)
+        give_depth();
+    for (int i = 0; i < 10; ++i) {
+        do_behind();
+        give_depth();
+    }
+    EXPECT_FALSE(encoders->figures()[1].behind);
+    EXPECT_TRUE(told.empty());
+}
+
 TEST_F(Encoders, AKeyFrameWantedOfABusyEncoderComesNext) {
     set({{cheap, "trvl"}});
     give_depth();

@@ -45,9 +45,10 @@ public:
         double per_second = 0;
         double at_once = 0;
     };
-    // Of key requests these are for each stream; a viewer repeats one after 700 ms.
+    // Of key requests these are for each stream; a viewer repeats one after 700 ms, a recorder asks
+    // for one every 1.5 s.
     static constexpr std::array<Limit, kinds> limits{
-        {{2, 5}, {2, 5}, {0.5, 4}, {20, 40}, {20, 40}, {20'000, 20'000}, {5, 20}}};
+        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {20'000, 20'000}, {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 
