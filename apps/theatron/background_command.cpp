@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "files/file_bytes.h"
 #include "filter/background.h"
+#include "json_text.h"
 #include "progress.h"
 
 namespace theatron::app {
@@ -62,12 +63,11 @@ void run(const Flags& flags) {
     const auto unknown = std::count(pixels.begin(), pixels.end(), std::uint16_t(0));
     const double measured = 1 - double(unknown) / double(pixels.size());
     if (flags.json) {
-        std::printf("%s\n", nlohmann::json{{"path", flags.out},
-                                           {"frames", background.frames},
-                                           {"width", background.nearest.size.width},
-                                           {"height", background.nearest.size.height},
-                                           {"measured", measured}}
-                                .dump()
+        std::printf("%s\n", json_text({{"path", flags.out},
+                                       {"frames", background.frames},
+                                       {"width", background.nearest.size.width},
+                                       {"height", background.nearest.size.height},
+                                       {"measured", measured}})
                                 .c_str());
         return;
     }

@@ -6,20 +6,21 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "json_text.h"
 
 namespace theatron::app {
 
 void report(const nlohmann::json& result, const std::string& file,
             const std::function<void()>& print_table) {
     if (file == "-") {
-        std::cout << result.dump(2) << std::endl;
+        std::cout << json_text(result, 2) << std::endl;
         return;
     }
     print_table();
     if (file.empty())
         return;
     std::ofstream out(file);
-    out << result.dump(2) << "\n";
+    out << json_text(result, 2) << "\n";
     if (!out.flush())
         throw Error("Cannot write " + file + ".");
 }

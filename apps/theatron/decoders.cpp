@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "base/fault.h"
 #include "base/thread_name.h"
 
 namespace theatron::app {
 
-Decoders::Decoders(const receive::Receiver::Events& events) : now_(events.now) {
+Decoders::Decoders(const receive::Receiver::Events& events)
+    : now_(events.now), needs_key_(events.needs_key) {
     const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
     for (unsigned i = 0; i < cores; ++i) {
         workers_.push_back(std::make_unique<Worker>(events));
@@ -41,7 +43,8 @@ void Decoders::run(Worker& worker) {
         {
             const std::lock_guard receiving(worker.receiver_mutex);
             // Damage is counted there, and a key frame asked for.
-            (void)worker.receiver.on_media(message, now_());
+            if (!contain("decode", [&] { (void)worker.receiver.on_media(message, now_()); }))
+                ask_for_key(message);
         }
         lock.lock();
         worker.busy = false;
@@ -52,6 +55,13 @@ void Decoders::run(Worker& worker) {
         }
         worker.changed.notify_all();
     }
+}
+
+// The picture is lost, and what its decoder holds may be anything.
+void Decoders::ask_for_key(ByteView message) {
+    const auto header = wire::parse_media_header(message);
+    if (header && needs_key_)
+        (void)contain("decode", [&] { needs_key_(header->stream, header->setting); });
 }
 
 void Decoders::drain(Worker& worker) {

@@ -58,6 +58,7 @@ private:
         std::thread thread;
     };
     void run(Worker& worker);
+    void ask_for_key(ByteView message);
     static void drain(Worker& worker);
     Worker& worker_of(StreamId stream) {
         return *workers_[std::size_t(camera_of(stream)) % workers_.size()];
@@ -65,6 +66,7 @@ private:
 
     std::function<TimePoint()> now_;
     std::map<StreamId, std::size_t> max_sizes_;  // of messages; who calls on_media()
+    std::function<void(StreamId, SettingId)> needs_key_;
     std::vector<std::unique_ptr<Worker>> workers_;
 };
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "camera_option.h"
 #include "commands.h"
@@ -57,7 +58,7 @@ void run(const Flags& flags) {
     Participant::Options join;
     join.link = net::parse_link(host.link());
     join.name = "demo viewer";
-    join.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+    join.remark = [](const std::string& text) { log::say(text); };
     Participant viewer(join);
 
     constexpr Size size{1280, 720};

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "export_formats.h"
 #include "filter_choice.h"
+#include "json_text.h"
 #include "progress.h"
 
 namespace theatron::app {
@@ -68,11 +69,10 @@ void run(const Flags& flags) {
     const std::vector<std::string> filters = filters_of(*recording, flags.camera);
     const auto report = [&](const char* what, std::size_t count, const std::string& place) {
         if (flags.json)
-            std::cout << nlohmann::json{{"format", what},
-                                        {"count", count},
-                                        {"path", place},
-                                        {"filters", filters}}
-                             .dump()
+            std::cout << json_text({{"format", what},
+                                    {"count", count},
+                                    {"path", place},
+                                    {"filters", filters}})
                       << std::endl;
         else
             std::cout << place << ": " << count << (count == 1 ? " frame" : " frames") << std::endl;

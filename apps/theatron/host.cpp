@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "codec_steps.h"
@@ -85,7 +86,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
     thread = std::thread([this] {
         name_this_thread("net");
-        server->run();
+        (void)contain("net", [this] { server->run(); });
     });
 }
 
@@ -112,24 +113,8 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
     const auto moments = std::make_shared<send::SharedMoments>(fps);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         send::CameraLane::Events events;
-        events.media = [this](send::EncodedMedia media) {
-            server->post([this, media = std::move(media)] { distribute(media); });
-        };
-        events.state = [this](wire::CameraState state) {
-            server->post([this, state = std::move(state)] {
-                using Condition = wire::CameraCondition;
-                if (state.condition == Condition::failed)
-                    log::error("host", "camera failed",
-                               {{"camera", int(state.camera)}, {"problem", state.problem}});
-                else if (state.condition == Condition::stale)
-                    log::warning("host", "camera is stale",
-                                 {{"camera", int(state.camera)}, {"problem", state.problem}});
-                else if (state.condition == Condition::live)
-                    log::info("host", "camera is live", {{"camera", int(state.camera)}});
-                session->on_camera(state);
-                carry_out();
-            });
-        };
+        events.media = [this](send::EncodedMedia encoded) { take_media(std::move(encoded)); };
+        events.state = [this](wire::CameraState state) { take_state(std::move(state)); };
         events.keeps_up = [this, camera = CameraId(i)](SettingId setting, bool keeps_up,
                                                        Duration cpu) {
             server->post([this, camera, setting, keeps_up, cpu] {

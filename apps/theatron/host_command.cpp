@@ -18,6 +18,7 @@
 #include "commands.h"
 #include "host.h"
 #include "input_lines.h"
+#include "json_text.h"
 #include "progress.h"
 #include "region_text.h"
 #include "renderer_text.h"
@@ -97,10 +98,9 @@ void run(Flags& flags) {
     draw_regions(host, flags.regions);
 
     if (flags.json) {
-        std::cout << nlohmann::json{{"link", host.link()},
-                                    {"port", host.port()},
-                                    {"cameras", host.camera_names()}}
-                         .dump()
+        std::cout << json_text({{"link", host.link()},
+                                {"port", host.port()},
+                                {"cameras", host.camera_names()}})
                   << std::endl;
     } else {
         std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
@@ -130,7 +130,7 @@ void run(Flags& flags) {
         std::cout << "\n";
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);
-        out << to_json(host.figures()).dump(2) << "\n";
+        out << json_text(to_json(host.figures()), 2) << "\n";
         if (!out.flush())
             throw Error("Cannot write the summary to " + flags.summary + ".");
     }

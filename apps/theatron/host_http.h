@@ -8,16 +8,15 @@
 #include <vector>
 
 #include "host_figures.h"
+#include "net/http.h"
 #include "net/link.h"
-#include "net/server.h"
 
 namespace theatron::app {
 
-// Answers other targets with nothing. `tokens`: any of these will do, in the header
+// `tokens`: any of these will do, in the header
 // "Authorization: Bearer TOKEN" or in the query as token=TOKEN.
-std::optional<net::HttpAnswer> answer_http(const net::HttpRequest& request,
-                                           const std::vector<std::string>& tokens,
-                                           const std::function<HostFigures()>& figures);
+net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<std::string>& tokens,
+                            const std::function<HostFigures()>& figures);
 
 // What a host, perhaps on another machine, answers to /status: see to_json(). Its texts are clean
 // (base/outside_text.h). Throws Error, also at an answer that is nested more deeply than any

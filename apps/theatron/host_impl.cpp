@@ -2,6 +2,7 @@
 // What happens on the server's thread.
 #include "host_impl.h"
 
+#include "base/fault.h"
 #include "base/log.h"
 #include "host_http.h"
 
@@ -9,8 +10,14 @@ namespace theatron::app {
 
 net::Server::Handler Host::Impl::handler() {
     net::Server::Handler h;
-    h.connected = [this](net::PeerId peer, const std::string& address) {
-        log::info("host", "connection", {{"id", int(peer)}, {"address", address}});
+    h.invited = [this](ByteView first) { return is_invited(first); };
+    h.turned_away = [this](const std::string& address, const std::string& why) {
+        if (const auto left_out = strangers.take(address, steady_now()))
+            log::info("host", "stranger turned away",
+                      {{"address", address}, {"why", why}, {"left_out", *left_out}});
+    };
+    h.connected = [this](net::PeerId peer, const std::string& address, bool) {
+        addresses[peer] = address;
         session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
         carry_out();
     };
@@ -18,12 +25,12 @@ net::Server::Handler Host::Impl::handler() {
         session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
         carry_out();
     };
-    // Participants do not publish yet; what they send is not asked for.
-    h.media = [this](net::PeerId peer, ByteView) {
-        server->close(peer, "media was not asked for");
-    };
     h.closed = [this](net::PeerId peer, const std::string& why) {
-        log::info("host", "participant left", {{"id", int(peer)}, {"why", why}});
+        const std::string address = addresses[peer];
+        addresses.erase(peer);
+        if (const auto left_out = joins.take("left " + address, steady_now()))
+            log::info("host", "participant left",
+                      {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
         session->on_closed(ParticipantId(std::uint32_t(peer)));
         carry_out();
     };
@@ -41,49 +48,65 @@ net::Server::Handler Host::Impl::handler() {
     return h;
 }
 
+// What one action meets costs only the participant that it is for.
 void Host::Impl::carry_out() {
-    for (const auto& action : session->take_actions()) {
-        const net::PeerId peer{std::uint32_t(action.participant)};
-        using Kind = session::HostSession::Action::Kind;
-        switch (action.kind) {
-            case Kind::send:
-                server->send_control(peer, wire::encode_control(action.message));
-                break;
-            case Kind::close:
+    for (const auto& action : session->take_actions())
+        if (!contain("host", [&] { carry_out(action); }))
+            server->close(net::PeerId(std::uint32_t(action.participant)), "it met a fault here");
+}
+
+void Host::Impl::carry_out(const session::HostSession::Action& action) {
+    const net::PeerId peer{std::uint32_t(action.participant)};
+    using Kind = session::HostSession::Action::Kind;
+    switch (action.kind) {
+        case Kind::send:
+            server->send_control(peer, wire::encode_control(action.message));
+            break;
+        case Kind::close:
+            if (const auto left_out = joins.take("refused " + addresses[peer], steady_now()))
                 log::warning("host", "participant refused",
-                             {{"id", int(peer)}, {"why", action.why}});
-                server->close(peer, action.why);
-                break;
-            case Kind::joined:
-                log::info("host", "participant joined", {{"id", int(peer)}, {"name", action.why}});
-                break;
-            case Kind::request_key: {
-                const auto camera = std::size_t(camera_of(action.key.stream));
-                if (camera < lanes.size())
-                    lanes[camera]->request_key(action.key.stream, action.key.setting);
-                break;
-            }
-            case Kind::change_settings:
-                change_settings();
-                break;
-            case Kind::acknowledged:
-                server->acknowledge(peer, action.bytes);
-                release_lanes();
-                break;
-            case Kind::keep_everything:
-                server->keep_everything(peer);
-                break;
-            case Kind::set_ceiling:
-                server->set_ceiling(peer, double(action.bytes));
-                break;
-            case Kind::stepped:
-                log::info("host", "sending changed", {{"id", int(peer)}, {"to", action.why}});
-                break;
-            case Kind::drawing:
-                log::info("host", "participant draws",
-                          {{"id", int(peer)}, {"renderer", action.why}});
-                break;
+                             {{"id", int(peer)},
+                              {"address", addresses[peer]},
+                              log::outside("why", action.why),
+                              {"left_out", *left_out}});
+            server->close(peer, action.why);
+            break;
+        case Kind::joined:
+            if (const auto left_out = joins.take(addresses[peer] + " " + action.why, steady_now()))
+                log::info("host", "participant joined",
+                          {{"id", int(peer)},
+                           {"address", addresses[peer]},
+                           log::outside("name", action.why),
+                           {"left_out", *left_out}});
+            break;
+        case Kind::request_key: {
+            const auto camera = std::size_t(camera_of(action.key.stream));
+            if (camera < lanes.size())
+                lanes[camera]->request_key(action.key.stream, action.key.setting);
+            break;
         }
+        case Kind::change_settings:
+            change_settings();
+            break;
+        case Kind::acknowledged:
+            server->acknowledge(peer, action.bytes);
+            release_lanes();
+            break;
+        case Kind::keep_everything:
+            server->keep_everything(peer);
+            break;
+        case Kind::set_ceiling:
+            server->set_ceiling(peer, double(action.bytes));
+            break;
+        case Kind::stepped:
+            if (changes.take(std::to_string(int(peer)), steady_now()))
+                log::info("host", "sending changed",
+                          {{"id", int(peer)}, log::outside("to", action.why)});
+            break;
+        case Kind::drawing:
+            log::info("host", "participant draws",
+                      {{"id", int(peer)}, log::outside("renderer", action.why)});
+            break;
     }
 }
 
@@ -127,13 +150,66 @@ void Host::Impl::release_lanes() {
         hold_lane(camera);
 }
 
+bool Host::Impl::is_invited(ByteView first) const {
+    const auto message = wire::decode_control(first);
+    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
+    return join && net::equal_secrets(join->token, http_tokens.front());
+}
+
+void Host::Impl::take_media(send::EncodedMedia encoded) {
+    if (media.put(std::move(encoded)))
+        server->post([this] { distribute_media(); });
+}
+
+void Host::Impl::take_state(wire::CameraState state) {
+    bool first;
+    {
+        const std::lock_guard lock(states_mutex);
+        first = new_states.empty();
+        new_states[state.camera] = std::move(state);
+    }
+    if (first)
+        server->post([this] { on_camera_states(); });
+}
+
+void Host::Impl::on_camera_states() {
+    std::map<CameraId, wire::CameraState> states;
+    {
+        const std::lock_guard lock(states_mutex);
+        states.swap(new_states);
+    }
+    for (const auto& [camera, state] : states) {
+        using Condition = wire::CameraCondition;
+        if (state.condition == Condition::failed)
+            log::error("host", "camera failed",
+                       {{"camera", int(camera)}, {"problem", state.problem}});
+        else if (state.condition == Condition::stale)
+            log::warning("host", "camera is stale",
+                         {{"camera", int(camera)}, {"problem", state.problem}});
+        else if (state.condition == Condition::live)
+            log::info("host", "camera is live", {{"camera", int(camera)}});
+        session->on_camera(state);
+    }
+    carry_out();
+}
+
+void Host::Impl::distribute_media() {
+    const auto taken = media.take();
+    for (const auto& [stream, setting] : taken.broken)
+        session->on_broken_stream(stream, setting);
+    for (const auto& [stream, dropped] : taken.dropped)
+        dropped_slow[camera_of(stream)] += dropped;
+    for (const send::EncodedMedia& encoded : taken.media)
+        distribute(encoded);
+}
+
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     const wire::MediaHeader& header = encoded.header;
-    net::Media media{encoded.message,  header.stream,         header.setting, header.frame,
-                     header.reference, header.temporal_layer, header.key,     {}};
+    net::Media message{encoded.message,  header.stream,         header.setting, header.frame,
+                       header.reference, header.temporal_layer, header.key,     {}};
     for (const ParticipantId receiver :
          session->on_media(header, encoded.message->size(), steady_now())) {
-        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), media);
+        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), message);
         dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
         if (pushed.needs_key)
             session->on_broken_stream(header.stream, header.setting);

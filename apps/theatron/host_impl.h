@@ -6,11 +6,13 @@
 #include <mutex>
 #include <set>
 
+#include "base/line_limit.h"
 #include "base/steady_clock.h"
 #include "filter_choice.h"
 #include "host.h"
 #include "net/certificate.h"
 #include "net/server.h"
+#include "send/media_queue.h"
 #include "session/host_session.h"
 
 namespace theatron::app {
@@ -25,6 +27,13 @@ struct Host::Impl {
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::vector<FilterSource> filters;  // by camera; used by who owns the host
     std::thread thread;
+    send::MediaQueue media;  // from the lanes to the server's thread
+    std::mutex states_mutex;
+    std::map<CameraId, wire::CameraState> new_states;  // the same way; the newest of each
+    // Where peers come from; server's thread.
+    std::map<net::PeerId, std::string> addresses;
+    LineLimit joins, changes;  // of log lines; server's thread
+    LineLimit strangers;       // the door's thread
     // Which cameras have a region of interest; server's thread.
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;  // lanes; server's thread
@@ -55,15 +64,21 @@ struct Host::Impl {
 
     // All below on the server's thread.
     void carry_out();
+    void carry_out(const session::HostSession::Action& action);
     void change_settings();
     void hold_lane(std::size_t camera);
     void hold_lanes();
     void release_lanes();
+    void distribute_media();
     void distribute(const send::EncodedMedia& media);
+    void on_camera_states();
     void measure_links();
     void note_participants();
 
     // From any thread.
+    void take_media(send::EncodedMedia encoded);
+    void take_state(wire::CameraState state);
+    bool is_invited(ByteView first) const;
     HostFigures figures() const;
 };
 

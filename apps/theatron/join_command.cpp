@@ -9,11 +9,13 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/png_file.h"
 #include "head_text.h"
 #include "input_lines.h"
+#include "json_text.h"
 #include "participant.h"
 #include "participant_figures.h"
 #include "renderer_text.h"
@@ -181,7 +183,7 @@ void run(const Flags& flags) {
     options.depth_codec = depth.setting.text;
     options.color_codec = color.setting.text;
     options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
-    options.remark = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+    options.remark = [](const std::string& text) { log::say(text); };
 
     if (flags.window()) {
         check_renderer_choice(flags.renderer);
@@ -233,7 +235,7 @@ void run(const Flags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << participant_figures(participant).dump() << std::endl;
+            std::cout << json_text(participant_figures(participant)) << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -246,7 +248,7 @@ void run(const Flags& flags) {
     if (picture)
         picture->write(flags);
     if (flags.json)
-        std::cout << figures.dump() << std::endl;
+        std::cout << json_text(figures) << std::endl;
     else if (!live_line)
         std::cout << status_line(participant) << std::endl;
 }

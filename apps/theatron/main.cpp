@@ -4,9 +4,11 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "commands.h"
 
 int main(int argc, char** argv) {
+    theatron::log::flush_before_abort();
     // A file that reaches the size that is allowed is an error to report, not the end.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(

@@ -7,9 +7,12 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/fault.h"
+#include "base/outside_text.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "net/clock_sync.h"
+#include "wire/envelope.h"
 
 namespace theatron::app {
 namespace {
@@ -47,7 +50,25 @@ Participant::Participant(Options options)
       shared_(std::make_unique<Shared>()),
       decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
-    thread_ = std::thread([this] { run(); });
+    if (session_.begin().size() + 1 > wire::max_first_envelope_size)
+        throw Error("Name, token and codecs together have more than " +
+                    std::to_string(wire::max_first_envelope_size) +
+                    " bytes; choose a shorter name.");
+    thread_ = std::thread([this] {
+        // What is to be done again for a connection that met a fault, run() does by itself.
+        if (!contain("participant", [this] { run(); }))
+            give_up();
+    });
+}
+
+// Without memory even for another attempt.
+void Participant::give_up() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->client = nullptr;
+        shared_->status.phase = Phase::lost;
+    }
+    announce();
 }
 
 Participant::~Participant() {
@@ -135,7 +156,7 @@ net::Client::Handler Participant::handler() {
     h.media = [this](ByteView message) { on_media(message); };
     h.received = [this](std::uint64_t media_bytes, bool complete) {
         if (const auto message = session_.on_received(media_bytes, complete, steady_now()))
-            shared_->client->send_control(*message);
+            shared_->client->send_acknowledgement(*message);
     };
     h.now = [this] { return now(); };
     h.tick = [this] { on_tick(); };
@@ -398,8 +419,9 @@ void Participant::tell_renderer(const std::string& renderer) {
 }
 
 void Participant::remark(const std::string& text) const {
+    // It may repeat the host's words.
     if (options_.remark)
-        options_.remark(text);
+        options_.remark(clean_text(text, max_remark_characters));
 }
 
 }  // namespace theatron::app

@@ -20,6 +20,8 @@ namespace theatron::app {
 
 class Participant {
 public:
+    static constexpr std::size_t max_remark_characters = 300;
+
     struct Options {
         net::Link link;
         std::string name = "guest";
@@ -28,7 +30,7 @@ public:
         wire::ChooseDelivery delivery{150, 0};
         bool records = false;  // as in wire::Join
         // Told what a person should know: reconnecting, refused, a camera ended.
-        // Called from the participant's thread.
+        // Called from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;
         // If set, media goes here as it comes instead of being decoded. Called
         // from the participant's thread; the message is valid during the call.
@@ -100,6 +102,7 @@ public:
 
 private:
     void run();
+    void give_up();
     net::Client::Handler handler();
     receive::Receiver::Events decoded_events();
     void on_control(ByteView message);

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "host_figures.h"
 #include "host_http.h"
+#include "json_text.h"
 
 namespace theatron::app {
 
@@ -22,7 +23,7 @@ void add_status_command(CLI::App& app) {
     command->callback([flags] {
         const nlohmann::json figures = status_of_host(net::parse_link(flags->link));
         if (flags->json)
-            std::printf("%s\n", figures.dump().c_str());
+            std::printf("%s\n", json_text(figures).c_str());
         else
             std::printf("%s", to_table(figures).c_str());
     });

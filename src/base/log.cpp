@@ -2,8 +2,10 @@
 #include "base/log.h"
 
 #include <atomic>
-#include <cstdio>
 #include <ctime>
+
+#include "base/log_output.h"
+#include "base/outside_text.h"
 
 namespace theatron::log {
 namespace {
@@ -32,19 +34,21 @@ void write(Level level, std::string_view area, std::string_view what,
                        ": " + std::string(what);
     for (const Field& field : fields) {
         line += " " + std::string(field.key) + "=";
-        const bool plain = field.value.find_first_of(" \"\n\r") == std::string::npos;
-        if (plain) {
-            line += field.value;
+        const std::string value = clean_text(field.value, field.max_characters);
+        if (value.find_first_of(" \"") == std::string::npos) {
+            line += value;
             continue;
         }
         line += '"';
-        for (const char c : field.value)
-            line += c == '"' ? '\'' : (c == '\n' || c == '\r') ? ' ' : c;
+        for (const char c : value)
+            line += c == '"' ? '\'' : c;
         line += '"';
     }
-    line += '\n';
-    // One write per line, so that lines of several threads never mix.
-    std::fwrite(line.data(), 1, line.size(), stderr);
+    output_line(line + '\n');
+}
+
+void say(std::string_view sentence) {
+    output_line(clean_text(sentence, max_field_characters) + '\n');
 }
 
 }  // namespace theatron::log

@@ -3,7 +3,8 @@
 // `12:01:07 info net: participant joined id=3 address=127.0.0.1`.
 //
 // Anything per frame or per packet is a counter, never a log line. Safe from
-// any thread. Pure folders do not log.
+// any thread, and never blocks: a thread of its own writes the lines, and lines
+// that it cannot write in time are left out and counted. Pure folders do not log.
 #pragma once
 
 #include <concepts>
@@ -11,11 +12,16 @@
 #include <string>
 #include <string_view>
 
+#include "base/time.h"
+
 namespace theatron::log {
 
 enum class Level { debug, info, warning, error };
 
-// One `key=value` of a line; text with spaces is quoted.
+// Longer values are cut. Outside text is what another program or machine wrote.
+inline constexpr std::size_t max_field_characters = 300, max_outside_characters = 80;
+
+// One `key=value` of a line; text with spaces is quoted, control characters become spaces.
 struct Field {
     Field(std::string_view k, std::string_view v) : key(k), value(v) {}
     Field(std::string_view k, const char* v) : key(k), value(v) {}
@@ -24,7 +30,14 @@ struct Field {
 
     std::string_view key;
     std::string value;
+    std::size_t max_characters = max_field_characters;
 };
+
+inline Field outside(std::string_view key, std::string_view value) {
+    Field field(key, value);
+    field.max_characters = max_outside_characters;
+    return field;
+}
 
 // Lines below this level are dropped; info at start.
 void set_level(Level lowest);
@@ -44,5 +57,15 @@ inline void error(std::string_view area, std::string_view what,
                   std::initializer_list<Field> fields = {}) {
     write(Level::error, area, what, fields);
 }
+
+// A sentence for the person at the terminal, without time and area; cut at
+// max_field_characters.
+void say(std::string_view sentence);
+
+// Waits until what was logged is written, at most so long. Happens at exit, too.
+void flush(Duration patience);
+
+// From now on abort() and std::terminate() wait for the lines, at most half a second.
+void flush_before_abort();
 
 }  // namespace theatron::log

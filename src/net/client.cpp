@@ -6,6 +6,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "base/fault.h"
 #include "net/certificate.h"
 #include "net/connection.h"
 
@@ -63,6 +64,7 @@ struct Client::Impl {
             if (error)
                 return finish("No host answers at " + where() + ": " + error.message() + ".");
             tune_socket(beast::get_lowest_layer(*socket).socket());
+            set_receive_buffer(beast::get_lowest_layer(*socket).socket(), viewer_receive_buffer);
             handshake();
         });
     }
@@ -101,7 +103,8 @@ struct Client::Impl {
                 finish("The connection ended: " + why + ".");
             };
             events.now = handler.now;
-            connection = std::make_shared<Connection>(std::move(*socket), std::move(events));
+            connection = std::make_shared<Connection>(
+                std::move(*socket), wire::Unwrapper::Takes::control_and_media, std::move(events));
             connection->start();
             handler.connected();
         });
@@ -112,8 +115,11 @@ struct Client::Impl {
         timer.async_wait([this](beast::error_code error) {
             if (error)
                 return;
-            if (connection && handler.tick)
-                handler.tick();
+            if (connection) {
+                connection->look();
+                if (handler.tick)
+                    handler.tick();
+            }
             tick();
         });
     }
@@ -130,9 +136,13 @@ Client::Client(Link link, Handler handler) : impl_(std::make_unique<Impl>()) {
 Client::~Client() = default;
 
 Client::End Client::run() {
-    impl_->resolve();
-    impl_->tick();
-    impl_->io.run();
+    const bool ended = contain("net", [this] {
+        impl_->resolve();
+        impl_->tick();
+        impl_->io.run();
+    });
+    if (!ended)
+        return {"The connection ended: it met a fault here.", false};
     return impl_->end;
 }
 
@@ -142,6 +152,11 @@ void Client::stop() {
 
 void Client::post(std::function<void()> work) {
     asio::post(impl_->io, std::move(work));
+}
+
+void Client::send_acknowledgement(ByteView control) {
+    if (impl_->connection)
+        impl_->connection->send_acknowledgement(control);
 }
 
 void Client::send_control(ByteView control) {

@@ -15,7 +15,7 @@ namespace theatron::net {
 
 class Client {
 public:
-    // Called on the thread that runs the client.
+    // Called on the thread that runs the client. A call that throws ends the connection.
     struct Handler {
         std::function<void()> connected;
         std::function<void(ByteView)> control;
@@ -45,6 +45,8 @@ public:
 
     // On the client's thread only.
     void send_control(ByteView control);
+    // For what each later one includes: the newest replaces one that still waits.
+    void send_acknowledgement(ByteView control);
 
 private:
     struct Impl;

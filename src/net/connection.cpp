@@ -4,6 +4,8 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <utility>
+
 namespace theatron::net {
 namespace {
 
@@ -25,12 +27,16 @@ std::string describe(const beast::error_code& error) {
 void tune_socket(asio::ip::tcp::socket& socket) {
     beast::error_code ignored;
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-    // A peer that stops reading must not find seconds of old frames when it wakes.
-    socket.set_option(asio::socket_base::receive_buffer_size(1 << 20), ignored);
     // Bytes that the kernel takes before the network has room for them.
     constexpr int unsent_limit = 64 * 1024;
     setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_limit,
                sizeof(unsent_limit));
+}
+
+// A peer that stops reading must not find seconds of old frames when it wakes.
+void set_receive_buffer(asio::ip::tcp::socket& socket, int bytes) {
+    beast::error_code ignored;
+    socket.set_option(asio::socket_base::receive_buffer_size(bytes), ignored);
 }
 
 void configure(WebSocket& socket) {
@@ -45,15 +51,23 @@ void configure(WebSocket& socket) {
     socket.set_option(timeout);
 }
 
-Connection::Connection(WebSocket socket, Events events)
+Connection::Connection(WebSocket socket, wire::Unwrapper::Takes takes, Events events)
     : socket_(std::move(socket)),
-      events_(std::move(events)),
+      events_(std::make_shared<const Events>(std::move(events))),
+      now_(events_->now),
+      unwrapper_(takes),
       ceiling_timer_(socket_.get_executor()) {}
 
-void Connection::start() {
+void Connection::start(ByteView first) {
     beast::get_lowest_layer(socket_).expires_never();
-    read();
-    write();
+    guarded([&] {
+        if (!first.empty())
+            events_->control(first);
+        if (finished_)
+            return;
+        read();
+        write();
+    });
 }
 
 void Connection::send_control(ByteView control) {
@@ -64,23 +78,36 @@ void Connection::send_control(ByteView control) {
     write();
 }
 
+void Connection::send_acknowledgement(ByteView control) {
+    if (finished_ || !closing_.empty())
+        return;
+    outbox_.put_acknowledgement(wire::wrap_control(control));
+    write();
+}
+
 Outbox::Pushed Connection::send_media(Media media) {
     if (finished_ || !closing_.empty())
         return {1, false};
-    media.queued = events_.now();
+    media.queued = now_();
     const Outbox::Pushed pushed = outbox_.push_media(std::move(media));
     write();
     return pushed;
 }
 
 void Connection::acknowledge(std::uint64_t media_bytes) {
-    outbox_.acknowledge(media_bytes, events_.now());
+    outbox_.acknowledge(media_bytes, now_());
     write();
 }
 
 void Connection::set_ceiling(double bytes_per_second) {
     outbox_.set_ceiling(bytes_per_second);
     write();
+}
+
+void Connection::look() {
+    if (!finished_ && outbox_.stands_still(now_()))
+        finish("it took nothing for " +
+               std::to_string(Outbox::give_up_after / std::chrono::seconds(1)) + " s");
 }
 
 void Connection::close(const std::string& why) {
@@ -90,44 +117,61 @@ void Connection::close(const std::string& why) {
     write();
 }
 
+void Connection::end(const std::string& why) {
+    guarded([&] { finish(why); });
+}
+
+void Connection::abandon() {
+    events_ = nullptr;
+    finish("");
+}
+
+// What is called may end this connection, and `closed` may destroy who owns the handlers: they
+// are kept until the last call has returned.
+void Connection::take(ByteView envelope) {
+    const auto events = events_;
+    const std::uint64_t media_before = unwrapper_.media_bytes();
+    const auto unwrapped = unwrapper_.take(envelope);
+    if (!unwrapped)
+        return finish("the other side sent a message that is " +
+                      std::string(to_text(unwrapped.error())));
+    const std::uint64_t media_bytes = unwrapper_.media_bytes();
+    if (media_bytes != media_before && events->received)
+        events->received(media_bytes, !unwrapped->media.empty());
+    if (!finished_ && !unwrapped->control.empty())
+        events->control(unwrapped->control);
+    if (!finished_ && !unwrapped->media.empty())
+        events->media(unwrapped->media);
+}
+
 void Connection::read() {
     socket_.async_read(
         incoming_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (self->finished_)
-                return;
-            if (error)
-                return self->finish(describe(error));
-            const auto data = self->incoming_.cdata();
-            const std::uint64_t media_before = self->unwrapper_.media_bytes();
-            const auto unwrapped =
-                self->unwrapper_.take({static_cast<const std::byte*>(data.data()), data.size()});
-            if (!unwrapped)
-                return self->finish("the other side sent a message that is " +
-                                    std::string(to_text(unwrapped.error())));
-            const std::uint64_t media_bytes = self->unwrapper_.media_bytes();
-            if (media_bytes != media_before && self->events_.received)
-                self->events_.received(media_bytes, !unwrapped->media.empty());
-            if (!unwrapped->control.empty())
-                self->events_.control(unwrapped->control);
-            if (!unwrapped->media.empty())
-                self->events_.media(unwrapped->media);
-            self->incoming_.consume(self->incoming_.size());
-            if (!self->finished_)
-                self->read();
+            self->guarded([&] {
+                if (self->finished_)
+                    return;
+                if (error)
+                    return self->finish(describe(error));
+                const auto data = self->incoming_.cdata();
+                self->take({static_cast<const std::byte*>(data.data()), data.size()});
+                self->incoming_.consume(self->incoming_.size());
+                if (!self->finished_)
+                    self->read();
+            });
         });
 }
 
 void Connection::write() {
     if (writing_ || finished_)
         return;
-    if (!outbox_.next(outgoing_, events_.now())) {
+    if (!outbox_.next(outgoing_, now_())) {
         if (!closing_.empty())
             return finish(closing_);
         if (const auto again = outbox_.ask_again()) {
-            ceiling_timer_.expires_after(std::max(*again - events_.now(), Duration(1000)));
+            ceiling_timer_.expires_after(std::max(*again - now_(), Duration(1000)));
             ceiling_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
                 if (!error)
-                    self->write();
+                    self->guarded([&] { self->write(); });
             });
         }
         return;
@@ -135,12 +179,14 @@ void Connection::write() {
     writing_ = true;
     socket_.async_write(asio::buffer(outgoing_),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
-                            self->writing_ = false;
-                            if (self->finished_)
-                                return;
-                            if (error)
-                                return self->finish(describe(error));
-                            self->write();
+                            self->guarded([&] {
+                                self->writing_ = false;
+                                if (self->finished_)
+                                    return;
+                                if (error)
+                                    return self->finish(describe(error));
+                                self->write();
+                            });
                         });
 }
 
@@ -155,13 +201,9 @@ void Connection::finish(const std::string& why) {
     beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_both,
                                                        ignored);
     beast::get_lowest_layer(socket_).close();
-    if (events_.closed)
-        events_.closed(why);
-    // The handlers may own what owns this connection.
-    events_.control = nullptr;
-    events_.media = nullptr;
-    events_.received = nullptr;
-    events_.closed = nullptr;
+    // Moved out first: nothing may be called after `closed`, and who is called may call back.
+    if (const auto events = std::exchange(events_, nullptr); events && events->closed)
+        events->closed(why);
 }
 
 }  // namespace theatron::net

@@ -26,11 +26,9 @@ struct TestServer {
     static Server::Handler filled(Server::Handler h) {
         h.now = steady_now;
         if (!h.connected)
-            h.connected = [](PeerId, const std::string&) {};
+            h.connected = [](PeerId, const std::string&, bool) {};
         if (!h.control)
             h.control = [](PeerId, ByteView) {};
-        if (!h.media)
-            h.media = [](PeerId, ByteView) {};
         if (!h.closed)
             h.closed = [](PeerId, const std::string&) {};
         return h;
@@ -91,7 +89,7 @@ TEST(Connection, CarriesControlBothWaysAndMediaWhole) {
 
 TEST(Connection, RefusesAnotherCertificate) {
     Server::Handler handler;
-    handler.connected = [&](PeerId, const std::string&) {
+    handler.connected = [&](PeerId, const std::string&, bool) {
         ADD_FAILURE() << "must not get this far";
     };
     TestServer server(handler);

@@ -17,7 +17,7 @@ constexpr std::size_t chunk_overhead = 600;
 }  // namespace
 
 bool Outbox::push_control(Bytes envelope) {
-    control_bytes_ += envelope.size();
+    control_bytes_ += envelope.size() + control_overhead;
     control_.push_back(std::move(envelope));
     return control_bytes_ <= max_control_bytes;
 }
@@ -56,8 +56,14 @@ Outbox::Pushed Outbox::keep(Media media) {
 }
 
 Outbox::Pushed Outbox::push_media(Media media) {
-    const Pushed pushed = keeps_everything_ ? keep(std::move(media)) : queue(std::move(media));
+    const StreamId stream = media.stream;
+    Pushed pushed = keeps_everything_ ? keep(std::move(media)) : queue(std::move(media));
     dropped_ += pushed.dropped;
+    if (pushed.needs_key) {
+        Lane& lane = lanes_[stream];
+        pushed.needs_key = idle_ || lane.key_asked_at != moved_;
+        lane.key_asked_at = moved_;
+    }
     return pushed;
 }
 
@@ -126,10 +132,18 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
     if (!control_.empty()) {
         envelope = std::move(control_.front());
         control_.pop_front();
-        control_bytes_ -= envelope.size();
+        control_bytes_ -= envelope.size() + control_overhead;
+        idle_ = false;
+        moved_ += waiting_ == 0 && !sending_;
         return true;
     }
-    if (!sending_ && waiting_ == 0) {
+    if (!acknowledgement_.empty()) {
+        envelope = std::exchange(acknowledgement_, {});
+        idle_ = false;
+        return true;
+    }
+    idle_ = !sending_ && waiting_ == 0;
+    if (idle_) {
         flight_.idle();
         return false;
     }
@@ -156,7 +170,23 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
                       seconds_to_duration(double(sent_ - from + chunk_overhead) / ceiling_);
     if (ends)
         sending_.reset();
+    ++moved_;
     return true;
+}
+
+void Outbox::acknowledge(std::uint64_t media_bytes, TimePoint now) {
+    const std::uint64_t before = flight_.bytes_on_the_way();
+    flight_.acknowledge(media_bytes, now);
+    moved_ += flight_.bytes_on_the_way() != before;
+}
+
+bool Outbox::stands_still(TimePoint now) {
+    // A ceiling may hold back for longer.
+    if (idle_ || ask_again_ || moved_ != moved_before_ || !still_since_) {
+        moved_before_ = moved_;
+        still_since_ = now;
+    }
+    return now - *still_since_ >= give_up_after;
 }
 
 SendingFigures Outbox::take_figures(TimePoint now) {

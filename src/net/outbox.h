@@ -55,14 +55,23 @@ public:
     static constexpr std::size_t max_kept_bytes = std::size_t(64) << 20;
     // More control than this waiting means that the peer reads nothing.
     static constexpr std::size_t max_control_bytes = std::size_t(1) << 20;
+    // What a message costs here besides its bytes.
+    static constexpr std::size_t control_overhead = 64;
+    // Media waits and nothing is taken for so long: the peer should be given up.
+    static constexpr Duration give_up_after = std::chrono::seconds(30);
 
     // Queues a control envelope (wire::wrap_control). False if the peer should
     // be given up.
     [[nodiscard]] bool push_control(Bytes envelope);
 
+    // An envelope whose successor says all that it says: it replaces one that waits.
+    void put_acknowledgement(Bytes envelope) { acknowledgement_ = std::move(envelope); }
+
     struct Pushed {
-        int dropped = 0;         // frames given up, this one included if need be
-        bool needs_key = false;  // nothing of this stream goes out before a key frame
+        int dropped = 0;  // frames given up, this one included if need be
+        // Nothing of this stream goes out before a key frame. Said once until the peer takes
+        // something: another key frame would only replace the one that waits.
+        bool needs_key = false;
     };
     Pushed push_media(Media media);
 
@@ -79,14 +88,16 @@ public:
     std::optional<TimePoint> ask_again() const { return ask_again_; }
 
     // The peer has taken so many bytes of media since the beginning.
-    void acknowledge(std::uint64_t media_bytes, TimePoint now) {
-        flight_.acknowledge(media_bytes, now);
-    }
+    void acknowledge(std::uint64_t media_bytes, TimePoint now);
 
     // At most so much media from now on; 0: no ceiling.
     void set_ceiling(double bytes_per_second) { ceiling_ = bytes_per_second; }
 
     SendingFigures take_figures(TimePoint now);
+
+    // Whether the peer has taken nothing for give_up_after although something waits for it. Ask a
+    // few times a second.
+    bool stands_still(TimePoint now);
 
     // A frame of the stream has not begun to leave: another would only wait behind it, and
     // frames are not kept.
@@ -97,7 +108,9 @@ public:
         return lane != lanes_.end() && !lane->second.waiting.empty();
     }
 
-    bool empty() const { return control_.empty() && !sending_ && waiting_ == 0; }
+    bool empty() const {
+        return control_.empty() && acknowledgement_.empty() && !sending_ && waiting_ == 0;
+    }
     std::size_t waiting_frames() const { return waiting_ + (sending_ ? 1 : 0); }
 
 private:
@@ -106,6 +119,7 @@ private:
         SettingId setting{};
         bool broken = true;  // nothing may be sent but a key frame
         std::uint64_t turn = 0;
+        std::optional<std::uint64_t> key_asked_at;  // moved_ then
     };
 
     Pushed queue(Media media);
@@ -117,6 +131,7 @@ private:
 
     std::deque<Bytes> control_;
     std::size_t control_bytes_ = 0;
+    Bytes acknowledgement_;
     std::map<StreamId, Lane> lanes_;
     std::size_t waiting_ = 0, waiting_bytes_ = 0;
     bool keeps_everything_ = false;
@@ -125,6 +140,13 @@ private:
     std::shared_ptr<const Bytes> sending_;
     TimePoint sending_queued_;
     std::size_t sent_ = 0;  // bytes of sending_ that are out
+
+    // What the peer has taken, as a count that only has to change; and whether it took all that
+    // was there.
+    std::uint64_t moved_ = 0;
+    bool idle_ = true;
+    std::uint64_t moved_before_ = 0;
+    std::optional<TimePoint> still_since_;
 
     Flight flight_;
     int dropped_ = 0;

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/server.h"
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/http.hpp>
+#include <deque>
 #include <map>
+#include <thread>
+#include <utility>
 
-#include "base/error.h"
+#include "base/fault.h"
+#include "base/log.h"
 #include "net/connection.h"
+#include "net/door.h"
 
 namespace theatron::net {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-namespace http = beast::http;
-using asio::ip::tcp;
-
-// More connections than this at once are not accepted; a room holds fewer people.
-constexpr std::size_t max_connections = 128;
 
 constexpr const char* plain_answer = "This is a Theatron host. Join it with: theatron join LINK\n";
 
@@ -27,104 +25,34 @@ constexpr const char* plain_answer = "This is a Theatron host. Join it with: the
 
 struct Server::Impl {
     asio::io_context io{1};
-    asio::ssl::context tls{asio::ssl::context::tls_server};
-    tcp::acceptor acceptor{io};
     asio::steady_timer timer{io};
     Handler handler;
+    std::unique_ptr<Door> door;
     std::map<PeerId, std::shared_ptr<Connection>> peers;
+    std::deque<PeerId> uninvited;  // oldest first
     std::uint32_t next_peer = 1;
-    std::size_t handshakes = 0;
+    bool ended = false;  // after run(): only connections are wound up
 
-    struct Handshake;
-    void accept();
+    Door::Events door_events();
     void tick();
-    void open(WebSocket socket, const std::string& address);
+    void enter(Door::Visitor visitor);
 };
 
-// From an accepted socket to an open WebSocket, or to nothing.
-struct Server::Impl::Handshake : std::enable_shared_from_this<Handshake> {
-    Handshake(Impl& s, tcp::socket accepted) : server(s), stream(std::move(accepted), s.tls) {
-        ++server.handshakes;
-        beast::error_code error;
-        auto& lowest = beast::get_lowest_layer(stream);
-        const auto endpoint = lowest.socket().remote_endpoint(error);
-        address = error ? "unknown" : endpoint.address().to_string();
-        tune_socket(lowest.socket());
-        lowest.expires_after(std::chrono::seconds(10));
-    }
-    ~Handshake() { --server.handshakes; }
-
-    void start() {
-        stream.async_handshake(asio::ssl::stream_base::server,
-                               [self = shared_from_this()](beast::error_code error) {
-                                   if (!error)
-                                       self->read_request();
-                               });
-    }
-
-    void read_request() {
-        parser.header_limit(8 * 1024);
-        parser.body_limit(0);
-        http::async_read(stream, buffer, parser,
-                         [self = shared_from_this()](beast::error_code error, std::size_t) {
-                             if (error)
-                                 return;
-                             if (beast::websocket::is_upgrade(self->parser.get()))
-                                 self->upgrade();
-                             else
-                                 self->answer();
-                         });
-    }
-
-    void upgrade() {
-        beast::get_lowest_layer(stream).expires_never();
-        socket = std::make_unique<WebSocket>(std::move(stream));
-        configure(*socket);
-        socket->async_accept(parser.get(), [self = shared_from_this()](beast::error_code error) {
-            if (!error)
-                self->server.open(std::move(*self->socket), self->address);
-        });
-    }
-
-    // A browser, or a curious colleague with curl.
-    void answer() {
-        const auto& request = parser.get();
-        std::optional<HttpAnswer> own;
-        if (server.handler.http)
-            own = server.handler.http(
-                {std::string(request.target()), std::string(request[http::field::authorization])});
-        const HttpAnswer answer = own ? std::move(*own) : HttpAnswer{.body = plain_answer};
-        response.result(unsigned(answer.status));
-        response.set(http::field::content_type, answer.type);
-        response.set(http::field::cache_control, "no-store");
-        if (answer.status == 401)
-            response.set(http::field::www_authenticate, "Bearer");
-        response.keep_alive(false);
-        response.body() = answer.body;
-        response.prepare_payload();
-        http::async_write(stream, response,
-                          [self = shared_from_this()](beast::error_code, std::size_t) {
-                              self->stream.async_shutdown([self](beast::error_code) {});
-                          });
-    }
-
-    Impl& server;
-    TlsStream stream;
-    std::unique_ptr<WebSocket> socket;
-    beast::flat_buffer buffer;
-    http::request_parser<http::empty_body> parser;
-    http::response<http::string_body> response;
-    std::string address;
-};
-
-void Server::Impl::accept() {
-    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
-        if (error == asio::error::operation_aborted)
-            return;
-        if (!error && peers.size() + handshakes < max_connections)
-            std::make_shared<Handshake>(*this, std::move(socket))->start();
-        accept();
-    });
+Door::Events Server::Impl::door_events() {
+    Door::Events events;
+    events.invited = [this](ByteView first) { return !handler.invited || handler.invited(first); };
+    events.http = [this](const HttpRequest& request) {
+        return handler.http ? handler.http(request) : HttpAnswer{.body = plain_answer};
+    };
+    events.entered = [this](Door::Visitor visitor) {
+        if (!ended)
+            enter(std::move(visitor));
+    };
+    events.turned_away = [this](const std::string& address, const std::string& why) {
+        if (handler.turned_away)
+            handler.turned_away(address, why);
+    };
+    return events;
 }
 
 void Server::Impl::tick() {
@@ -132,70 +60,83 @@ void Server::Impl::tick() {
     timer.async_wait([this](beast::error_code error) {
         if (error)
             return;
-        if (handler.tick)
-            handler.tick();
+        (void)contain("net", [this] {
+            // Looking may close and erase one.
+            for (const auto& [peer, connection] : std::map(peers))
+                connection->look();
+            if (handler.tick)
+                handler.tick();
+        });
         tick();
     });
 }
 
-void Server::Impl::open(WebSocket socket, const std::string& address) {
+void Server::Impl::enter(Door::Visitor visitor) {
+    if (visitor.invited && peers.size() - uninvited.size() >= max_participants) {
+        log::warning("net", "participant refused, the room is full",
+                     {{"address", visitor.address}});
+        return;
+    }
+    if (!visitor.invited && uninvited.size() >= max_uninvited)
+        if (const auto oldest = peers.find(uninvited.front()); oldest != peers.end()) {
+            const auto connection = oldest->second;
+            connection->end("had to go for others");
+        }
     const PeerId peer{next_peer++};
     Connection::Events events;
     events.control = [this, peer](ByteView bytes) { handler.control(peer, bytes); };
-    events.media = [this, peer](ByteView bytes) { handler.media(peer, bytes); };
     events.closed = [this, peer](const std::string& why) {
         peers.erase(peer);
+        std::erase(uninvited, peer);
         handler.closed(peer, why);
     };
     events.now = handler.now;
-    const auto connection = std::make_shared<Connection>(std::move(socket), std::move(events));
+    configure(visitor.socket);
+    set_receive_buffer(beast::get_lowest_layer(visitor.socket).socket(),
+                       Door::participant_receive_buffer);
+    const auto connection = std::make_shared<Connection>(
+        std::move(visitor.socket), wire::Unwrapper::Takes::control, std::move(events));
     peers[peer] = connection;
-    handler.connected(peer, address);
-    connection->start();
+    if (!visitor.invited)
+        uninvited.push_back(peer);
+    if (contain("net", [&] { handler.connected(peer, visitor.address, visitor.invited); }))
+        connection->start(visitor.first);
+    else
+        connection->end("it met a fault here");
 }
 
 Server::Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler)
     : impl_(std::make_unique<Impl>()) {
     impl_->handler = std::move(handler);
-    impl_->tls.use_certificate_chain(asio::buffer(certificate.certificate_pem));
-    impl_->tls.use_private_key(asio::buffer(certificate.private_key_pem), asio::ssl::context::pem);
-    SSL_CTX_set_min_proto_version(impl_->tls.native_handle(), TLS1_3_VERSION);
-
-    beast::error_code error;
-    const auto address = asio::ip::make_address(endpoint.address, error);
-    if (error)
-        throw Error(
-            "'" + endpoint.address +
-            "' is no address of this machine; write an IP address such as 0.0.0.0 or 127.0.0.1.");
-    const tcp::endpoint where(address, endpoint.port);
-    const std::string text = endpoint.address + ":" + std::to_string(endpoint.port);
-    impl_->acceptor.open(where.protocol(), error);
-    if (!error)
-        impl_->acceptor.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error)
-        impl_->acceptor.bind(where, error);
-    if (!error)
-        impl_->acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error == asio::error::address_in_use)
-        throw Error("Port " + std::to_string(endpoint.port) + " on " + endpoint.address +
-                    " is in use; stop the other program or choose another port with --listen.");
-    if (error)
-        throw Error("Cannot listen on " + text + ": " + error.message() + ".");
+    impl_->door = std::make_unique<Door>(impl_->io, endpoint, certificate, impl_->door_events());
 }
 
 Server::~Server() {
-    // Connections hold handlers that refer to this server: end them first.
-    impl_->peers.clear();
+    // Sockets of one context may be named by what still waits in the other: all is wound up
+    // before either goes.
+    impl_->ended = true;
+    impl_->door->close_all();
+    impl_->timer.cancel();
+    for (const auto& [peer, connection] : std::exchange(impl_->peers, {}))
+        connection->abandon();
+    do
+        impl_->io.restart();
+    while (impl_->io.poll() + impl_->door->poll() > 0);
 }
 
 std::uint16_t Server::port() const {
-    return impl_->acceptor.local_endpoint().port();
+    return impl_->door->port();
 }
 
 void Server::run() {
-    impl_->accept();
+    std::thread door([this] { impl_->door->run(); });
     impl_->tick();
-    impl_->io.run();
+    // A handler that threw cost its own connection; the others go on.
+    while (!contain("net", [this] { impl_->io.run(); })) {
+    }
+    impl_->door->stop();
+    door.join();
+    impl_->ended = true;
 }
 
 void Server::stop() {
@@ -203,7 +144,10 @@ void Server::stop() {
 }
 
 void Server::post(std::function<void()> work) {
-    asio::post(impl_->io, std::move(work));
+    asio::post(impl_->io, [this, work = std::move(work)] {
+        if (!impl_->ended)
+            (void)contain("net", work);
+    });
 }
 
 void Server::send_control(PeerId peer, ByteView control) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host's side of the network: one TLS 1.3 port, one WebSocket per
-// participant. What the messages mean is its user's business.
+// participant. What the messages mean is its user's business. Strangers are
+// kept apart until they have shown the token (net/door.h).
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "net/certificate.h"
+#include "net/http.h"
 #include "net/link.h"
 #include "net/outbox.h"
 
@@ -17,29 +18,30 @@ namespace theatron::net {
 // One accepted connection, numbered from 1.
 enum class PeerId : std::uint32_t {};
 
-// What a browser or a monitoring system asks without a WebSocket.
-struct HttpRequest {
-    std::string target;         // path and query
-    std::string authorization;  // that header
-};
-struct HttpAnswer {
-    int status = 200;
-    std::string type = "text/plain; charset=utf-8";
-    std::string body;
-};
-
 class Server {
 public:
-    // All called on the thread that runs the server.
+    // Participants at once; a room holds fewer people.
+    static constexpr std::size_t max_participants = 128;
+    // Connections without the token that are being told so; the oldest goes for another.
+    static constexpr std::size_t max_uninvited = 16;
+
+    // Called on the thread that runs the server, unless said otherwise. A call that throws costs
+    // the connection that it was made for.
     struct Handler {
-        std::function<void(PeerId, const std::string& address)> connected;
+        // On the door's thread, at the same time as the others: whether a connection's first
+        // control message shows the token. Empty: they all do.
+        std::function<bool(ByteView first)> invited;
+        // On the door's thread, too. Empty: the host says what it is.
+        std::function<HttpAnswer(const HttpRequest&)> http;
+        // Also on the door's thread: a stranger did not get in; `why` in a few words. May be empty.
+        std::function<void(const std::string& address, const std::string& why)> turned_away;
+
+        // A connection has sent its first message, which `control` is told next.
+        std::function<void(PeerId, const std::string& address, bool invited)> connected;
         std::function<void(PeerId, ByteView)> control;
-        std::function<void(PeerId, ByteView)> media;
         std::function<void(PeerId, const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
         std::function<void()> tick;      // ten times a second
-        // May be empty, and may answer nothing: then the host says what it is.
-        std::function<std::optional<HttpAnswer>(const HttpRequest&)> http;
     };
 
     // Begins to listen. Throws Error if the address or port cannot be had.
@@ -48,7 +50,8 @@ public:
 
     std::uint16_t port() const;
 
-    // Serves until stop(). Calls everything in Handler.
+    // Serves until stop(), with a second thread for strangers. What was posted and not begun by
+    // then is left out.
     void run();
 
     // From any thread.

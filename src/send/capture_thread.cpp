@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "send/capture_thread.h"
 
+#include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
@@ -52,15 +53,20 @@ void CaptureThread::start(capture::WatchedCamera::Turn turn) {
 }
 
 void CaptureThread::run(Shared& shared, capture::WatchedCamera::Turn turn) {
-    while (true) {
-        capture::WatchedCamera::Step step = shared.camera.step(turn, patience);
-        if (step.frame) {
-            const std::lock_guard lock(shared.mutex);
-            if (shared.sink)
-                shared.sink(std::move(step.frame));
-        }
-        if (step.over)
-            return;
+    bool over = false;
+    while (!over) {
+        const bool fine = contain("capture", [&] {
+            capture::WatchedCamera::Step step = shared.camera.step(turn, patience);
+            over = step.over;
+            if (step.frame) {
+                const std::lock_guard lock(shared.mutex);
+                if (shared.sink)
+                    shared.sink(std::move(step.frame));
+            }
+        });
+        // The camera that throws again and again stands still, which is seen and told.
+        if (!fine)
+            std::this_thread::sleep_for(patience);
     }
 }
 

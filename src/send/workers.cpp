@@ -58,7 +58,7 @@ void Workers::look_around() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         for (const auto& [ticket, look] : looks_)
-            look();
+            (void)contain("look", look);
         changed_.wait_for(lock, look_every, [this] { return stopping_; });
     }
 }

@@ -24,6 +24,7 @@
 #pragma clang attribute pop
 #endif
 
+#include "base/fault.h"
 #include "base/time.h"
 #include "send/background.h"
 
@@ -37,7 +38,8 @@ public:
 
     int threads() const { return threads_; }
 
-    // Does `work` soon, first come first served. It must not wait for other work.
+    // Does `work` soon, first come first served. It must not wait for other work. What it throws
+    // is noted and goes no further.
     template <class Work>
     void enqueue(Work work) {
         ++waiting_;
@@ -45,7 +47,7 @@ public:
         arena_.enqueue([this, work = std::move(work)] {
             take_over();
             --waiting_;
-            work();
+            (void)contain("work", work);
         });
     }
 
@@ -74,7 +76,8 @@ public:
         take_over();
     }
 
-    // Calls `look` every 20 ms, on a thread of its own, until forget() has returned.
+    // Calls `look` every 20 ms, on a thread of its own, until forget() has returned. What it
+    // throws is noted and costs nobody else a look.
     static constexpr Duration look_every = 20ms;
     using Ticket = std::uint64_t;
     Ticket look_after(std::function<void()> look);

@@ -46,6 +46,8 @@ Result<Unwrapper::Unwrapped> Unwrapper::take(ByteView envelope) {
     }
     if (envelope[0] != kind_chunk)
         return Status::malformed;
+    if (takes_ == Takes::control)
+        return Status::unsupported;
     if (envelope.size() <= chunk_header_size)
         return Status::truncated;
 

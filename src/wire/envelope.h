@@ -21,6 +21,9 @@ inline constexpr std::size_t chunk_header_size = 9;
 inline constexpr std::size_t usual_chunk_size = max_chunk_size - 64;
 inline constexpr std::size_t max_control_size = 64 * 1024;
 inline constexpr std::size_t max_envelope_size = max_control_size + 1;
+// A participant's first envelope, with its Join, is no larger: all that a host takes in before it
+// has seen a token.
+inline constexpr std::size_t max_first_envelope_size = 2048;
 
 // Puts a control message into an envelope.
 Bytes wrap_control(ByteView control);
@@ -33,6 +36,11 @@ std::size_t wrap_chunk(ByteView media, std::size_t offset, Bytes& out);
 // max_payload_size large. Safe for untrusted input.
 class Unwrapper {
 public:
+    enum class Takes { control_and_media, control };
+
+    // Where only control is taken, media is Status::unsupported from its first chunk on.
+    explicit Unwrapper(Takes takes = Takes::control_and_media) : takes_(takes) {}
+
     struct Unwrapped {
         ByteView control;  // not empty: a control message
         ByteView media;    // not empty: a complete media message
@@ -46,6 +54,7 @@ public:
     std::uint64_t media_bytes() const { return media_bytes_; }
 
 private:
+    Takes takes_;
     Bytes media_;
     std::size_t filled_ = 0;
     std::size_t expected_ = 0;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps a log readable, and a disk from being filled, when somebody outside makes the same
+// thing happen again and again. Not thread safe; time is an argument.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/time.h"
+
+namespace theatron {
+
+class LineLimit {
+public:
+    // One line for each source in this time.
+    static constexpr Duration interval = std::chrono::seconds(1);
+    // More sources at once share what one has.
+    static constexpr std::size_t max_sources = 64;
+
+    // Whether a line about `source` may be written now: then how many were not, since the last.
+    std::optional<std::uint64_t> take(const std::string& source, TimePoint now);
+
+private:
+    struct Source {
+        TimePoint next;
+        std::uint64_t left_out = 0;
+    };
+    std::map<std::string, Source> sources_;
+    Source others_;
+};
+
+}  // namespace theatron

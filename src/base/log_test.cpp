@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/log.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <string>
+#include <vector>
+
+#include "base/line_limit.h"
+#include "base/line_writer.h"
+
+namespace theatron {
+namespace {
+
+TEST(LineWriter, WritesLinesInOrderBeforeItEnds) {
+    std::string written;
+    {
+        LineWriter writer([&](std::string_view line) { written += line; });
+        writer.put("one\n");
+        writer.put("two\n");
+    }
+    EXPECT_EQ(written, "one\ntwo\n");
+}
+
+TEST(LineWriter, NobodyWaitsForAnOutputThatIsStuckAndWhatWasLeftOutIsCounted) {
+    std::promise<void> stuck, freed;
+    std::vector<std::string> written;
+    LineWriter writer([&, first = true](std::string_view line) mutable {
+        if (std::exchange(first, false)) {
+            stuck.set_value();
+            freed.get_future().wait();
+        }
+        written.emplace_back(line);
+    });
+    writer.put("first\n");
+    stuck.get_future().wait();
+    constexpr std::size_t surplus = 7;
+    for (std::size_t i = 0; i < LineWriter::max_waiting + surplus; ++i)
+        writer.put("more\n");
+    EXPECT_FALSE(writer.idle());
+    EXPECT_FALSE(writer.flush(Duration(0)));
+    freed.set_value();
+    EXPECT_TRUE(writer.flush(std::chrono::minutes(1)));
+    EXPECT_TRUE(writer.idle());
+    ASSERT_EQ(written.size(), 1 + LineWriter::max_waiting + 1);
+    EXPECT_EQ(written[2], "... 7 lines were left out.\n");
+}
+
+TEST(LineLimit, WritesOneLinePerSourceAndInterval) {
+    LineLimit limit;
+    TimePoint now = from_us(1'000'000);
+    EXPECT_EQ(limit.take("a", now), 0u);
+    EXPECT_EQ(limit.take("a", now), std::nullopt);
+    EXPECT_EQ(limit.take("b", now), 0u);
+    now += LineLimit::interval;
+    EXPECT_EQ(limit.take("a", now), 1u);
+    EXPECT_EQ(limit.take("a", now + LineLimit::interval), 0u);
+}
+
+TEST(LineLimit, ManySourcesShareWhatOneHas) {
+    LineLimit limit;
+    const TimePoint now = from_us(1'000'000);
+    std::size_t lines = 0;
+    for (int i = 0; i < 10'000; ++i)
+        lines += limit.take(std::to_string(i), now).has_value();
+    EXPECT_EQ(lines, LineLimit::max_sources + 1);
+    EXPECT_TRUE(limit.take("another", now + LineLimit::interval));
+}
+
+TEST(Log, CutsAndCleansWhatItRepeats) {
+    testing::internal::CaptureStderr();
+    const std::string wild = "\x1b]0;owned\x07 \xc2\x9b" + std::string(1000, 'x');
+    log::info("test", "said", {log::outside("text", wild), {"own", wild}, {"quote", "a \"b\""}});
+    log::say("a\nb\x1b[2J");
+    log::flush(std::chrono::minutes(1));
+    const std::string line = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(line.find('\x1b'), std::string::npos);
+    EXPECT_EQ(line.find('\x07'), std::string::npos);
+    EXPECT_EQ(line.find('\xc2'), std::string::npos);
+    EXPECT_EQ(std::size_t(std::count(line.begin(), line.end(), '\n')), 2u);
+    EXPECT_LT(line.size(), log::max_field_characters + log::max_outside_characters + 100);
+    EXPECT_NE(line.find("quote=\"a 'b'\""), std::string::npos);
+    EXPECT_NE(line.find("a b"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace theatron

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/door.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <boost/asio/bind_executor.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/http.hpp>
+#include <map>
+#include <optional>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/steady_clock.h"
+#include "base/thread_name.h"
+#include "net/places.h"
+
+namespace theatron::net {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+// Handshakes that have to wait are looked at this often.
+constexpr Duration handshake_pause = std::chrono::milliseconds(10);
+// Pictures come first where cores are short.
+constexpr int niceness = 5;
+
+constexpr std::string_view websocket_path = "/connection";
+
+void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
+    beast::error_code error;
+    const auto address = asio::ip::make_address(endpoint.address, error);
+    if (error)
+        throw Error(
+            "'" + endpoint.address +
+            "' is no address of this machine; write an IP address such as 0.0.0.0 or 127.0.0.1.");
+    const tcp::endpoint where(address, endpoint.port);
+    const std::string text = endpoint.address + ":" + std::to_string(endpoint.port);
+    acceptor.open(where.protocol(), error);
+    if (!error)
+        acceptor.set_option(asio::socket_base::reuse_address(true), error);
+    // Accepted sockets inherit it; later the window could not be made smaller.
+    if (!error)
+        acceptor.set_option(asio::socket_base::receive_buffer_size(Door::stranger_receive_buffer),
+                            error);
+    if (!error)
+        acceptor.bind(where, error);
+    if (!error)
+        acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error == asio::error::address_in_use)
+        throw Error("Port " + std::to_string(endpoint.port) + " on " + endpoint.address +
+                    " is in use; stop the other program or choose another port with --listen.");
+    if (error)
+        throw Error("Cannot listen on " + text + ": " + error.message() + ".");
+}
+
+}  // namespace
+
+struct Door::Impl {
+    asio::io_context io{1};
+    asio::io_context& inside;
+    asio::ssl::context tls{asio::ssl::context::tls_server};
+    tcp::acceptor acceptor{io};
+    asio::steady_timer accept_again{io}, handshakes_again{io};
+    Events events;
+    Places places;
+
+    class Stranger;
+    std::map<Places::Id, std::shared_ptr<Stranger>> strangers;
+
+    explicit Impl(asio::io_context& i) : inside(i) {}
+
+    // What completes is told on the door's thread, though sockets belong to `inside`.
+    template <class Handler>
+    auto here(Handler handler) {
+        return asio::bind_executor(io.get_executor(), std::move(handler));
+    }
+    void accept();
+    void take_in(tcp::socket socket);
+    void begin_handshakes();
+    void turn_away(Places::Id id, const std::string& why);
+};
+
+// One connection on its way in. Everything on the door's thread. A step that fails, also for
+// want of memory, ends the connection.
+class Door::Impl::Stranger : public std::enable_shared_from_this<Stranger> {
+public:
+    Stranger(Impl& door, Places::Id id, tcp::socket socket, std::string address)
+        : door_(door),
+          id_(id),
+          address_(std::move(address)),
+          raw_(std::move(socket)),
+          deadline_(door.io) {
+        tune_socket(raw_);
+    }
+
+    const std::string& address() const { return address_; }
+
+    // After `leave`, the door's list no longer holds this, but the caller does.
+    void leave(const std::string& why) { door_.turn_away(id_, why); }
+
+    template <class Work>
+    void guarded(Work work) {
+        const auto self = shared_from_this();
+        if (!contain("net", work))
+            leave("met a fault");
+    }
+
+    // What follows an operation that succeeded.
+    template <class Work>
+    auto step(Work work) {
+        return door_.here(
+            [this, self = shared_from_this(), work](beast::error_code error, auto&&...) {
+                if (gone_)
+                    return;
+                if (error)
+                    return leave(error == http::error::header_limit ||
+                                         error == websocket::error::message_too_big
+                                     ? "said too much"
+                                     : "broke off");
+                guarded(work);
+            });
+    }
+
+    // Nothing is set up for a connection that says nothing.
+    void start() {
+        extend(request_deadline, "said too little in time");
+        raw_.async_wait(tcp::socket::wait_read, step([this] {
+                            beast::error_code error;
+                            if (raw_.available(error) == 0 || error)
+                                return leave("went away");
+                            door_.places.want_handshake(id_);
+                            door_.begin_handshakes();
+                        }));
+    }
+
+    void handshake() {
+        guarded([&] {
+            stream_.emplace(std::move(raw_), door_.tls);
+            stream_->async_handshake(asio::ssl::stream_base::server,
+                                     step([this] { read_request(); }));
+        });
+    }
+
+    void close() {
+        deadline_.cancel();
+        beast::error_code ignored;
+        socket().close(ignored);
+    }
+
+private:
+    tcp::socket& socket() {
+        return web_      ? beast::get_lowest_layer(*web_).socket()
+               : stream_ ? beast::get_lowest_layer(*stream_).socket()
+                         : raw_;
+    }
+
+    void extend(Duration time, const char* why) {
+        deadline_.expires_after(time);
+        deadline_.async_wait([self = shared_from_this(), why](beast::error_code error) {
+            if (!error && !self->gone_)
+                self->leave(why);
+        });
+    }
+
+    void read_request() {
+        parser_.header_limit(max_request_bytes);
+        parser_.body_limit(0);
+        http::async_read(*stream_, incoming_, parser_, step([this] {
+            const auto& request = parser_.get();
+            extend(first_message_deadline, "did not join in time");
+            if (!websocket::is_upgrade(request))
+                return answer(
+                    door_.events.http({std::string(request.target()),
+                                       std::string(request[http::field::authorization])}));
+            if (path_of(std::string_view(request.target().data(), request.target().size())) !=
+                websocket_path)
+                return answer({.status = 404, .body = "There is nothing here.\n"});
+            const auto origin = request[http::field::origin], host = request[http::field::host];
+            if (!is_own_origin({origin.data(), origin.size()}, {host.data(), host.size()}))
+                return answer(
+                    {.status = 403, .body = "Pages of other hosts may not connect here.\n"});
+            upgrade();
+        }));
+    }
+
+    // A browser, or a curious colleague with curl.
+    void answer(const HttpAnswer& answer) {
+        response_.result(unsigned(answer.status));
+        response_.set(http::field::content_type, answer.type);
+        response_.set(http::field::cache_control, "no-store");
+        if (answer.status == 401)
+            response_.set(http::field::www_authenticate, "Bearer");
+        response_.keep_alive(false);
+        response_.body() = answer.body;
+        response_.prepare_payload();
+        http::async_write(*stream_, response_, step([this] {
+            stream_->async_shutdown(door_.here([self = shared_from_this()](beast::error_code) {
+                if (!self->gone_)
+                    self->leave("");
+            }));
+        }));
+    }
+
+    void upgrade() {
+        web_.emplace(std::move(*stream_));
+        stream_.reset();
+        // The deadline is kept here: timers of the socket would run on the other thread.
+        web_->set_option(websocket::stream_base::timeout{websocket::stream_base::none(),
+                                                         websocket::stream_base::none(), false});
+        web_->read_message_max(wire::max_first_envelope_size);
+        web_->async_accept(parser_.get(), step([this] { read_first(); }));
+    }
+
+    void read_first() {
+        incoming_.clear();
+        web_->async_read(incoming_, step([this] {
+                             const auto data = incoming_.cdata();
+                             wire::Unwrapper unwrapper(wire::Unwrapper::Takes::control);
+                             const auto first = unwrapper.take(
+                                 {static_cast<const std::byte*>(data.data()), data.size()});
+                             if (!first)
+                                 return leave("sent what is no message");
+                             enter(first->control);
+                         }));
+    }
+
+    void enter(ByteView first) {
+        auto visitor = std::make_shared<Visitor>(Visitor{
+            std::move(*web_), address_, {first.begin(), first.end()}, door_.events.invited(first)});
+        if (visitor->invited)
+            door_.places.note_known(address_group(address_));
+        gone_ = true;
+        deadline_.cancel();
+        asio::post(door_.inside, [&events = door_.events, visitor] {
+            (void)contain("net", [&] { events.entered(std::move(*visitor)); });
+        });
+        door_.places.leave(id_);
+        door_.strangers.erase(id_);
+    }
+
+    friend struct Door::Impl;
+    Impl& door_;
+    const Places::Id id_;
+    const std::string address_;
+    bool gone_ = false;
+    tcp::socket raw_;  // until the first byte; then the one or the other:
+    std::optional<TlsStream> stream_;
+    std::optional<WebSocket> web_;
+    asio::steady_timer deadline_;
+    beast::flat_buffer incoming_;
+    http::request_parser<http::empty_body> parser_;
+    http::response<http::string_body> response_;
+};
+
+void Door::Impl::turn_away(Places::Id id, const std::string& why) {
+    const auto found = strangers.find(id);
+    if (found == strangers.end())
+        return;
+    const auto stranger = found->second;
+    stranger->gone_ = true;
+    strangers.erase(found);
+    places.leave(id);
+    stranger->close();
+    if (!why.empty())
+        (void)contain("net", [&] { events.turned_away(stranger->address(), why); });
+}
+
+void Door::Impl::accept() {
+    acceptor.async_accept(inside, [this](beast::error_code error, tcp::socket socket) {
+        if (error == asio::error::operation_aborted)
+            return;
+        if (!error) {
+            (void)contain("net", [&] { take_in(std::move(socket)); });
+            return accept();
+        }
+        // No descriptors, or no memory for another: going round at once would not help.
+        if (const auto id = places.next_to_go())
+            turn_away(*id, "had to go, there are no more sockets");
+        accept_again.expires_after(no_socket_pause);
+        accept_again.async_wait([this](beast::error_code stopped) {
+            if (!stopped)
+                accept();
+        });
+    });
+}
+
+void Door::Impl::take_in(tcp::socket socket) {
+    beast::error_code error;
+    const auto endpoint = socket.remote_endpoint(error);
+    if (error)
+        return;
+    const std::string address = endpoint.address().to_string();
+    const auto entered = places.enter(address_group(address));
+    if (entered.evicted)
+        turn_away(*entered.evicted, "had to go for others");
+    try {
+        const auto stranger =
+            std::make_shared<Stranger>(*this, entered.id, std::move(socket), address);
+        strangers[entered.id] = stranger;
+        stranger->start();
+    } catch (...) {
+        strangers.erase(entered.id);
+        places.leave(entered.id);
+        throw;
+    }
+}
+
+void Door::Impl::begin_handshakes() {
+    while (const auto id = places.next_handshake(steady_now()))
+        if (const auto found = strangers.find(*id); found != strangers.end())
+            found->second->handshake();
+    if (!places.handshakes_wait())
+        return;
+    handshakes_again.expires_after(handshake_pause);
+    handshakes_again.async_wait([this](beast::error_code error) {
+        if (!error)
+            (void)contain("net", [this] { begin_handshakes(); });
+    });
+}
+
+Door::Door(asio::io_context& inside, const Endpoint& endpoint, const Certificate& certificate,
+           Events events)
+    : impl_(std::make_unique<Impl>(inside)) {
+    impl_->events = std::move(events);
+    impl_->tls.use_certificate_chain(asio::buffer(certificate.certificate_pem));
+    impl_->tls.use_private_key(asio::buffer(certificate.private_key_pem), asio::ssl::context::pem);
+    SSL_CTX_set_min_proto_version(impl_->tls.native_handle(), TLS1_3_VERSION);
+    // Nobody resumes a TLS session here, so tickets would be sent for nothing.
+    SSL_CTX_set_num_tickets(impl_->tls.native_handle(), 0);
+    listen(impl_->acceptor, endpoint);
+}
+
+Door::~Door() = default;
+
+std::uint16_t Door::port() const {
+    return impl_->acceptor.local_endpoint().port();
+}
+
+void Door::run() {
+    name_this_thread("door");
+    // Of this thread alone, on Linux.
+    setpriority(PRIO_PROCESS, id_t(gettid()), niceness);
+    impl_->accept();
+    // A handler that threw cost its own connection; the others go on.
+    while (!contain("net", [this] { impl_->io.run(); })) {
+    }
+}
+
+void Door::stop() {
+    impl_->io.stop();
+}
+
+void Door::close_all() {
+    beast::error_code ignored;
+    impl_->acceptor.close(ignored);
+    impl_->accept_again.cancel();
+    impl_->handshakes_again.cancel();
+    while (!impl_->strangers.empty())
+        impl_->turn_away(impl_->strangers.begin()->first, "");
+}
+
+std::size_t Door::poll() {
+    impl_->io.restart();
+    return impl_->io.poll();
+}
+
+}  // namespace theatron::net

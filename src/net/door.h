@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host's door: from the listening socket to an open WebSocket whose first message has come,
+// on a thread of its own, so that strangers and their handshakes never hold up pictures.
+//
+// Each step has a small bound (docs/decisions/strangers.md): places in net/places.h, bytes in
+// wire/envelope.h, time here.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/bytes.h"
+#include "net/certificate.h"
+#include "net/connection.h"
+#include "net/http.h"
+#include "net/link.h"
+
+namespace theatron::net {
+
+class Door {
+public:
+    // From acceptance to the end of the HTTP request, and from then to the first message or
+    // the end of the answer.
+    static constexpr Duration request_deadline = std::chrono::seconds(3);
+    static constexpr Duration first_message_deadline = std::chrono::seconds(2);
+    // Of an HTTP request's head.
+    static constexpr std::size_t max_request_bytes = 8 * 1024;
+    // What the kernel may hold of what a stranger sent, and a participant. It doubles them.
+    static constexpr int stranger_receive_buffer = 16 * 1024;
+    static constexpr int participant_receive_buffer = 64 * 1024;
+    // When no more sockets can be had: one pending connection is closed, then this pause.
+    static constexpr Duration no_socket_pause = std::chrono::milliseconds(100);
+
+    struct Visitor {
+        WebSocket socket;
+        std::string address;
+        Bytes first;           // its first control message
+        bool invited = false;  // that is a Join with the token
+    };
+
+    // All but `entered` are called on the door's thread.
+    struct Events {
+        std::function<bool(ByteView first_control)> invited;
+        std::function<HttpAnswer(const HttpRequest&)> http;
+        std::function<void(Visitor)> entered;  // on the thread of `inside`
+        // A stranger did not get in; `why` in a few words.
+        std::function<void(const std::string& address, const std::string& why)> turned_away;
+    };
+
+    // Begins to listen. Sockets belong to `inside`, whose thread takes them over. Throws Error
+    // if the address or port cannot be had.
+    Door(boost::asio::io_context& inside, const Endpoint& endpoint, const Certificate& certificate,
+         Events events);
+    ~Door();
+
+    std::uint16_t port() const;
+
+    // Serves until stop(); on a thread of the caller.
+    void run();
+    void stop();  // from any thread
+
+    // After run() and the thread of `inside` have ended, before `inside` is destroyed: ends what
+    // is pending. Until both answer 0, what remains in one context may belong to the other.
+    void close_all();
+    std::size_t poll();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace theatron::net

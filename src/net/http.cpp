@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/http.h"
+
+#include <algorithm>
+
+namespace theatron::net {
+namespace {
+
+// -1: no hex digit.
+int digit(char c) {
+    return c >= '0' && c <= '9'                 ? c - '0'
+           : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10
+                                                : -1;
+}
+
+std::string decoded(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 &&
+            digit(text[i + 2]) >= 0) {
+            result += char(digit(text[i + 1]) * 16 + digit(text[i + 2]));
+            i += 2;
+        } else {
+            result += text[i] == '+' ? ' ' : text[i];
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string_view path_of(std::string_view target) {
+    return target.substr(0, target.find('?'));
+}
+
+std::string query_value(std::string_view target, std::string_view parameter) {
+    std::string_view query = target.substr(std::min(target.size(), path_of(target).size() + 1));
+    while (!query.empty()) {
+        const std::string_view part = query.substr(0, query.find('&'));
+        if (part.starts_with(parameter) && part.substr(parameter.size()).starts_with('='))
+            return decoded(part.substr(parameter.size() + 1));
+        query.remove_prefix(std::min(query.size(), part.size() + 1));
+    }
+    return {};
+}
+
+std::string shown_token(const HttpRequest& request) {
+    constexpr std::string_view bearer = "Bearer ";
+    if (request.authorization.starts_with(bearer))
+        return request.authorization.substr(bearer.size());
+    return query_value(request.target, "token");
+}
+
+bool is_own_origin(std::string_view origin, std::string_view host) {
+    constexpr std::string_view scheme = "https://";
+    return origin.empty() || (origin.starts_with(scheme) && origin.substr(scheme.size()) == host);
+}
+
+}  // namespace theatron::net

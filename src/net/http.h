@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a browser or a monitoring system asks without a WebSocket, and how to read it.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace theatron::net {
+
+struct HttpRequest {
+    std::string target;         // path and query
+    std::string authorization;  // that header
+};
+struct HttpAnswer {
+    int status = 200;
+    std::string type = "text/plain; charset=utf-8";
+    std::string body;
+};
+
+// The part of a target before '?', as it is.
+std::string_view path_of(std::string_view target);
+
+// The first value of a parameter of the query, with "%2B" and "+" as a browser writes them
+// resolved; empty if there is none. Any bytes can come out. Safe for untrusted input.
+std::string query_value(std::string_view target, std::string_view parameter);
+
+// The token that a request shows: "Authorization: Bearer TOKEN", or token=TOKEN in the query.
+std::string shown_token(const HttpRequest& request);
+
+// Whether a page of `origin` (that header; empty: no browser) may talk to `host` (that header):
+// only one that this host itself served.
+bool is_own_origin(std::string_view origin, std::string_view host);
+
+}  // namespace theatron::net

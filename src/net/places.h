@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which connections of strangers are kept, and whose TLS handshake is next: what a host has
+// for those who have not shown a token, so that they cannot shut out those who can
+// (docs/decisions/strangers.md).
+//
+// A connection is pending from its acceptance until its token was seen. Addresses from which a
+// token came before are known, and have places of their own. Pure: no sockets, time is an
+// argument. Not thread safe.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/time.h"
+
+namespace theatron::net {
+
+class Places {
+public:
+    // Pending connections of strangers, and as many of known addresses.
+    static constexpr std::size_t max_pending = 256;
+    // Known addresses; the one that was heard of longest ago is forgotten first.
+    static constexpr std::size_t max_known = 256;
+    // TLS handshakes begun: each costs about 0.7 ms of a core. Strangers all together, known
+    // addresses all together, and a single address.
+    static constexpr double handshakes_per_second = 200, handshakes_per_second_and_address = 100;
+
+    enum class Id : std::uint64_t {};
+
+    // `address` has come. Returns who has to go for it, if anybody: the longest pending
+    // connection of the address that has the most.
+    struct Entered {
+        Id id{};
+        std::optional<Id> evicted;
+    };
+    Entered enter(const std::string& address);
+    void leave(Id id);
+
+    // Who would be evicted next.
+    std::optional<Id> next_to_go() const;
+
+    // The token was shown from this address.
+    void note_known(const std::string& address);
+    bool is_known(const std::string& address) const { return known_.contains(address); }
+
+    // `id` waits for its handshake.
+    void want_handshake(Id id);
+    // Whose handshake may begin now: known addresses first, then the address that had the fewest
+    // lately, of these the longest waiting.
+    std::optional<Id> next_handshake(TimePoint now);
+    bool handshakes_wait() const { return waiting_ > 0; }
+
+    std::size_t pending() const { return entries_.size(); }
+
+private:
+    // So many a second, and a tenth of a second's at once.
+    struct Budget {
+        double left = 0;
+        TimePoint filled;
+        void fill(double per_second, TimePoint now);
+    };
+    struct Entry {
+        std::string address;
+        bool known = false;
+        bool waits = false;
+    };
+
+    std::map<Id, Entry> entries_;  // oldest first
+    std::uint64_t next_id_ = 1;
+    std::size_t waiting_ = 0;
+    std::map<std::string, std::uint64_t> known_;  // when heard of last, as a count
+    std::uint64_t heard_ = 0;
+    Budget strangers_, regulars_;
+    std::map<std::string, Budget> by_address_;
+
+    std::optional<Id> longest_of_the_largest(bool known) const;
+    void refill(TimePoint now);
+};
+
+// What counts as one address: an IPv4 address, or the 64 bits of an IPv6 address that one
+// network has. `text` as Asio writes addresses.
+std::string address_group(const std::string& text);
+
+}  // namespace theatron::net
