@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/steady_clock.h"
 #include "net/client.h"
 #include "net/server.h"
@@ -129,6 +132,106 @@ TEST(Connection, BothSidesLearnOfTheEnd) {
     EXPECT_NE(client.run().why.find("The connection ended"), std::string::npos);
     EXPECT_TRUE(last_word);
     EXPECT_EQ(closed.get_future().get(), "refused");
+}
+
+// Answers each message with itself, until one says that something is wrong.
+Server::Handler echo_that_can_throw(TestServer*& host) {
+    Server::Handler handler;
+    handler.control = [&host](PeerId peer, ByteView bytes) {
+        if (bytes[0] == std::byte{66})
+            throw std::bad_alloc();
+        host->server.send_control(peer, Bytes(bytes.begin(), bytes.end()));
+    };
+    return handler;
+}
+
+// How a client ends that says `word` and waits for it to come back.
+Client::End echo(const Link& link, std::byte word) {
+    Client* self = nullptr;
+    Client::Handler h = client_handler();
+    h.connected = [&] { self->send_control(Bytes{word}); };
+    h.control = [&](ByteView) { self->stop(); };
+    Client client(link, h);
+    self = &client;
+    return client.run();
+}
+
+TEST(Connection, AMessageWhoseHandlingThrowsCostsItsConnectionOnly) {
+    TestServer* host = nullptr;
+    TestServer server(echo_that_can_throw(host));
+    host = &server;
+    const std::uint64_t before = fault_count();
+    std::promise<void> in, over;
+    std::thread other([&] {
+        Client* self = nullptr;
+        bool first = true;
+        Client::Handler h = client_handler();
+        h.connected = [&] { self->send_control(Bytes{std::byte{1}}); };
+        h.control = [&](ByteView) {
+            if (!std::exchange(first, false))
+                return self->stop();
+            in.set_value();
+            over.get_future().wait();
+            self->send_control(Bytes{std::byte{2}});
+        };
+        Client client(server.link(), h);
+        self = &client;
+        EXPECT_EQ(client.run().why, "");
+    });
+    in.get_future().wait();
+    EXPECT_NE(echo(server.link(), std::byte{66}).why, "");
+    EXPECT_EQ(fault_count(), before + 1);
+    over.set_value();
+    other.join();
+}
+
+TEST(Connection, NothingThatAHandlerThrowsEndsTheServer) {
+    TestServer* host = nullptr;
+    Server::Handler handler = echo_that_can_throw(host);
+    handler.tick = [] { throw std::runtime_error("a tick"); };
+    handler.closed = [](PeerId, const std::string&) { throw 1; };
+    handler.connected = [first = true](PeerId, const std::string&, bool) mutable {
+        if (std::exchange(first, false))
+            throw std::runtime_error("the first to come");
+    };
+    TestServer server(std::move(handler));
+    host = &server;
+    server.server.post([] { throw std::runtime_error("posted"); });
+    EXPECT_NE(echo(server.link(), std::byte{1}).why, "");
+    EXPECT_NE(echo(server.link(), std::byte{66}).why, "");
+    EXPECT_EQ(echo(server.link(), std::byte{2}).why, "");
+}
+
+TEST(Connection, AHandlerOfAClientThatThrowsEndsTheConnection) {
+    TestServer* host = nullptr;
+    TestServer server(echo_that_can_throw(host));
+    host = &server;
+    Client* self = nullptr;
+    Client::Handler h = client_handler();
+    h.connected = [&] { self->send_control(Bytes{std::byte{1}}); };
+    h.control = [&](ByteView) { throw std::bad_alloc(); };
+    Client client(server.link(), h);
+    self = &client;
+    EXPECT_NE(client.run().why.find("fault"), std::string::npos);
+}
+
+TEST(Connection, TellsWhoShowsTheToken) {
+    std::promise<bool> invited[2];
+    Server::Handler handler;
+    handler.invited = [](ByteView first) { return first[0] == std::byte{7}; };
+    handler.connected = [&, n = 0](PeerId, const std::string&, bool is) mutable {
+        invited[n++].set_value(is);
+    };
+    TestServer* host = nullptr;
+    handler.control = [&](PeerId peer, ByteView bytes) {
+        host->server.send_control(peer, Bytes(bytes.begin(), bytes.end()));
+    };
+    TestServer server(std::move(handler));
+    host = &server;
+    EXPECT_EQ(echo(server.link(), std::byte{7}).why, "");
+    EXPECT_EQ(echo(server.link(), std::byte{8}).why, "");
+    EXPECT_TRUE(invited[0].get_future().get());
+    EXPECT_FALSE(invited[1].get_future().get());
 }
 
 TEST(Connection, APortInUseIsNamed) {

@@ -303,5 +303,59 @@ TEST(Outbox, GivesUpAPeerThatNeverReads) {
     EXPECT_FALSE(fine);
 }
 
+TEST(Outbox, OnlyTheNewestAcknowledgementWaits) {
+    Outbox outbox;
+    outbox.put_acknowledgement(Bytes(3, std::byte{1}));
+    outbox.put_acknowledgement(Bytes(3, std::byte{2}));
+    Bytes envelope;
+    ASSERT_TRUE(outbox.next(envelope, {}));
+    EXPECT_EQ(envelope, Bytes(3, std::byte{2}));
+    EXPECT_FALSE(outbox.next(envelope, {}));
+}
+
+TEST(Outbox, AsksForAKeyFrameOnceWhileThePeerTakesNothing) {
+    Outbox outbox;
+    outbox.push_media(frame(1, 0, true, 0, 100'000));
+    Bytes envelope;
+    ASSERT_TRUE(outbox.next(envelope, {}));
+    int asked = 0;
+    for (FrameNumber n = 1; n < 100; ++n) {
+        asked += outbox.push_media(frame(1, n, n % 10 == 0)).needs_key;
+        EXPECT_LE(outbox.waiting_frames(), 1 + Outbox::max_waiting);
+    }
+    EXPECT_EQ(asked, 1);
+    ASSERT_TRUE(outbox.next(envelope, {}));
+    outbox.push_media(frame(1, 100, false));
+    for (FrameNumber n = 101; n < 110; ++n)
+        asked += outbox.push_media(frame(1, n, false)).needs_key;
+    EXPECT_EQ(asked, 2);
+}
+
+TEST(Outbox, APeerThatTakesNothingIsGivenUpAfterATime) {
+    Outbox outbox;
+    const TimePoint begin = from_us(1'000'000);
+    Bytes envelope;
+    EXPECT_FALSE(outbox.stands_still(begin));
+    EXPECT_FALSE(outbox.stands_still(begin + 2 * Outbox::give_up_after)) << "nothing waits";
+
+    const TimePoint sent = begin + 3 * Outbox::give_up_after;
+    outbox.push_media(frame(1, 0, true, 0, 100'000));
+    ASSERT_TRUE(outbox.next(envelope, sent));
+    EXPECT_FALSE(outbox.stands_still(sent));
+    EXPECT_FALSE(outbox.stands_still(sent + Outbox::give_up_after - 1us));
+    EXPECT_TRUE(outbox.stands_still(sent + Outbox::give_up_after));
+    // It took something after all.
+    ASSERT_TRUE(outbox.next(envelope, sent + Outbox::give_up_after));
+    EXPECT_FALSE(outbox.stands_still(sent + Outbox::give_up_after));
+}
+
+TEST(Outbox, ManySmallControlMessagesCountForWhatTheyCost) {
+    Outbox outbox;
+    std::size_t waiting = 0;
+    while (outbox.push_control(Bytes(2)))
+        ++waiting;
+    EXPECT_LT(waiting, Outbox::max_control_bytes / Outbox::control_overhead);
+}
+
 }  // namespace
 }  // namespace theatron::net

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "base/fault.h"
 #include "base/outside_text.h"
 
 namespace theatron::send {
@@ -187,6 +188,28 @@ void CameraLane::work() {
         }
         next = newest_.take(Duration(0));
     }
+    if (!contain("encode", [&] { encode_next(std::move(next), begin); })) {
+        // The frame is lost. The filters may hold anything; encoders go on with key frames.
+        chain_.reset();
+        filtered_at_ = {};
+    }
+
+    bool more;
+    {
+        const std::lock_guard lock(mutex_);
+        more = (wanted_ || newest_.waiting()) && !stopping_ && !held_;
+        wanted_ = wanted_ && !more;
+        busy_ = more;
+        // Notified under the lock: the lane may be gone as soon as it is free.
+        if (!more)
+            idle_.notify_all();
+    }
+    // Behind the other lanes, so that each gets its turn.
+    if (more)
+        workers_.enqueue([this] { work(); });
+}
+
+void CameraLane::encode_next(std::optional<Captured> next, TimePoint begin) {
     take_orders();
     if (next) {
         last_ = std::move(next);
@@ -203,20 +226,6 @@ void CameraLane::work() {
             filter_frame();
         encode_frame(begin);
     }
-
-    bool more;
-    {
-        const std::lock_guard lock(mutex_);
-        more = (wanted_ || newest_.waiting()) && !stopping_ && !held_;
-        wanted_ = wanted_ && !more;
-        busy_ = more;
-        // Notified under the lock: the lane may be gone as soon as it is free.
-        if (!more)
-            idle_.notify_all();
-    }
-    // Behind the other lanes, so that each gets its turn.
-    if (more)
-        workers_.enqueue([this] { work(); });
 }
 
 void CameraLane::take_orders() {

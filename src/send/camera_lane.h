@@ -115,6 +115,7 @@ private:
     LaneEncoders::Environment encoder_environment() const;
     void begin_work();
     void work();
+    void encode_next(std::optional<Captured> next, TimePoint begin);
     void take_orders();
     void filter_frame();
     void encode_frame(TimePoint begin);

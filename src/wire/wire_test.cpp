@@ -133,6 +133,15 @@ TEST(Envelope, ControlComesBetweenChunks) {
     EXPECT_EQ(unwrapper.take(envelope)->media.size(), media.size());
 }
 
+TEST(Envelope, MediaThatIsNotTakenIsRefusedAtItsFirstChunk) {
+    Unwrapper unwrapper(Unwrapper::Takes::control);
+    Bytes envelope;
+    wrap_chunk(numbered(100'000), 0, envelope);
+    EXPECT_EQ(unwrapper.take(envelope).error(), Status::unsupported);
+    EXPECT_EQ(unwrapper.media_bytes(), 0u);
+    EXPECT_TRUE(unwrapper.take(wrap_control(numbered(10))));
+}
+
 TEST(Envelope, RefusesWhatDoesNotContinue) {
     const Bytes media = numbered(3 * max_chunk_size);
     Bytes first, second;
