@@ -25,6 +25,7 @@ import struct
 import subprocess
 import tempfile
 import threading
+import time
 import typing
 
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "src/wire/control.fbs"
@@ -214,11 +215,13 @@ class WebSocket:
                 if not kinds or kind in kinds:
                     return kind, fields
 
-    def wait_for_end(self):
-        """Reads until the other side closes the connection. Raises TimeoutError if it does not."""
+    def wait_for_end(self, timeout=None):
+        """Reads until the other side closes the connection. Raises TimeoutError if that takes longer."""
+        deadline = float("inf") if timeout is None else time.monotonic() + timeout
         with contextlib.suppress(EOFError, ConnectionError, ssl.SSLError):
-            while True:
+            while time.monotonic() < deadline:
                 self.receive()
+            raise TimeoutError(f"the other side did not close the connection in {timeout} s")
 
     def close(self):
         with contextlib.suppress(OSError):

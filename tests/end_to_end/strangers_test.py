@@ -143,19 +143,19 @@ class Strangers(unittest.TestCase):
                     with self.assertRaises(OSError):
                         for offset in range(0, megabytes << 20, 1 << 14):
                             stranger.send(chunk(offset, megabytes << 20, bytes(1 << 14)))
-                        stranger.wait_for_end()
+                        stranger.wait_for_end(10)
                         raise OSError("it was closed")
             self.assertLess(h.memory_mb(), memory + megabytes)
             with RawPeer(h.greeting["link"]) as stranger:
                 stranger.send(b"\1" + bytes(FIRST_ENVELOPE))
-                stranger.wait_for_end()
+                stranger.wait_for_end(10)
 
     def test_media_of_a_participant_ends_its_connection_at_the_first_chunk(self):
         with self.session() as (h, _), RawPeer(h.greeting["link"]) as guest:
             guest.join()
             guest.receive_control("Welcome")
             guest.send(chunk(0, 1 << 20, bytes(100)))
-            guest.wait_for_end()
+            guest.wait_for_end(10)
 
     def test_garbage_after_the_handshake_ends_only_that_connection(self):
         with self.session() as (h, _):
@@ -166,11 +166,11 @@ class Strangers(unittest.TestCase):
                             peer.join()
                             peer.receive_control("Welcome")
                         peer.send(noise)
-                        peer.wait_for_end()
+                        peer.wait_for_end(10)
             for frame in (b"\x82\xff" + b"\x7f" * 8 + bytes(4), b"\xff" * 100, b"\x82\x05hello"):
                 with self.subTest(frame=frame), RawPeer(h.greeting["link"]) as peer:
                     peer.send_bytes(frame)
-                    peer.wait_for_end()
+                    peer.wait_for_end(10)
 
     def test_only_the_documented_path_and_no_foreign_page_gets_a_websocket(self):
         with self.session() as (h, _):
@@ -192,7 +192,7 @@ class Strangers(unittest.TestCase):
                 guest.receive_control("Welcome")
                 other.join(depth_codec=b"\x1b[2J" + b"y" * 1000)
                 other.receive_control("Refused")
-                other.wait_for_end()
+                other.wait_for_end(10)
                 status, body = https_get(link, "/status", headers=[f"Authorization: Bearer {link.token}"])
                 self.assertEqual(status, 200)
                 body.decode()
