@@ -8,8 +8,8 @@ SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--s
 help:
 	@echo "make demo               install what is needed, build, and show a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
-	@echo "make test               build and run every check that takes seconds, 40 minutes in all"
-	@echo "make test-all           the same with what takes long"
+	@echo "make test               build and run every check"
+	@echo "make test-all           the same with what takes long: fuzzing, TSan everywhere, clang-tidy"
 	@echo "make test-tsan          the modules that have threads under the thread sanitizer"
 	@echo "make tidy               clang-tidy on what differs from main; ALL=1: on everything"
 	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"

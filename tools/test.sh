@@ -36,9 +36,9 @@ step "Directions of dependencies" tools/check_includes.py
 step "Build: release" build release
 step "Build: assertions, ASan, UBSan, fuzz targets" build dev --target unit_tests fuzzers
 step "Build: web modules with em++" build web
-step "clang-tidy on what the last commit changed" tools/tidy.sh HEAD~1 12
 step "Unit tests with assertions, ASan and UBSan" ctest --preset dev
 if [ "$all" = --all ]; then
+    step "clang-tidy on everything" tools/tidy.sh --all
     step "Threaded modules under TSan" tools/test_tsan.sh
     step "Every fuzz target for a minute" tools/fuzz.sh 60
 else
@@ -46,9 +46,5 @@ else
     step "Every fuzz target for a few seconds" tools/fuzz.sh 5
 fi
 # Last, so that its closing lines are those of the whole.
-if [ "$all" = --all ]; then
-    step "Tests" ctest --preset release
-else
-    step "Tests" ctest --preset release --label-exclude '^long$'
-fi
+step "Tests" ctest --preset release
 tools/skipped_tests.py build/release build/dev build/tsan

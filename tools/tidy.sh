@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # clang-tidy over the sources that differ from a commit, or over all of them. Fails on any finding.
-# Usage: tidy.sh COMMIT|--all [MOST]      at most MOST files, the rest is named and left out
+# Usage: tidy.sh COMMIT|--all
 set -euo pipefail
 cd "$(dirname "$0")/.."
 since=${1:?a commit or --all}
-most=${2:-100000}
 
 # The compile commands, and what is generated.
 cmake --preset dev > /dev/null
@@ -21,10 +20,6 @@ elif git rev-parse --quiet --verify "$since^{commit}" > /dev/null; then
 else
     echo "tidy: there is no commit $since here to compare with, so nothing is checked."
     exit 0
-fi
-if [ ${#files[@]} -gt "$most" ]; then
-    echo "tidy: left out (make tidy checks them): ${files[*]:most}"
-    files=("${files[@]:0:most}")
 fi
 [ ${#files[@]} -gt 0 ] || { echo "tidy: no source has changed."; exit 0; }
 echo "tidy: ${#files[@]} file(s)"
