@@ -43,7 +43,8 @@ tidy: setup
 	@tools/tidy.sh $(if $(ALL),--all,$$(git merge-base HEAD main))
 
 soak: build
-	@cmake --build --preset release --target link_shaper slow_disk
+	@cmake --build --preset release --target link_shaper slow_disk capture_test
+	@COUNT=1000 build/release/src/capture/capture_test --gtest_brief=1 --gtest_filter='DamagedRecording.*'
 	@python3 tests/soak/soak.py --minutes $(or $(MINUTES),10) $(if $(SEED),--seed $(SEED))
 
 test-arm64: setup

@@ -7,10 +7,14 @@
 
 namespace theatron::app {
 
+// A command did what it could, but parts of the recording are damaged.
+inline constexpr int damaged_exit_code = 3;
+
 void add_host_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_record_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
+void add_recover_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_demo_command(CLI::App& app);

@@ -27,18 +27,50 @@ struct Flags {
 
 using Recording = std::shared_ptr<const record::RecordingFile>;
 
-ExportSource open_source(const Flags& flags, const Recording& recording) {
+// The cameras that have a calibration of this number: one after the other, they count from 0.
+ExportSource open_source(const Flags& flags, const Recording& recording, std::size_t calibration) {
     ExportSource source;
     source.progress = show_progress();
-    if (flags.camera) {
-        source.cameras.push_back(std::make_unique<capture::RecordedFrames>(
-            recording, std::size_t(*flags.camera), flags.file));
-        return source;
-    }
-    for (std::size_t i = 0; i < recording->cameras().size(); ++i)
+    const std::size_t count = recording->cameras().size();
+    source.one_camera = flags.camera || count == 1;
+    for (std::size_t i = 0; i < count || (flags.camera && i == std::size_t(*flags.camera)); ++i) {
+        if (flags.camera && i != std::size_t(*flags.camera))
+            continue;
+        if (i < count && calibration >= capture::calibrations_of(recording->cameras()[i]))
+            continue;
         source.cameras.push_back(
-            std::make_unique<capture::RecordedFrames>(recording, i, flags.file));
+            std::make_unique<capture::RecordedFrames>(recording, i, flags.file, calibration));
+        source.numbers.push_back(i);
+    }
     return source;
+}
+
+// What was exported, and what of it was lost.
+struct Exported {
+    std::size_t count = 0;
+    capture::PictureLosses losses;
+
+    void add(const ExportSource& source, std::size_t written) {
+        count += written;
+        for (const auto& camera : source.cameras) {
+            const capture::PictureLosses& l = camera->losses();
+            losses.damaged_depth += l.damaged_depth;
+            losses.damaged_color += l.damaged_color;
+            losses.undecodable_depth += l.undecodable_depth;
+            losses.undecodable_color += l.undecodable_color;
+        }
+        losses.damaged_color += source.undecoded_color;
+    }
+};
+
+// "points" at first, and after calibrations changed "points.2" and so on; "kinect.2.mkv".
+std::filesystem::path place_of(const std::filesystem::path& place, std::size_t calibration) {
+    if (calibration == 0)
+        return place;
+    std::filesystem::path name = place.stem();
+    name += "." + std::to_string(calibration + 1);
+    name += place.extension();
+    return place.parent_path() / name;
 }
 
 // All lines that name filters which the depth went through before it was recorded.
@@ -67,36 +99,69 @@ void run(const Flags& flags) {
         throw Error("Pictures are exported either --undistort or --registered.");
     const Recording recording = record::RecordingFile::open(flags.file);
     const std::vector<std::string> filters = filters_of(*recording, flags.camera);
-    const auto report = [&](const char* what, std::size_t count, const std::string& place) {
+    std::size_t calibrations = 1;
+    for (const record::CameraContent& camera : recording->cameras())
+        calibrations = std::max(calibrations, capture::calibrations_of(camera));
+    bool damaged = recording->refused() > 0 || recording->missing_segments() > 0;
+    for (const record::Segment& segment : recording->segments())
+        damaged |= segment.head_damaged || segment.damaged_places > 0;
+
+    const auto report = [&](const char* what, const Exported& e, const std::string& place) {
+        damaged |= e.losses.depth() + e.losses.color() > 0;
         if (flags.json)
             std::cout << json_text({{"format", what},
-                                    {"count", count},
+                                    {"count", e.count},
                                     {"path", place},
+                                    {"lost_depth", e.losses.depth()},
+                                    {"lost_color", e.losses.color()},
                                     {"filters", filters}})
                       << std::endl;
         else
-            std::cout << place << ": " << count << (count == 1 ? " frame" : " frames") << std::endl;
+            std::cout << place << ": " << e.count << (e.count == 1 ? " frame" : " frames")
+                      << std::endl;
+        if (e.losses.depth() + e.losses.color() > 0)
+            std::cerr << "of depth " << e.losses.damaged_depth << " pictures are damaged and "
+                      << e.losses.undecodable_depth << " refer to what is not there; of colour "
+                      << e.losses.damaged_color << " and " << e.losses.undecodable_color
+                      << "; these are left out" << std::endl;
+    };
+    // Each format begins anew: a camera plays from its first frame to its last. Where a camera's
+    // calibration changed, its pictures go on in a place of their own.
+    const auto export_as = [&](const char* what, const std::string& place, auto write) {
+        Exported exported;
+        for (std::size_t n = 0; n < calibrations; ++n) {
+            ExportSource source = open_source(flags, recording, n);
+            if (!source.cameras.empty())
+                exported.add(source, write(source, place_of(place, n)));
+        }
+        report(what, exported, place);
     };
     if (!flags.json)
         for (const std::string& line : filters)
             std::cout << "depth was filtered before it was recorded: " << shown_filter(line)
                       << std::endl;
-    // Each begins anew: a camera plays from its first frame to its last.
-    if (!flags.ply.empty()) {
-        ExportSource source = open_source(flags, recording);
-        report("ply", export_ply(source, flags.ply, flags.merged), flags.ply);
-    }
+    if (!flags.ply.empty())
+        export_as("ply", flags.ply, [&](ExportSource& source, const std::filesystem::path& place) {
+            return export_ply(source, place, flags.merged);
+        });
     if (!flags.png.empty()) {
         const Pictures pictures = flags.undistort    ? Pictures::undistorted
                                   : flags.registered ? Pictures::registered
                                                      : Pictures::recorded;
-        ExportSource source = open_source(flags, recording);
-        report("png", export_png(source, flags.png, pictures), flags.png);
+        export_as("png", flags.png, [&](ExportSource& source, const std::filesystem::path& place) {
+            return export_png(source, place, pictures);
+        });
     }
-    if (!flags.k4a.empty()) {
-        ExportSource source = open_source(flags, recording);
-        report("k4a", export_k4a(source, flags.k4a), flags.k4a);
-    }
+    if (!flags.k4a.empty())
+        export_as("k4a", flags.k4a, [&](ExportSource& source, const std::filesystem::path& place) {
+            return export_k4a(source, place);
+        });
+    if (!damaged)
+        return;
+    std::cerr << "Parts of the recording are damaged or missing; what is whole was exported. "
+                 "'theatron inspect --verify' says more."
+              << std::endl;
+    throw CLI::RuntimeError(damaged_exit_code);
 }
 
 }  // namespace
@@ -106,7 +171,8 @@ void add_export_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("export", "Turn a recording into points or pictures");
     command->footer(
         "Depth is exported as it was recorded, without loss. Of several cameras, each gets a\n"
-        "folder of its own: DIR/camera-0 and so on.\n"
+        "folder of its own: DIR/camera-0 and so on. Of a damaged recording all that is whole is\n"
+        "exported, and the exit code is 3.\n"
         "\nExamples:\n"
         "  theatron export operation.mkv --ply points --merged\n"
         "  theatron export operation.mkv --png pictures --camera 1\n"

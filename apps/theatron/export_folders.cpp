@@ -36,27 +36,35 @@ fs::path make_folder(const fs::path& folder) {
 
 // Of one camera: the folder itself.
 fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size_t camera) {
-    return source.cameras.size() == 1 ? folder : folder / ("camera-" + std::to_string(camera));
+    return source.one_camera ? folder
+                             : folder / ("camera-" + std::to_string(source.numbers[camera]));
 }
 
 // The colour of each depth pixel.
 class ColorOfDepth {
 public:
-    explicit ColorOfDepth(const Calibration& calibration)
-        : size_(calibration.color.size),
+    // Counts in `undecoded`, which must stay, what it cannot decode.
+    ColorOfDepth(const Calibration& calibration, std::uint64_t& undecoded)
+        : undecoded_(undecoded),
+          size_(calibration.color.size),
           registration_(calibration),
           out_(calibration.depth.size),
           seen_(calibration.depth.size) {}
 
-    // False if the frame has no colour. What was found is valid until the next call.
+    // False if the frame has no colour, or none that can be decoded. What was found is valid until
+    // the next call.
     bool apply(const Frame& frame) {
         if (frame.color.empty())
             return false;
-        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
-            throw Error("A colour picture of the recording is damaged.");
+        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok) {
+            ++undecoded_;
+            return false;
+        }
         const ColorImage& color = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
-        if (color.size != size_)
-            throw Error("The recording's colour has another size than its calibration says.");
+        if (color.size != size_) {
+            ++undecoded_;
+            return false;
+        }
         registration_.apply(frame.depth.view(), color.view(), out_.view(), seen_.view());
         return true;
     }
@@ -65,6 +73,7 @@ public:
     bool seen(std::size_t pixel) const { return seen_.pixels[pixel] != 0; }
 
 private:
+    std::uint64_t& undecoded_;
     Size size_;
     filter::ColorRegistration registration_;
     video::JpegDecompressor jpeg_;
@@ -74,10 +83,10 @@ private:
 
 class PointMaker {
 public:
-    explicit PointMaker(const Calibration& calibration)
+    PointMaker(const Calibration& calibration, std::uint64_t& undecoded)
         : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {
         if (calibration.color.size != Size{})
-            colors_.emplace(calibration);
+            colors_.emplace(calibration, undecoded);
     }
 
     void append(const Frame& frame, std::vector<ColoredPoint>& out) {
@@ -120,12 +129,13 @@ public:
         depth_lens_.apply(frame.depth.view(), depth_.view());
         return std::as_const(depth_).view();
     }
-    ColorView color(const Frame& frame) {
+    // Nothing if it cannot be decoded.
+    std::optional<ColorView> color(const Frame& frame) {
         if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
-            throw Error("A colour picture of the recording is damaged.");
+            return std::nullopt;
         const ColorImage& from = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
         if (from.size != color_.size)
-            throw Error("The recording's colour changes its size, so it cannot be undistorted.");
+            return std::nullopt;
         color_lens_.apply(from.view(), color_.view());
         return std::as_const(color_).view();
     }
@@ -165,7 +175,7 @@ private:
 std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
     std::deque<PointMaker> makers;  // they stay where they are
     for (const auto& camera : source.cameras)
-        makers.emplace_back(camera->info().calibration);
+        makers.emplace_back(camera->info().calibration, source.undecoded_color);
     make_folder(folder);
     ProgressOfAll progress(source);
     Frame frame;
@@ -174,7 +184,7 @@ std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
         std::map<std::size_t, TimePoint> moments;  // of each camera's upcoming frame
         for (std::size_t i = 0; i < source.cameras.size(); ++i)
             if (source.cameras[i]->offset())
-                moments[i] = source.cameras[i]->upcoming().header.moment;
+                moments[i] = source.cameras[i]->upcoming().moment;
         if (moments.empty())
             return written;
         TimePoint moment = moments.begin()->second;
@@ -207,7 +217,7 @@ std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged
     for (std::size_t i = 0; i < source.cameras.size(); ++i) {
         capture::RecordedFrames& camera = *source.cameras[i];
         const fs::path own = make_folder(folder_of(source, folder, i));
-        PointMaker maker(camera.info().calibration);
+        PointMaker maker(camera.info().calibration, source.undecoded_color);
         for (std::size_t n = 0; camera.offset(); ++n, ++files) {
             camera.read(frame);
             points.clear();
@@ -237,7 +247,7 @@ std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pi
             straight.emplace(calibration);
             written = straight->calibration();
         } else if (pictures == Pictures::registered && has_color) {
-            registered.emplace(calibration);
+            registered.emplace(calibration, source.undecoded_color);
             written.color = calibration.depth;
             written.color_from_depth = {};
         }
@@ -250,9 +260,12 @@ std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pi
             if (registered) {
                 if (registered->apply(frame))
                     files::write_png(color / numbered(n, ".png"), registered->color());
-            } else if (straight && !frame.color.empty())
-                files::write_png(color / numbered(n, ".png"), straight->color(frame));
-            else if (frame.color.is_jpeg())
+            } else if (straight && !frame.color.empty()) {
+                if (const auto picture = straight->color(frame))
+                    files::write_png(color / numbered(n, ".png"), *picture);
+                else
+                    ++source.undecoded_color;
+            } else if (frame.color.is_jpeg())
                 files::write_file(color / numbered(n, ".jpg"), frame.color.jpeg);
             else if (!frame.color.empty())
                 files::write_png(color / numbered(n, ".png"), frame.color.pixels.view());

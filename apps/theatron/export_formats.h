@@ -13,7 +13,11 @@ namespace theatron::app {
 // The cameras to export, each at its first frame.
 struct ExportSource {
     std::vector<std::unique_ptr<capture::RecordedFrames>> cameras;
+    std::vector<std::size_t> numbers;  // of each in the recording
+    bool one_camera = false;           // wanted: it gets no folder of its own
     capture::Progress progress;
+    // Colour pictures that were whole and yet could not be decoded: each is left out.
+    std::uint64_t undecoded_color = 0;
 };
 
 // Each returns how many files or frames it wrote.

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "filter_choice.h"
 #include "geometry/calibration.h"
+#include "progress.h"
 #include "record/recording_file.h"
+#include "verify_recording.h"
 
 namespace theatron::app {
 namespace {
@@ -31,22 +34,20 @@ struct Figures {
 Figures figures_of(const record::StreamContent& stream, double nominal_fps) {
     Figures f;
     for (std::size_t i = 0; i < stream.frames.size(); ++i) {
-        const wire::MediaHeader& header = stream.frames[i].header;
-        f.bytes += header.payload_size;
-        f.key_frames += header.key;
-        f.filtered += header.filtered != TimePoint{};
+        const record::RecordedFrame& frame = stream.frames[i];
+        f.bytes += frame.payload_size;
+        f.key_frames += frame.key;
+        f.filtered += frame.filtered;
         if (i == 0)
             continue;
-        const wire::MediaHeader& before = stream.frames[i - 1].header;
-        if (const auto step = std::int32_t(header.frame - before.frame); step > 1)
-            f.missing += std::uint64_t(step - 1);
-        const double pause_ms = to_ms(header.captured - before.captured);
+        const record::RecordedFrame& before = stream.frames[i - 1];
+        f.missing += frames_between(before, frame);
+        const double pause_ms = to_ms(frame.time() - before.time());
         f.gaps += pause_ms > 1500 / nominal_fps;
         f.longest_gap_ms = std::max(f.longest_gap_ms, pause_ms);
     }
     if (stream.frames.size() > 1) {
-        f.seconds = to_seconds(stream.frames.back().header.captured -
-                               stream.frames.front().header.captured);
+        f.seconds = to_seconds(stream.frames.back().time() - stream.frames.front().time());
         if (f.seconds > 0)
             f.frames_per_second = double(stream.frames.size() - 1) / f.seconds;
     }
@@ -65,6 +66,7 @@ Json describe(const record::StreamContent& stream, double nominal_fps) {
             {"seconds", f.seconds},
             {"fps", f.frames_per_second},
             {"missing", f.missing},
+            {"damaged", stream.damaged},
             {"gaps", f.gaps},
             {"longest_gap_ms", f.longest_gap_ms}};
 }
@@ -73,8 +75,8 @@ Json describe(const record::StreamContent& stream, double nominal_fps) {
 Json describe_filters(const record::StreamContent& depth) {
     Json list = Json::array();
     for (const record::FilterChange& change : depth.filters) {
-        const TimePoint begin = depth.frames.front().header.captured;
-        const TimePoint at = depth.frames[change.frame].header.captured;
+        const Duration begin = depth.frames.front().time();
+        const Duration at = depth.frames[change.frame].time();
         list.push_back({{"from_frame", change.frame},
                         {"from_seconds", to_seconds(at - begin)},
                         {"filters", change.filters}});
@@ -105,6 +107,37 @@ Json describe_calibration(const Bytes& bytes) {
     return json;
 }
 
+// As in 2026-11-22T07:31:41.250Z; empty if it is not known.
+std::string utc_text(record::UtcTime time) {
+    const std::time_t seconds =
+        std::chrono::floor<std::chrono::seconds>(time).time_since_epoch().count();
+    std::tm parts{};
+    if (time == record::UtcTime{} || !gmtime_r(&seconds, &parts))
+        return "";
+    char date[64], text[96];
+    std::strftime(date, sizeof(date), "%Y-%m-%dT%H:%M:%S", &parts);
+    const auto us = (time - std::chrono::floor<std::chrono::seconds>(time)).count();
+    std::snprintf(text, sizeof(text), "%s.%03dZ", date, int(us / 1000));
+    return text;
+}
+
+Json describe_segments(const record::RecordingFile& recording) {
+    Json list = Json::array();
+    for (const record::Segment& segment : recording.segments())
+        list.push_back({{"file", segment.file},
+                        {"version", segment.has_info ? 2 : 1},
+                        {"number", segment.info.number},
+                        {"begin_utc", utc_text(segment.begin_utc)},
+                        {"begin_seconds", to_seconds(segment.begin)},
+                        {"end_seconds", to_seconds(segment.end)},
+                        {"pictures", segment.frames},
+                        {"closed", segment.closed},
+                        {"head_damaged", segment.head_damaged},
+                        {"damaged_places", segment.damaged_places},
+                        {"damaged_bytes", segment.damaged_bytes}});
+    return list;
+}
+
 Json describe(const std::string& file, const record::RecordingFile& recording) {
     Json cameras = Json::array();
     for (const record::CameraContent& camera : recording.cameras()) {
@@ -120,9 +153,11 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
     }
     return {{"file", file},
             {"bytes", recording.bytes()},
-            {"seconds", to_seconds(recording.end() - recording.begin())},
+            {"seconds", to_seconds(recording.duration())},
             {"complete", recording.complete()},
             {"refused", recording.refused()},
+            {"missing_segments", recording.missing_segments()},
+            {"segments", describe_segments(recording)},
             {"cameras", cameras}};
 }
 
@@ -171,26 +206,97 @@ void print_calibration(const Json& calibration) {
           calibration["registered"] ? "its place in the room is known" : "not registered");
 }
 
-void run(const std::string& file, bool as_json) {
-    const auto recording = record::RecordingFile::open(file);
-    const Json json = describe(file, *recording);
-    if (as_json) {
+void print_segments(const record::RecordingFile& recording) {
+    const bool many = recording.segments().size() > 1 || recording.missing_segments() > 0;
+    for (const record::Segment& segment : recording.segments()) {
+        const std::string begin = utc_text(segment.begin_utc);
+        if (many)
+            print("segment %u: %s, from %.1f s on%s%s\n", unsigned(segment.info.number),
+                  segment.file.c_str(), to_seconds(segment.begin), begin.empty() ? "" : ", at ",
+                  begin.c_str());
+        else if (!begin.empty())
+            print("recorded at %s\n", begin.c_str());
+        if (!segment.closed)
+            print("  it was cut short, and opens up to the last whole part\n");
+        if (segment.head_damaged)
+            print("  its beginning is damaged, and read from a copy\n");
+        if (segment.damaged_places > 0)
+            print("  damaged in %llu places, %.1f MB together\n",
+                  (unsigned long long)segment.damaged_places, double(segment.damaged_bytes) * 1e-6);
+    }
+    if (recording.missing_segments() > 0)
+        print("%llu segments between these are missing\n",
+              (unsigned long long)recording.missing_segments());
+}
+
+void print_minutes(const Json& camera) {
+    for (const Json& minute : camera["minutes"])
+        for (const char* kind : {"depth", "color"}) {
+            const Json& f = minute[kind];
+            if (f["damaged"] > 0 || f["undecodable"] > 0 || f["missing"] > 0)
+                print(
+                    "  minute %d: %s %llu pictures, %llu damaged, %llu that refer to them, %llu "
+                    "missing, %llu pauses\n",
+                    int(minute["minute"]), std::string(kind) == "depth" ? "depth" : "colour",
+                    (unsigned long long)f["pictures"], (unsigned long long)f["damaged"],
+                    (unsigned long long)f["undecodable"], (unsigned long long)f["missing"],
+                    (unsigned long long)f["gaps"]);
+        }
+}
+
+// Decodes everything and says what is damaged. True if nothing is.
+bool add_verification(const std::shared_ptr<const record::RecordingFile>& recording,
+                      const std::string& file, Json& json) {
+    const Verification found = verify(recording, file, show_progress());
+    for (std::size_t i = 0; i < found.cameras.size(); ++i) {
+        Json minutes = Json::array();
+        const auto describe_minute = [](const VerifiedPictures& p) {
+            return Json{{"pictures", p.pictures},
+                        {"damaged", p.damaged},
+                        {"undecodable", p.undecodable},
+                        {"missing", p.missing},
+                        {"gaps", p.gaps}};
+        };
+        for (const auto& [minute, pictures] : found.cameras[i])
+            minutes.push_back({{"minute", minute},
+                               {"depth", describe_minute(pictures.depth)},
+                               {"color", describe_minute(pictures.color)}});
+        json["cameras"][i]["minutes"] = std::move(minutes);
+    }
+    json["damaged"] = found.damaged;
+    return !found.damaged;
+}
+
+void run(const std::string& file, bool as_json, bool verified) {
+    const std::shared_ptr<const record::RecordingFile> recording =
+        record::RecordingFile::open(file);
+    Json json = describe(file, *recording);
+    const bool sound = !verified || add_verification(recording, file, json);
+    if (as_json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
-        return;
+    else {
+        print("%s: %.1f s, %.1f MB, %zu camera(s)\n", file.c_str(), double(json["seconds"]),
+              double(json["bytes"]) * 1e-6, recording->cameras().size());
+        print_segments(*recording);
+        if (recording->refused() > 0)
+            print("%llu pictures are damaged and left out\n",
+                  (unsigned long long)recording->refused());
+        for (const Json& camera : json["cameras"]) {
+            print("camera %d: %s\n", int(camera["camera"]), std::string(camera["name"]).c_str());
+            print_stream("depth", camera["depth"]);
+            print_filtering(camera["depth"]);
+            if (camera.contains("color"))
+                print_stream("colour", camera["color"]);
+            print_calibration(camera["calibration"]);
+            if (verified)
+                print_minutes(camera);
+        }
+        if (verified)
+            print("%s\n", sound ? "every picture was decoded, and nothing is damaged"
+                                : "parts are damaged; 'theatron recover' saves the others");
     }
-    print("%s: %.1f s, %.1f MB, %zu camera(s)%s\n", file.c_str(), double(json["seconds"]),
-          double(json["bytes"]) * 1e-6, recording->cameras().size(),
-          recording->complete() ? "" : "; it was cut short, and opens up to the last whole part");
-    if (recording->refused() > 0)
-        print("%llu pictures are damaged and left out\n", (unsigned long long)recording->refused());
-    for (const Json& camera : json["cameras"]) {
-        print("camera %d: %s\n", int(camera["camera"]), std::string(camera["name"]).c_str());
-        print_stream("depth", camera["depth"]);
-        print_filtering(camera["depth"]);
-        if (camera.contains("color"))
-            print_stream("colour", camera["color"]);
-        print_calibration(camera["calibration"]);
-    }
+    if (!sound)
+        throw CLI::RuntimeError(damaged_exit_code);
 }
 
 }  // namespace
@@ -199,16 +305,23 @@ void add_inspect_command(CLI::App& app) {
     struct Flags {
         std::string file;
         bool json = false;
+        bool verify = false;
     };
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("inspect", "Tell what a recording holds");
     command->footer(
-        "Examples:\n"
+        "A recording that goes on in further files (operation.002.mkv ...) is one: name the "
+        "first.\n"
+        "With --verify the exit code is 3 if anything is damaged.\n"
+        "\nExamples:\n"
         "  theatron inspect operation.mkv\n"
-        "  theatron inspect operation.mkv --json");
+        "  theatron inspect operation.mkv --json\n"
+        "  theatron inspect operation.mkv --verify");
     command->add_option("file", flags->file, "The recording")->required();
     command->add_flag("--json", flags->json, "Print JSON");
-    command->callback([flags] { run(flags->file, flags->json); });
+    command->add_flag("--verify", flags->verify,
+                      "Decode every picture, and tell what is damaged or missing minute by minute");
+    command->callback([flags] { run(flags->file, flags->json, flags->verify); });
 }
 
 }  // namespace theatron::app

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     theatron::app::add_join_command(app);
     theatron::app::add_record_command(app);
     theatron::app::add_inspect_command(app);
+    theatron::app::add_recover_command(app);
     theatron::app::add_export_command(app);
     theatron::app::add_bench_command(app);
     theatron::app::add_demo_command(app);

@@ -132,7 +132,7 @@ void MkvFile::Library::open(const std::filesystem::path& path) {
     if (depth < 0)
         throw Error(name +
                     " has no depth track, so it is not an Azure Kinect recording, or is "
-                    "damaged at its beginning.");
+                    "damaged at its beginning; what Theatron recorded is recording:FILE.");
     if (!is_valid(size_of(stream(depth))))
         throw Error(name + " has depth of an impossible size.");
 }

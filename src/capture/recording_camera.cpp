@@ -2,111 +2,182 @@
 #include "capture/recording_camera.h"
 
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <tuple>
 
 #include "base/error.h"
 #include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
 
 namespace theatron::capture {
+namespace {
+
+constexpr std::uint32_t no_color = std::numeric_limits<std::uint32_t>::max();
+
+// The camera's parts of the calibration that is number `wanted`, in their order.
+std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, std::size_t wanted) {
+    std::vector<record::CameraPart> parts;
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < camera.parts.size(); ++i) {
+        number += i > 0 && camera.parts[i].calibration != camera.parts[i - 1].calibration;
+        if (number == wanted)
+            parts.push_back(camera.parts[i]);
+    }
+    return parts;
+}
+
+// Where the frames of the part after `part` begin.
+std::size_t end_of(const record::CameraContent& camera, const record::CameraPart& part) {
+    for (const record::CameraPart& other : camera.parts)
+        if (other.segment > part.segment)
+            return other.first_depth;
+    return camera.depth.frames.size();
+}
+
+bool is_jpeg(const record::CameraPart& part) {
+    return part.color.codec.starts_with("jpeg");
+}
+
+}  // namespace
+
+std::size_t calibrations_of(const record::CameraContent& camera) {
+    std::size_t count = 1;
+    for (std::size_t i = 1; i < camera.parts.size(); ++i)
+        count += camera.parts[i].calibration != camera.parts[i - 1].calibration;
+    return count;
+}
 
 RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> recording,
-                               std::size_t camera, std::string file)
+                               std::size_t camera, std::string file, std::size_t part)
     : recording_(std::move(recording)),
       content_(recording_->cameras()[std::min(camera, recording_->cameras().size() - 1)]),
-      file_(std::move(file)) {
+      file_(std::move(file)),
+      parts_(parts_of(content_, part)) {
     const std::string name = "'" + file_ + "'";
     if (const std::size_t count = recording_->cameras().size(); camera >= count)
         throw Error(name + " holds " + std::to_string(count) +
                     (count == 1 ? " camera" : " cameras") +
                     ", numbered from 0, so camera=" + std::to_string(camera) + " is none of them.");
-    const auto calibration = decode_calibration(content_.calibration);
+    if (parts_.empty())
+        throw Error("Camera " + std::to_string(camera) + " in " + name + " has no calibration " +
+                    std::to_string(part) + ".");
+    const auto calibration = decode_calibration(parts_[0].calibration);
     if (!calibration)
         throw Error("The calibration in " + name + " is " +
                     std::string(theatron::to_text(calibration.error())) + ".");
-    info_ = {content_.name, *calibration, content_.frames_per_second};
-
-    const auto depth = video::parse_depth_setting(content_.depth.codec);
-    if (!depth.problem.empty())
-        throw Error("The depth in " + name +
-                    " is encoded in a way that this Theatron does not know: " + depth.problem);
-    setting_ = depth.setting;
-    if (content_.color.present && !content_.color.codec.starts_with("jpeg")) {
-        const auto color = video::parse_color_setting(content_.color.codec);
+    info_ = {parts_[0].name, *calibration, parts_[0].frames_per_second};
+    for (const record::CameraPart& one : parts_) {
+        const auto depth = video::parse_depth_setting(one.depth.codec);
+        if (!depth.problem.empty())
+            throw Error("The depth in " + name +
+                        " is encoded in a way that this Theatron does not know: " + depth.problem);
+        if (!one.color.present || is_jpeg(one))
+            continue;
+        const auto color = video::parse_color_setting(one.color.codec);
         if (!color.problem.empty())
             throw Error("The colour in " + name +
                         " is encoded in a way that this Theatron does not know: " + color.problem);
-        color_ = video::make_color_decoder(color.setting.id);
     }
-    temporal_ = std::any_of(content_.depth.frames.begin(), content_.depth.frames.end(),
-                            [](const record::RecordedFrame& f) { return !f.header.key; });
-    // A camera's number starts anew with its host, so the time belongs to a frame's name.
-    using Name = std::pair<TimePoint, FrameNumber>;
-    std::map<Name, std::size_t> colors;
-    bool decodable = false;
-    for (std::size_t i = 0; i < content_.color.frames.size(); ++i) {
-        const wire::MediaHeader& h = content_.color.frames[i].header;
-        // One that is no key frame refers to the one before it, and so on to a key frame.
-        decodable =
-            h.key || (decodable && content_.color.frames[i - 1].header.frame == h.reference);
-        if (decodable)
-            colors[{h.captured, h.frame}] = i;
-    }
-    for (const record::RecordedFrame& f : content_.depth.frames) {
-        const auto same = colors.find({f.header.captured, f.header.frame});
-        colors_.push_back(same == colors.end() ? std::nullopt : std::optional(same->second));
-    }
+    begin_ = parts_.front().first_depth;
+    end_ = end_of(content_, parts_.back());
+    match_colors();
     rewind();
 }
 
+// Depth and colour of a frame have the same number. A camera's numbers begin anew with its host,
+// which in version 1 does not begin a segment: there the time belongs to the name.
+void RecordedFrames::match_colors() {
+    const auto name_of = [&](const record::RecordedFrame& frame) {
+        const bool has_info = recording_->segments()[frame.segment].has_info;
+        return std::tuple(std::uint32_t(frame.segment), has_info ? Duration(0) : frame.time(),
+                          frame.number);
+    };
+    using Name = decltype(name_of(content_.color.frames[0]));
+    const auto& frames = content_.color.frames;
+    std::vector<std::pair<Name, std::uint32_t>> names;
+    names.reserve(frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        names.emplace_back(name_of(frames[i]), std::uint32_t(i));
+    std::sort(names.begin(), names.end());
+    colors_.assign(end_ - begin_, no_color);
+    for (std::size_t i = begin_; i < end_; ++i) {
+        const std::pair wanted(name_of(content_.depth.frames[i]), std::uint32_t(0));
+        const auto found = std::lower_bound(names.begin(), names.end(), wanted);
+        if (found != names.end() && found->first == wanted.first)
+            colors_[i - begin_] = found->second;
+    }
+}
+
 void RecordedFrames::rewind() {
-    depth_ = std::make_unique<codec::DepthStreamDecoder>(video::make_depth_decoder(setting_));
-    next_ = next_color_ = 0;
+    next_ = begin_;
     is_decoded_ = false;
     last_offset_ = {};
+    losses_ = {};
+    begin_part(0);
+}
+
+void RecordedFrames::begin_part(std::size_t part) {
+    part_ = part;
+    const record::CameraPart& one = parts_[part];
+    depth_ = std::make_unique<codec::DepthStreamDecoder>(
+        video::make_depth_decoder(video::parse_depth_setting(one.depth.codec).setting));
+    color_.reset();
+    if (one.color.present && !is_jpeg(one))
+        color_ = video::make_color_decoder(video::parse_color_setting(one.color.codec).setting.id);
+    next_color_ = one.first_color;
+    last_color_.reset();
 }
 
 std::optional<Duration> RecordedFrames::offset() {
-    for (; next_ < content_.depth.frames.size(); ++next_) {
-        const wire::MediaHeader& header = upcoming().header;
-        if (!is_decoded_ && !header.key && !decode())
+    for (; next_ < end_; ++next_) {
+        if (!is_decoded_ && !decode())
             continue;
         // From the beginning of the whole recording, so that its cameras stay in step.
-        last_offset_ = std::max(last_offset_, header.captured - recording_->begin());
+        last_offset_ = std::max(last_offset_, content_.depth.frames[next_].time());
         return last_offset_;
     }
     return std::nullopt;
 }
 
 std::optional<Duration> RecordedFrames::round() const {
-    return recording_->end() - recording_->begin() +
-           seconds_to_duration(1 / info_.frames_per_second);
+    return recording_->duration() + seconds_to_duration(1 / info_.frames_per_second);
+}
+
+wire::MediaHeader RecordedFrames::upcoming() const {
+    const auto header = recording_->read_header(content_.depth.frames[next_]);
+    return header ? *header : wire::MediaHeader{};
 }
 
 bool RecordedFrames::decode() {
-    const record::RecordedFrame& frame = upcoming();
-    const wire::MediaHeader& header = frame.header;
-    if (const Status status = recording_->read_payload(frame, payload_); status != Status::ok)
-        refuse("depth", header.frame, status);
-    const auto size = depth_->read_size(payload_);
-    if (!size)
-        refuse("depth", header.frame, size.error());
-    if (*size != info_.calibration.depth.size)
-        refuse("depth", header.frame, Status::size_mismatch);
-    decoded_.resize(*size);
-    const Status status =
-        depth_->decode({header.frame, header.reference, header.temporal_layer, header.key},
-                       payload_, decoded_.view());
+    const record::RecordedFrame& frame = content_.depth.frames[next_];
+    while (part_ + 1 < parts_.size() && next_ >= parts_[part_ + 1].first_depth)
+        begin_part(part_ + 1);
+    const auto header = recording_->read_header(frame);
+    Status status = header ? recording_->read_payload(frame, payload_) : header.error();
+    if (status == Status::ok) {
+        const auto size = depth_->read_size(payload_);
+        if (!size)
+            status = size.error();
+        else if (*size != info_.calibration.depth.size)
+            status = Status::size_mismatch;
+        else
+            decoded_.resize(*size);
+    }
+    if (status == Status::ok)
+        status =
+            depth_->decode({header->frame, header->reference, header->temporal_layer, header->key},
+                           payload_, decoded_.view());
+    is_decoded_ = status == Status::ok;
     if (status == Status::missing_reference)
-        return false;
-    if (status != Status::ok)
-        refuse("depth", header.frame, status);
-    is_decoded_ = true;
-    return true;
+        ++losses_.undecodable_depth;
+    else if (status != Status::ok)
+        ++losses_.damaged_depth;
+    return is_decoded_;
 }
 
 void RecordedFrames::skip() {
-    if (temporal_ && !is_decoded_)
+    // A frame that is passed over may be the next one's reference.
+    if (!is_decoded_)
         decode();
     is_decoded_ = false;
     ++next_;
@@ -114,60 +185,69 @@ void RecordedFrames::skip() {
 
 void RecordedFrames::read(Frame& out) {
     if (!is_decoded_ && !decode())
-        refuse("depth", upcoming().header.frame, Status::missing_reference);
+        throw Error("The recording '" + file_ + "' has no whole picture here.");
     is_decoded_ = false;
     std::swap(out.depth, decoded_);
 
     out.color.jpeg.clear();
     out.color.pixels.pixels.clear();
     out.color.size = {};
-    if (const auto color = colors_[next_++])
-        read_color(*color, out.color);
-}
-
-void RecordedFrames::read_color(std::size_t index, ColorData& out) {
-    const record::RecordedFrame& frame = content_.color.frames[index];
-    const FrameNumber number = frame.header.frame;
-    if (color_) {
-        decode_color(index, out);
-    } else {
-        if (const Status status = recording_->read_payload(frame, payload_); status != Status::ok)
-            refuse("colour", number, status);
-        const auto size = video::read_jpeg_size(payload_);
-        if (!size)
-            refuse("colour", number, size.error());
-        out.size = *size;
-        out.jpeg.assign(payload_.begin(), payload_.end());
+    const std::uint32_t color = colors_[next_++ - begin_];
+    if (color != no_color && !read_color(color, out.color)) {
+        out.color.jpeg.clear();
+        out.color.pixels.pixels.clear();
+        out.color.size = {};
     }
-    if (!out.empty() && out.size != info_.calibration.color.size)
-        refuse("colour", number, Status::size_mismatch);
 }
 
-// Decodes the picture, and those before it that it refers to and that were passed over.
-void RecordedFrames::decode_color(std::size_t index, ColorData& out) {
+bool RecordedFrames::read_color(std::size_t index, ColorData& out) {
+    if (color_)
+        return decode_color(index, out);
+    Status status = recording_->read_payload(content_.color.frames[index], payload_);
+    const auto size = status == Status::ok ? video::read_jpeg_size(payload_) : Result<Size>(status);
+    if (!size || *size != info_.calibration.color.size) {
+        ++losses_.damaged_color;
+        return false;
+    }
+    out.size = *size;
+    out.jpeg.assign(payload_.begin(), payload_.end());
+    return true;
+}
+
+// Decodes the picture, and those before it that it refers to and that were passed over. False if
+// it is lost.
+bool RecordedFrames::decode_color(std::size_t index, ColorData& out) {
     const auto& frames = content_.color.frames;
     std::size_t first = index;
-    while (!frames[first].header.key && first != next_color_)
+    while (!frames[first].key && first > next_color_)
         --first;
     next_color_ = index + 1;
+    bool is_wanted = false;
     for (std::size_t i = first; i <= index; ++i) {
-        const FrameNumber number = frames[i].header.frame;
-        Status status = recording_->read_payload(frames[i], payload_);
+        const auto header = recording_->read_header(frames[i]);
+        is_wanted = false;
+        // One that is no key frame refers to the one before it, and so on to a key frame.
+        if (header && !header->key && last_color_ != header->reference) {
+            losses_.undecodable_color += i == index;
+            continue;
+        }
+        Status status = header ? recording_->read_payload(frames[i], payload_) : header.error();
         if (status == Status::ok)
-            status = color_->submit(payload_, number);
-        if (status != Status::ok)
-            refuse("colour", number, status);
+            status = color_->submit(payload_, frames[i].number);
+        last_color_.reset();
+        if (status != Status::ok) {
+            ++losses_.damaged_color;
+            continue;
+        }
+        last_color_ = frames[i].number;
         while (auto decoded = color_->poll()) {
             std::swap(out.pixels, decoded->image);
             out.size = out.pixels.size;
             color_->recycle(std::move(decoded->image));
+            is_wanted = out.size == info_.calibration.color.size;
         }
     }
-}
-
-void RecordedFrames::refuse(const char* what, FrameNumber number, Status why) const {
-    throw Error("The " + std::string(what) + " picture of frame " + std::to_string(number) +
-                " in '" + file_ + "' is " + std::string(theatron::to_text(why)) + ".");
+    return is_wanted;
 }
 
 std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& progress) {
@@ -184,6 +264,9 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
     if (std::size_t(playback.start) >= frames->frames())
         throw Error("'" + file + "' has " + std::to_string(frames->frames()) +
                     " frames, so start=" + std::to_string(playback.start) + " is too far.");
+    if (!frames->offset())
+        throw Error("None of the pictures of camera " + std::to_string(camera) + " in '" + file +
+                    "' can be decoded.");
     CameraInfo info = frames->info();
     std::unique_ptr<Recording> recording = std::move(frames);
     // Decoding costs little: memory is taken only where that is asked for.

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the Matroska files that MatroskaWriter writes, whole or cut short.
+// Reads the Matroska files that MatroskaWriter writes: whole, cut short or
+// damaged.
 //
-// Passes once over the file, from block to block, and notes where the images
-// are; their bytes stay in the file. Safe for untrusted input: what is not
-// understood ends the reading there, memory and work are bounded by the file.
+// First the head: what the file says before its first block, from the first of
+// its copies that is intact. Then the clusters, one after the other; what is
+// damaged is passed over up to the next cluster. Images stay in the file. Safe
+// for untrusted input: time is proportional to the file's size, and memory is
+// bounded.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/bytes.h"
 #include "base/status.h"
 #include "record/byte_source.h"
+#include "record/picture_check.h"
+#include "wire/media_header.h"
 
 namespace theatron::record {
 
@@ -23,41 +30,55 @@ struct FoundTrack {
     Bytes codec_private;
     int width = 0, height = 0;
     std::uint64_t default_duration_ns = 0;  // 0: not said
+    bool operator==(const FoundTrack&) const = default;
 };
 
 struct FoundAttachment {
     std::string name;
     std::string mime_type;
     Bytes bytes;
+    bool operator==(const FoundAttachment&) const = default;
 };
+
+struct FoundHead {
+    std::vector<FoundTrack> tracks;
+    std::vector<FoundAttachment> attachments;
+    std::int64_t date_ns = 0;  // since 2001 in UTC, of time 0; 0: not said
+    // A copy of the head or what players read of it is damaged; nothing of it is missing.
+    bool damaged = false;
+    bool closed = false;            // the segment has a size, and ends within the file
+    std::uint64_t clusters_at = 0;  // where to look for them
+};
+
+// Everything before the first block may take this much; copies of the head are looked for this far
+// from both ends of the file.
+inline constexpr std::size_t max_front_bytes = std::size_t(16) << 20;
+
+// malformed: no Matroska file, nor one whose head can be found; truncated: it ends in its head.
+Result<FoundHead> read_head(ByteSource& source);
+
+using EncodedHeader = std::array<std::byte, wire::media_header_size>;
 
 struct FoundBlock {
     int track = 0;
     std::int64_t time_us = 0;
-    bool key = true;
     std::uint64_t payload_at = 0;
     std::uint32_t payload_size = 0;
     std::uint64_t side_at = 0;
-    std::uint32_t side_size = 0;  // 0: none
-    std::uint64_t note_at = 0;
-    std::uint32_t note_size = 0;  // 0: none
+    std::optional<EncodedHeader> side;
+    std::optional<EncodedCheck> check;
+    std::string note;  // at most max_note bytes; a longer one is left out
+};
+inline constexpr std::size_t max_note = 4096;
+
+struct FoundClusters {
+    std::uint64_t damaged_places = 0;  // passed over: each up to the next intact cluster
+    std::uint64_t damaged_bytes = 0;   // in them
+    std::uint64_t cut_bytes = 0;       // after the last whole cluster of a file that was not closed
 };
 
-struct FoundFile {
-    std::vector<FoundTrack> tracks;
-    std::vector<FoundAttachment> attachments;
-    std::vector<FoundBlock> blocks;  // in the order of the file, of whole clusters only
-    // False if the file was not closed, was cut off or is damaged: `read_bytes` of it are whole.
-    bool complete = false;
-    std::uint64_t read_bytes = 0;
-};
-
-// Everything before the first block may take this much.
-inline constexpr std::size_t max_front_bytes = std::size_t(16) << 20;
-// Four cameras at 30 frames a second for nineteen hours.
-inline constexpr std::size_t max_blocks = std::size_t(1) << 24;
-
-// malformed: not a Matroska file at all, or without tracks.
-Result<FoundFile> read_matroska(ByteSource& source);
+// Calls `visit` for each block of the clusters from head.clusters_at on, in the order of the file.
+FoundClusters read_clusters(ByteSource& source, const FoundHead& head,
+                            const std::function<void(const FoundBlock&)>& visit);
 
 }  // namespace theatron::record

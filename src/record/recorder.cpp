@@ -220,11 +220,12 @@ std::string Recorder::begin_next() {
     info_.clock = next.clock;
     std::filesystem::path file;
     std::error_code ignored;
+    ++info_.number;
     do {
-        if (info_.number == max_segments)
+        if (file_number_ == max_segments)
             return "The recording '" + path_.string() + "' has " + std::to_string(max_segments) +
                    " segments and ends here; what came before is kept.";
-        file = segment_path(path_, ++info_.number);
+        file = segment_path(path_, ++file_number_);
     } while (std::filesystem::exists(file, ignored));
     try {
         auto writer = std::make_unique<SegmentWriter>(file, *next.cameras, info_);

@@ -104,6 +104,7 @@ private:
     const std::size_t buffer_bytes_;
     // The writing thread's only.
     SegmentInfo info_;
+    std::uint32_t file_number_ = 1;  // of the newest file's name
     std::unique_ptr<SegmentWriter> writer_;
     std::optional<Waiting> next_;  // the segment that begins with the next message
     Duration duration_before_{};   // of the segments before this one

@@ -5,16 +5,23 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
-#include "record/matroska_reader.h"
+#include "base/outside_text.h"
 #include "record/recording_layout.h"
+#include "record/segment_files.h"
 
 namespace theatron::record {
 namespace {
 
 constexpr double usual_frames_per_second = 30;
-constexpr std::size_t max_filters = 4096;  // bytes of a line
+constexpr std::size_t max_name = 4096;                       // characters
+constexpr std::int64_t max_time_us = std::int64_t(1) << 44;  // of a frame in its segment
+constexpr std::uint64_t max_side_gap = (1 << 14) - 1;
+constexpr std::uint64_t max_file_bytes = std::uint64_t(1) << 48;
+// Matroska counts from 2001.
+constexpr UtcTime matroska_epoch{std::chrono::sys_days(std::chrono::year(2001) / 1 / 1)};
 
 // What was written in nanoseconds is known to a thousandth of a frame.
 double frames_per_second(std::uint64_t default_duration_ns) {
@@ -28,83 +35,267 @@ std::string text_of(const Bytes& bytes) {
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-}  // namespace
+std::optional<SegmentInfo> info_of(const FoundHead& head) {
+    for (const FoundAttachment& attachment : head.attachments)
+        if (attachment.name == segment_info_name)
+            if (const auto info = decode_segment_info(attachment.bytes))
+                return *info;
+    return std::nullopt;
+}
 
-Result<std::unique_ptr<RecordingFile>> RecordingFile::read(std::unique_ptr<ByteSource> source) {
-    Result<FoundFile> found = read_matroska(*source);
-    if (!found)
-        return found.error();
-    std::unique_ptr<RecordingFile> recording(new RecordingFile(std::move(source)));
-    recording->complete_ = found->complete;
-
-    std::map<CameraId, CameraContent> cameras;
-    for (const FoundTrack& track : found->tracks) {
-        if (track.number < 1)
+// The cameras that a head describes; only those with depth.
+std::map<CameraId, CameraPart> cameras_of(const FoundHead& head) {
+    std::map<CameraId, CameraPart> cameras;
+    for (const FoundTrack& track : head.tracks) {
+        if (track.number < 1 || track.number > max_camera_track)
             continue;
         const StreamId id = stream_of_track(track.number);
         const bool is_jpeg = track.codec_id == jpeg_codec_id;
         if (is_depth(id) ? track.codec_id != depth_codec_id
                          : !is_jpeg && track.codec_id != color_codec_id)
             continue;
-        CameraContent& camera = cameras[camera_of(id)];
-        camera.id = camera_of(id);
-        camera.name = track.name;
+        CameraPart& camera = cameras[camera_of(id)];
+        camera.name = clean_text(track.name, max_name);
         camera.frames_per_second = frames_per_second(track.default_duration_ns);
         StreamContent& stream = is_depth(id) ? camera.depth : camera.color;
         stream.present = true;
-        stream.codec = is_jpeg ? "jpeg" : text_of(track.codec_private);
+        stream.codec = is_jpeg ? "jpeg" : clean_text(text_of(track.codec_private), max_note);
         stream.width = track.width;
         stream.height = track.height;
     }
     std::erase_if(cameras, [](const auto& entry) { return !entry.second.depth.present; });
-    if (cameras.empty())
-        return Status::unsupported;
-    for (FoundAttachment& attachment : found->attachments)
+    for (const FoundAttachment& attachment : head.attachments)
         for (auto& [id, camera] : cameras)
             if (attachment.name == calibration_name(id))
-                camera.calibration = std::move(attachment.bytes);
+                camera.calibration = attachment.bytes;
+    return cameras;
+}
 
-    bool first = true;
-    for (const FoundBlock& block : found->blocks) {
-        const StreamId id = stream_of_track(block.track);
-        const auto camera = cameras.find(camera_of(id));
-        if (camera == cameras.end())
-            continue;
-        StreamContent& stream = is_depth(id) ? camera->second.depth : camera->second.color;
-        std::array<std::byte, wire::media_header_size> bytes;
-        if (!stream.present || block.side_size != bytes.size() ||
-            !recording->source_->read(block.side_at, bytes)) {
-            ++recording->refused_;
-            continue;
+// The header of a block, if block and header are what was recorded.
+std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id, bool is_checked) {
+    if (!block.side || (is_checked && !block.check))
+        return std::nullopt;
+    if (is_checked && decode_check(*block.check).head !=
+                          head_check(block.track, block.time_us, *block.side, as_bytes(block.note)))
+        return std::nullopt;
+    const auto header = wire::parse_header_alone(*block.side);
+    const std::uint64_t payload_end = block.payload_at + block.payload_size;
+    if (!header || header->stream != id || header->payload_size != block.payload_size ||
+        header->slices != 1 || block.side_at < payload_end ||
+        block.side_at - payload_end > max_side_gap)
+        return std::nullopt;
+    return *header;
+}
+
+void note_filters(StreamContent& stream, const std::string& note) {
+    std::string filters = note == no_filters ? "" : clean_text(note, max_note);
+    if (filters.size() > max_note)
+        filters = unnamed_filters;
+    const bool is_new = stream.filters.empty() || stream.filters.back().filters != filters;
+    if (!note.empty() && is_new)
+        stream.filters.push_back({stream.frames.size(), std::move(filters)});
+}
+
+}  // namespace
+
+void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundHead& head,
+                                const std::optional<SegmentInfo>& info, std::string file) {
+    Segment segment;
+    segment.file = std::move(file);
+    segment.bytes = source->size();
+    segment.has_info = info.has_value();
+    if (info)
+        segment.info = *info;
+    else if (head.date_ns > 0)
+        segment.info.clock.utc = matroska_epoch + std::chrono::microseconds(head.date_ns / 1000);
+    segment.head_damaged = head.damaged;
+
+    const std::size_t index = segments_.size();
+    std::map<StreamId, StreamContent*> streams;
+    for (auto& [id, part] : cameras_of(head)) {
+        auto camera = std::find_if(cameras_.begin(), cameras_.end(),
+                                   [&](const CameraContent& c) { return c.id == id; });
+        if (camera == cameras_.end()) {
+            cameras_.push_back({id,
+                                part.name,
+                                part.frames_per_second,
+                                part.calibration,
+                                part.depth,
+                                part.color,
+                                {}});
+            camera = cameras_.end() - 1;
+        } else if (!camera->color.present) {
+            camera->color = part.color;
         }
-        const auto header = wire::parse_header_alone(bytes);
-        if (!header || header->stream != id || header->payload_size != block.payload_size ||
-            header->slices != 1) {
-            ++recording->refused_;
-            continue;
-        }
-        recording->begin_ =
-            first ? header->captured : std::min(recording->begin_, header->captured);
-        recording->end_ = first ? header->captured : std::max(recording->end_, header->captured);
-        first = false;
-        if (is_depth(id) && block.note_size > 0 && block.note_size <= max_filters) {
-            Bytes note(block.note_size);
-            if (recording->source_->read(block.note_at, note)) {
-                std::string filters = text_of(note);
-                if (filters == no_filters)
-                    filters.clear();
-                stream.filters.push_back({stream.frames.size(), std::move(filters)});
-            }
-        }
-        stream.frames.push_back({*header, block.payload_at});
+        part.segment = index;
+        part.first_depth = camera->depth.frames.size();
+        part.first_color = camera->color.frames.size();
+        camera->parts.push_back(part);
     }
-    for (auto& [id, camera] : cameras)
-        recording->cameras_.push_back(std::move(camera));
+    for (CameraContent& camera : cameras_) {
+        if (camera.parts.back().segment != index)
+            continue;
+        streams[depth_stream(camera.id)] = &camera.depth;
+        if (camera.parts.back().color.present)
+            streams[color_stream(camera.id)] = &camera.color;
+    }
+
+    bool any = false;
+    std::optional<TimePoint> first_captured;
+    const FoundClusters found = read_clusters(*source, head, [&](const FoundBlock& block) {
+        if (block.track < 1 || block.track > max_camera_track)
+            return;
+        const StreamId id = stream_of_track(block.track);
+        const auto at = streams.find(id);
+        if (at == streams.end())
+            return;
+        StreamContent& stream = *at->second;
+        const auto header = header_of(block, id, info.has_value());
+        // Version 1 says the exact time in the header only, and may have begun before time 0.
+        if (header && !first_captured)
+            first_captured = header->captured;
+        const std::int64_t time_us =
+            header && !info ? (header->captured - *first_captured).count() : block.time_us;
+        if (!header || std::abs(time_us) > max_time_us || block.payload_at >= max_file_bytes ||
+            frames_ >= max_frames) {
+            ++stream.damaged;
+            ++refused_;
+            return;
+        }
+        ++frames_;
+        ++segment.frames;
+        const Duration time(time_us);
+        segment.begin = any ? std::min(segment.begin, time) : time;
+        segment.end = any ? std::max(segment.end, time) : time;
+        any = true;
+        if (is_depth(id))
+            note_filters(stream, block.note);
+        RecordedFrame frame;
+        frame.number = header->frame;
+        frame.payload_size = block.payload_size;
+        frame.payload_check = info ? decode_check(*block.check).payload : 0;
+        frame.time_us = time_us;
+        frame.segment = index;
+        frame.payload_at = block.payload_at;
+        frame.side_gap = block.side_at - block.payload_at - block.payload_size;
+        frame.key = header->key;
+        frame.filtered = header->filtered != TimePoint{};
+        stream.frames.push_back(frame);
+    });
+    segment.damaged_places = found.damaged_places;
+    segment.damaged_bytes = found.damaged_bytes;
+    segment.closed = head.closed;
+    segment.first_captured = first_captured.value_or(TimePoint{});
+    if (info || head.date_ns > 0)
+        segment.begin_utc = segment.info.clock.utc + (info ? segment.begin : Duration(0));
+    segments_.push_back(std::move(segment));
+    sources_.push_back(std::move(source));
+}
+
+// Puts the segments one behind the other, and moves all frames to where they then are.
+void RecordingFile::place_segments() {
+    std::vector<Duration> moves;
+    const Segment* before = nullptr;  // with frames
+    Segment original_before;
+    for (Segment& segment : segments_) {
+        const Segment original = segment;  // its times count from its own beginning
+        Duration begin{};
+        if (before && segment.frames > 0) {
+            const auto clock_step = [](const Segment& s) {
+                return s.info.clock.utc.time_since_epoch() - Duration(to_us(s.info.clock.session));
+            };
+            // The wall's clock may have been set meanwhile; the session's, if it went on, was not.
+            constexpr Duration same_clock = std::chrono::seconds(2);
+            const Duration step = clock_step(original) - clock_step(original_before);
+            const Duration session_pause =
+                (original.info.clock.session + original.begin) -
+                (original_before.info.clock.session + original_before.end);
+            const Duration utc_pause = session_pause + step;
+            const bool is_same = -same_clock < step && step < same_clock;
+            constexpr Duration shortest = std::chrono::milliseconds(1);
+            begin =
+                before->end + std::clamp(is_same ? session_pause : utc_pause, shortest, max_pause);
+            begin = std::min(begin, Duration(2 * max_time_us));
+        }
+        const Duration move = segment.frames > 0 ? begin - segment.begin : Duration(0);
+        moves.push_back(move);
+        segment.origin = move;
+        segment.begin += move;
+        segment.end += move;
+        if (segment.frames > 0) {
+            before = &segment;
+            original_before = original;
+            duration_ = segment.end;
+        }
+    }
+    for (CameraContent& camera : cameras_)
+        for (StreamContent* stream : {&camera.depth, &camera.color})
+            for (RecordedFrame& frame : stream->frames)
+                frame.time_us = frame.time_us + moves[frame.segment].count();
+}
+
+Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
+    std::vector<std::unique_ptr<ByteSource>> sources, std::vector<std::string> files) {
+    files.resize(sources.size());
+    struct Member {
+        std::size_t source;
+        FoundHead head;
+        std::optional<SegmentInfo> info;
+    };
+    std::vector<Member> members;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        Result<FoundHead> head = read_head(*sources[i]);
+        if (!head) {
+            if (i == 0)
+                return head.error();
+            continue;
+        }
+        const auto info = info_of(*head);
+        if (i == 0 && cameras_of(*head).empty())
+            return Status::unsupported;
+        const bool follows =
+            i == 0 || (info && members[0].info && info->recording == members[0].info->recording &&
+                       info->number > members[0].info->number);
+        if (follows)
+            members.push_back({i, std::move(*head), info});
+    }
+    const auto number_of = [](const Member& m) { return m.info ? m.info->number : 1; };
+    std::stable_sort(members.begin(), members.end(),
+                     [&](const Member& a, const Member& b) { return number_of(a) < number_of(b); });
+    // A file that was copied beside the original.
+    members.erase(
+        std::unique(members.begin(), members.end(),
+                    [&](const Member& a, const Member& b) { return number_of(a) == number_of(b); }),
+        members.end());
+
+    std::unique_ptr<RecordingFile> recording(new RecordingFile);
+    recording->missing_segments_ =
+        number_of(members.back()) - number_of(members.front()) + 1 - members.size();
+    for (Member& member : members)
+        recording->add_segment(std::move(sources[member.source]), member.head, member.info,
+                               std::move(files[member.source]));
+    std::sort(recording->cameras_.begin(), recording->cameras_.end(),
+              [](const CameraContent& a, const CameraContent& b) { return a.id < b.id; });
+    recording->place_segments();
     return recording;
 }
 
+Result<std::unique_ptr<RecordingFile>> RecordingFile::read(std::unique_ptr<ByteSource> source) {
+    std::vector<std::unique_ptr<ByteSource>> sources;
+    sources.push_back(std::move(source));
+    return read(std::move(sources));
+}
+
 std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& path) {
-    auto recording = read(open_file_source(path));
+    std::vector<std::unique_ptr<ByteSource>> sources;
+    std::vector<std::string> files;
+    sources.push_back(open_file_source(path));
+    files.push_back(path.string());
+    for (const std::filesystem::path& other : files_of_later_segments(path)) {
+        sources.push_back(open_file_source(other));
+        files.push_back(other.string());
+    }
+    auto recording = read(std::move(sources), std::move(files));
     if (recording)
         return std::move(*recording);
     const std::string name = "'" + path.string() + "'";
@@ -123,9 +314,33 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
     }
 }
 
+bool RecordingFile::complete() const {
+    return missing_segments_ == 0 && std::all_of(segments_.begin(), segments_.end(),
+                                                 [](const Segment& s) { return s.complete(); });
+}
+
+std::uint64_t RecordingFile::bytes() const {
+    std::uint64_t bytes = 0;
+    for (const Segment& segment : segments_)
+        bytes += segment.bytes;
+    return bytes;
+}
+
+Result<wire::MediaHeader> RecordingFile::read_header(const RecordedFrame& frame) const {
+    EncodedHeader bytes;
+    const std::uint64_t at = frame.payload_at + frame.payload_size + frame.side_gap;
+    if (!sources_[frame.segment]->read(at, bytes))
+        return Status::truncated;
+    return wire::parse_header_alone(bytes);
+}
+
 Status RecordingFile::read_payload(const RecordedFrame& frame, Bytes& out) const {
-    out.resize(frame.header.payload_size);
-    return source_->read(frame.payload_at, out) ? Status::ok : Status::truncated;
+    out.resize(frame.payload_size);
+    ByteSource& source = *sources_[frame.segment];
+    if (!source.read(frame.payload_at, out))
+        return Status::truncated;
+    const bool is_checked = segments_[frame.segment].has_info;
+    return is_checked && crc32c(out) != frame.payload_check ? Status::malformed : Status::ok;
 }
 
 }  // namespace theatron::record

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording to read: its cameras, their streams, and where each frame is.
+// A recording to read: its segments as one, its cameras, their streams, and
+// where each frame is.
 //
-// Safe for untrusted files. Images are not looked into: whoever decodes them
-// does so with codecs that are safe themselves.
+// Safe for untrusted files. Images are not looked into but for their checksum:
+// whoever decodes them does so with codecs that are safe themselves.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,14 +16,33 @@
 #include "base/ids.h"
 #include "base/status.h"
 #include "record/byte_source.h"
+#include "record/matroska_reader.h"
+#include "record/segment_info.h"
 #include "wire/media_header.h"
 
 namespace theatron::record {
 
-struct RecordedFrame {
-    wire::MediaHeader header;
-    std::uint64_t payload_at = 0;
+// Small, for hours of many cameras have tens of millions.
+struct __attribute__((packed, aligned(4))) RecordedFrame {
+    // Since the recording's first frame. The pause between two segments counts as it was, up to
+    // max_pause.
+    Duration time() const { return Duration(time_us); }
+
+    FrameNumber number = 0;
+    std::uint32_t payload_size = 0;
+    std::uint32_t payload_check = 0;
+    std::int64_t time_us : 48 = 0;
+    std::uint64_t segment : 16 = 0;  // its index
+    std::uint64_t payload_at : 48 = 0;
+    std::uint64_t side_gap : 14 = 0;  // from the payload's end to its header
+    bool key : 1 = false;
+    bool filtered : 1 = false;
 };
+static_assert(sizeof(RecordedFrame) == 28);
+
+inline constexpr Duration max_pause = std::chrono::seconds(10);
+// Of all segments together: ten times what sixteen cameras with colour make in eight hours.
+inline constexpr std::size_t max_frames = std::size_t(1) << 28;
 
 // From this frame on, until the next of these.
 struct FilterChange {
@@ -34,48 +55,91 @@ struct StreamContent {
     bool present = false;
     std::string codec;  // its setting: "zstd:delta=1"; of JPEG just "jpeg"
     int width = 0, height = 0;
-    std::vector<RecordedFrame> frames;  // in the order in which they were recorded
+    std::deque<RecordedFrame> frames;  // in the order in which they were recorded
     // Which filters depth went through before it was encoded; none before the first.
     std::vector<FilterChange> filters;
+    // Frames that are there, but whose header is damaged or does not fit the stream.
+    std::uint64_t damaged = 0;
+};
+
+// What a segment says of a camera, from these frames on.
+struct CameraPart {
+    std::size_t segment = 0;  // its index
+    std::size_t first_depth = 0, first_color = 0;
+    std::string name;
+    double frames_per_second = 0;
+    Bytes calibration;
+    StreamContent depth, color;  // without frames
 };
 
 struct CameraContent {
     CameraId id{};
+    // As in the first segment that has the camera.
     std::string name;
     double frames_per_second = 0;
     Bytes calibration;
     StreamContent depth, color;
+    std::vector<CameraPart> parts;  // by segment; at least one
+};
+
+struct Segment {
+    std::string file;  // empty: bytes in memory
+    std::uint64_t bytes = 0;
+    SegmentInfo info;
+    bool has_info = false;     // false: of format version 1, without a session time
+    UtcTime begin_utc;         // of its first frame; the epoch: not known
+    Duration begin{}, end{};   // its first frame and its last, since the recording's first
+    Duration origin{};         // on the same scale: where its own time 0 is
+    TimePoint first_captured;  // session time of the first frame in the file
+    std::uint64_t frames = 0;
+    bool closed = false;        // false: never closed, or cut off
+    bool head_damaged = false;  // and found whole elsewhere
+    std::uint64_t damaged_places = 0, damaged_bytes = 0;
+
+    bool complete() const { return closed && !head_damaged && damaged_places == 0; }
 };
 
 class RecordingFile {
 public:
-    // Throws Error with one sentence if it is no recording.
+    // Opens `path` and the segments that follow it, which lie in the same folder. Throws Error with
+    // one sentence if it is no recording.
     static std::unique_ptr<RecordingFile> open(const std::filesystem::path& path);
 
-    // The same without exceptions, for bytes from anywhere.
+    // The same without exceptions, for bytes from anywhere: of the segments in any order. The first
+    // must be a recording; others that do not belong to it are left out.
+    static Result<std::unique_ptr<RecordingFile>> read(
+        std::vector<std::unique_ptr<ByteSource>> sources, std::vector<std::string> files = {});
     static Result<std::unique_ptr<RecordingFile>> read(std::unique_ptr<ByteSource> source);
 
     const std::vector<CameraContent>& cameras() const { return cameras_; }
-    // False if the recording was never closed, or the file was cut off or damaged.
-    bool complete() const { return complete_; }
-    std::uint64_t bytes() const { return source_->size(); }
-    // Frames whose header is damaged or does not fit its stream.
+    const std::vector<Segment>& segments() const { return segments_; }
+    // Of those between the first and the last that there are.
+    std::uint64_t missing_segments() const { return missing_segments_; }
+    // False if a segment is missing, was never closed, or was cut off or damaged.
+    bool complete() const;
+    std::uint64_t bytes() const;
+    // Frames whose header is damaged or does not fit its stream, of all streams.
     std::uint64_t refused() const { return refused_; }
+    // From the first frame to the last.
+    Duration duration() const { return duration_; }
 
-    // Exposure of the first frame and of the last, of all streams.
-    TimePoint begin() const { return begin_; }
-    TimePoint end() const { return end_; }
-
+    // The media header of a frame, whose checksum has been looked at.
+    Result<wire::MediaHeader> read_header(const RecordedFrame& frame) const;
+    // malformed: the picture is damaged.
     Status read_payload(const RecordedFrame& frame, Bytes& out) const;
 
 private:
-    explicit RecordingFile(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {}
+    RecordingFile() = default;
+    void add_segment(std::unique_ptr<ByteSource> source, const FoundHead& head,
+                     const std::optional<SegmentInfo>& info, std::string file);
+    void place_segments();
 
-    std::unique_ptr<ByteSource> source_;
+    std::vector<std::unique_ptr<ByteSource>> sources_;
+    std::vector<Segment> segments_;
     std::vector<CameraContent> cameras_;
-    bool complete_ = false;
-    std::uint64_t refused_ = 0;
-    TimePoint begin_, end_;
+    std::uint64_t refused_ = 0, missing_segments_ = 0;
+    std::size_t frames_ = 0;
+    Duration duration_{};
 };
 
 }  // namespace theatron::record

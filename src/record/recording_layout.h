@@ -18,6 +18,10 @@ inline constexpr const char* side_name = "theatron.media-header";
 inline constexpr const char* note_name = "theatron.filters";
 inline constexpr const char* check_name = "theatron.check";
 inline constexpr const char* no_filters = "off";
+inline constexpr const char* unnamed_filters = "unnamed";
+
+// Those of cameras; 128 to 255 are kept for voices, 256 for the state of the room.
+inline constexpr int max_camera_track = 126;
 
 constexpr int track_number(StreamId stream) {
     return int(stream) + 1;

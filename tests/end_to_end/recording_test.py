@@ -156,13 +156,53 @@ class Recording(unittest.TestCase):
             self.assertEqual(seen["complete"], sig == signal.SIGINT)
             self.assertGreater(seen["cameras"][0]["depth"]["frames"], 0)
 
+    def test_damage_is_passed_over_told_and_left_out_of_what_is_recovered(self):
+        path = self.folder / "damaged.mkv"
+        self.record(path.name, "--camera", f"folder:{self.source}", "--depth-codec", "rvl")
+        code, out, errors = run("inspect", path, "--verify", "--json")
+        self.assertEqual(code, 0, errors)
+        whole = json.loads(out)
+        pictures = whole["cameras"][0]["depth"]["frames"]
+        self.assertEqual(sum(m["depth"]["pictures"] for m in whole["cameras"][0]["minutes"]), pictures)
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 4
+        content[1] ^= 1
+        path.write_bytes(content)
+
+        code, out, errors = run("inspect", path, "--verify", "--json")
+        self.assertEqual(code, 3, errors)
+        seen = json.loads(out)
+        self.assertTrue(seen["damaged"] and seen["segments"][0]["head_damaged"])
+        self.assertEqual(sum(m["depth"]["damaged"] for m in seen["cameras"][0]["minutes"]), 1)
+        code, out, errors = run("export", path, "--png", self.folder / "png", "--json")
+        self.assertEqual(code, 3, errors)
+        self.assertEqual((json.loads(out)["count"], json.loads(out)["lost_depth"]), (pictures - 1, 1))
+        self.assert_same_depth(self.folder / "png")
+
+        code, out, errors = run("recover", path, "--json")
+        self.assertEqual(code, 0, errors)
+        saved = json.loads(out)
+        self.assertEqual(saved["cameras"][0]["depth"], {"saved": pictures - 1, "damaged": 1, "undecodable": 0})
+        self.assertEqual(saved["files"], [str(self.folder / "damaged.recovered.mkv")])
+        code, _, errors = run("inspect", saved["files"][0], "--verify")
+        self.assertEqual(code, 0, errors)
+        code, _, errors = run("recover", path)
+        self.assertEqual(code, 1)
+        self.assertIn("exists already", errors)
+
     def test_what_cannot_be_is_one_sentence(self):
+        self.record("own.mkv", "--camera", f"folder:{self.source}")
+        code, _, errors = run("export", self.folder / "own.mkv", "--k4a", self.folder / "kinect.mkv")
+        self.assertEqual(code, 0, errors)
         for arguments, part in (
                 (("record", self.folder / "x.mkv"), "Say what to record"),
                 (("record", "--camera", f"folder:{self.source}", "/nowhere/x.mkv"), "Cannot create"),
                 (("inspect", self.source / "depth" / "00000.png"), "is no Matroska file"),
                 (("export", self.folder / "x.mkv", "--png", "y"), "Cannot open"),
-                (("export", self.folder / "x.mkv"), "Say into what to export")):
+                (("export", self.folder / "x.mkv"), "Say into what to export"),
+                (("inspect", self.folder / "kinect.mkv"), "use mkv:FILE"),
+                (("host", "--camera", f"mkv:{self.folder / 'own.mkv'}"), "recording:FILE"),
+                (("recover", self.folder / "x.mkv"), "Cannot open")):
             code, _, errors = run(*arguments)
             self.assertEqual(code, 1)
             self.assertIn(part, errors)

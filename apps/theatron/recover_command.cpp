@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron recover
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "progress.h"
+#include "record/recover.h"
+
+namespace theatron::app {
+namespace {
+
+struct Flags {
+    std::string file, out;
+    bool json = false;
+};
+
+// "operation.recovered.mkv" beside "operation.mkv".
+std::string default_out(const std::filesystem::path& file) {
+    std::filesystem::path name = file.stem();
+    name += ".recovered";
+    name += file.extension();
+    return (file.parent_path() / name).string();
+}
+
+void run(const Flags& flags) {
+    const auto recording = record::RecordingFile::open(flags.file);
+    const capture::Progress show = show_progress();
+    const record::Recovered saved = record::recover(
+        *recording, flags.out.empty() ? default_out(flags.file) : flags.out, [&](double done) {
+            if (show)
+                show("recovering", done);
+        });
+    using Json = nlohmann::ordered_json;
+    Json cameras = Json::array();
+    for (std::size_t i = 0; i < saved.cameras.size(); ++i) {
+        const auto describe = [](const record::RecoveredStream& s) {
+            return Json{{"saved", s.saved}, {"damaged", s.damaged}, {"undecodable", s.undecodable}};
+        };
+        cameras.push_back({{"camera", int(recording->cameras()[i].id)},
+                           {"depth", describe(saved.cameras[i].depth)},
+                           {"color", describe(saved.cameras[i].color)}});
+    }
+    std::uint64_t places = 0;
+    for (const record::Segment& segment : recording->segments())
+        places += segment.damaged_places + segment.head_damaged;
+    if (flags.json) {
+        std::cout << Json{{"files", saved.files},
+                          {"bytes", saved.bytes},
+                          {"damaged_places", places},
+                          {"missing_segments", recording->missing_segments()},
+                          {"cameras", cameras}}
+                         .dump(-1, ' ', false, Json::error_handler_t::replace)
+                  << std::endl;
+        return;
+    }
+    for (const Json& camera : cameras)
+        for (const char* kind : {"depth", "color"}) {
+            const Json& s = camera[kind];
+            if (s["saved"] > 0 || s["damaged"] > 0 || s["undecodable"] > 0)
+                std::printf(
+                    "camera %d, %s: %llu pictures saved; %llu damaged and %llu that refer to what "
+                    "is not there were left out\n",
+                    int(camera["camera"]), std::string(kind) == "depth" ? "depth" : "colour",
+                    (unsigned long long)s["saved"], (unsigned long long)s["damaged"],
+                    (unsigned long long)s["undecodable"]);
+        }
+    if (places > 0)
+        std::printf("%llu damaged places were passed over\n", (unsigned long long)places);
+    if (recording->missing_segments() > 0)
+        std::printf("%llu segments are missing\n",
+                    (unsigned long long)recording->missing_segments());
+    for (const std::string& file : saved.files)
+        std::printf("%s\n", file.c_str());
+}
+
+}  // namespace
+
+void add_recover_command(CLI::App& app) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        app.add_subcommand("recover", "Write what is whole of a damaged recording into a new one");
+    command->footer(
+        "Pictures that are damaged, and those that cannot be decoded without them, are left out;\n"
+        "all others are copied as they are. The recording itself is not changed.\n"
+        "\nExamples:\n"
+        "  theatron recover operation.mkv\n"
+        "  theatron recover operation.mkv saved.mkv");
+    command->add_option("file", flags->file, "The recording")->required();
+    command->add_option("out", flags->out,
+                        "The file to write; not given: FILE with '.recovered' in its name");
+    command->add_flag("--json", flags->json, "Print what was saved as JSON");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::app

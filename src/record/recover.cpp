@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/recover.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "base/error.h"
+#include "record/segment_writer.h"
+
+namespace theatron::record {
+namespace {
+
+constexpr std::size_t batch_bytes = std::size_t(4) << 20;
+constexpr std::size_t kept_numbers = 64;  // references reach back a few frames only
+
+// The frames of a stream from its next one on.
+class StreamReader {
+public:
+    StreamReader(const StreamContent& stream, RecoveredStream& counts)
+        : stream_(stream), counts_(counts) {
+        counts_.damaged = stream.damaged;
+    }
+
+    // Of a segment; null at its end.
+    const RecordedFrame* upcoming(std::size_t segment) const {
+        const bool there =
+            next_ < stream_.frames.size() && stream_.frames[next_].segment == segment;
+        return there ? &stream_.frames[next_] : nullptr;
+    }
+
+    void begin_segment() { kept_.clear(); }
+
+    // Moves on; false if the frame is not to be kept.
+    bool take(const RecordingFile& recording, RecordedMessage& out) {
+        const RecordedFrame& frame = stream_.frames[next_++];
+        for (; change_ < stream_.filters.size() && stream_.filters[change_].frame < next_;
+             ++change_)
+            filters_ = stream_.filters[change_].filters;
+        const auto header = recording.read_header(frame);
+        if (!header || recording.read_payload(frame, payload_) != Status::ok) {
+            ++counts_.damaged;
+            return false;
+        }
+        const bool has_reference =
+            header->key || std::find(kept_.begin(), kept_.end(), header->reference) != kept_.end();
+        if (!has_reference) {
+            ++counts_.undecodable;
+            return false;
+        }
+        kept_.push_back(header->frame);
+        if (kept_.size() > kept_numbers)
+            kept_.pop_front();
+        auto message = std::make_shared<Bytes>(wire::media_header_size);
+        wire::write_media_header(*header, message->data());
+        message->insert(message->end(), payload_.begin(), payload_.end());
+        out.header = *header;
+        out.message = std::move(message);
+        out.filters = filters_;
+        ++counts_.saved;
+        return true;
+    }
+
+private:
+    const StreamContent& stream_;
+    RecoveredStream& counts_;
+    std::size_t next_ = 0;
+    std::size_t change_ = 0;
+    std::string filters_;
+    std::deque<FrameNumber> kept_;
+    Bytes payload_;
+};
+
+std::vector<RecordedCamera> cameras_in(const RecordingFile& recording, std::size_t segment) {
+    std::vector<RecordedCamera> cameras;
+    for (const CameraContent& content : recording.cameras())
+        for (const CameraPart& part : content.parts) {
+            if (part.segment != segment)
+                continue;
+            RecordedCamera camera{content.id,
+                                  part.name,
+                                  part.frames_per_second,
+                                  part.calibration,
+                                  {part.depth.codec, part.depth.width, part.depth.height},
+                                  {}};
+            if (part.color.present)
+                camera.color =
+                    RecordedStream{part.color.codec, part.color.width, part.color.height};
+            cameras.push_back(std::move(camera));
+        }
+    return cameras;
+}
+
+void require(const std::string& problem) {
+    if (!problem.empty())
+        throw Error(problem);
+}
+
+}  // namespace
+
+Recovered recover(const RecordingFile& recording, const std::filesystem::path& out,
+                  const std::function<void(double)>& progress) {
+    Recovered result;
+    result.cameras.resize(recording.cameras().size());
+    std::vector<StreamReader> streams;
+    for (std::size_t i = 0; i < recording.cameras().size(); ++i) {
+        const CameraContent& camera = recording.cameras()[i];
+        streams.emplace_back(camera.depth, result.cameras[i].depth);
+        streams.emplace_back(camera.color, result.cameras[i].color);
+    }
+    std::uint64_t bytes_before = 0;
+    const Uid new_uid = make_uid();
+    for (std::size_t s = 0; s < recording.segments().size(); ++s) {
+        const Segment& segment = recording.segments()[s];
+        const auto file = segment_path(out, std::uint32_t(s + 1));
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored))
+            throw Error("'" + file.string() + "' exists already; name another file.");
+        SegmentInfo info = segment.info;
+        // Version 1 says no session time: that of its time 0 stands in the headers.
+        if (!segment.has_info) {
+            info.recording = new_uid;
+            info.clock.session = segment.first_captured;
+        }
+        SegmentWriter writer(file, cameras_in(recording, s), info);
+        std::vector<RecordedMessage> messages;
+        std::size_t waiting = 0;
+        const auto flush = [&] {
+            require(writer.write(messages));
+            messages.clear();
+            waiting = 0;
+        };
+        for (StreamReader& stream : streams)
+            stream.begin_segment();
+        while (true) {
+            // In the order of the file.
+            StreamReader* first = nullptr;
+            const RecordedFrame* frame = nullptr;
+            for (StreamReader& stream : streams) {
+                const RecordedFrame* const other = stream.upcoming(s);
+                if (other && (!frame || other->payload_at < frame->payload_at)) {
+                    frame = other;
+                    first = &stream;
+                }
+            }
+            if (!first)
+                break;
+            RecordedMessage message;
+            // As if it had arrived when it was taken: it keeps its place.
+            message.arrived = info.clock.session + (frame->time() - segment.origin);
+            if (!first->take(recording, message))
+                continue;
+            waiting += message.message->size();
+            messages.push_back(std::move(message));
+            if (waiting < batch_bytes)
+                continue;
+            flush();
+            if (progress)
+                progress(double(bytes_before + frame->payload_at) / double(recording.bytes()));
+        }
+        flush();
+        require(writer.finish());
+        bytes_before += segment.bytes;
+        result.bytes += writer.bytes();
+        result.files.push_back(file.string());
+    }
+    return result;
+}
+
+}  // namespace theatron::record
