@@ -381,7 +381,7 @@ TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
     }
 }
 
-// Made by version 0.1 from three pictures of a wall whose depth in row y, column x of picture n is
+// Made by the program that wrote version 1, from three pictures of a wall whose depth in row y, column x of picture n is
 // 1500 + 2y + (7x + 13y + 5n) % 4.
 TEST(RecordingOfVersion1, OpensAndPlays) {
     const std::shared_ptr<const record::RecordingFile> recording =
@@ -393,7 +393,7 @@ TEST(RecordingOfVersion1, OpensAndPlays) {
     Frame frame;
     int frames_seen = 0;
     for (; camera.offset(); ++frames_seen) {
-        const int n = int(camera.upcoming().frame);
+        const int n = int(camera.upcoming().frame) + 1;  // the first was not recorded
         camera.read(frame);
         EXPECT_EQ(frame.depth.size, (Size{32, 24}));
         for (int y = 0; y < 24; ++y)
