@@ -71,8 +71,9 @@ protected:
     std::vector<FrameNumber> written() {
         intake->recorder()->finish();
         std::vector<FrameNumber> numbers;
-        for (const auto& frame : RecordingFile::open(file)->cameras().at(0).depth.frames)
-            numbers.push_back(frame.header.frame);
+        const auto recording = RecordingFile::open(file);
+        for (const auto& frame : recording->cameras().at(0).depth.frames)
+            numbers.push_back(frame.number);
         return numbers;
     }
 
