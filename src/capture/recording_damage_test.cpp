@@ -381,8 +381,8 @@ TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
     }
 }
 
-// Made by the program that wrote version 1, from three pictures of a wall whose depth in row y, column x of picture n is
-// 1500 + 2y + (7x + 13y + 5n) % 4.
+// Made by the program that wrote version 1, from three pictures of a wall whose depth in row y,
+// column x of picture n is 1500 + 2y + (7x + 13y + 5n) % 4.
 TEST(RecordingOfVersion1, OpensAndPlays) {
     const std::shared_ptr<const record::RecordingFile> recording =
         record::RecordingFile::open("tests/golden/recording_v1.mkv");
