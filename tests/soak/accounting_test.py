@@ -2,6 +2,7 @@
 """The account of a soak finds what it must find."""
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end"))
@@ -9,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end
 from accounting import Accountant, Entry, Window, linear_fit, longest_recovery, share_outside
 from cameras import fault_of_stretch
 from explanations import EXPLANATIONS, Happened, cost_of, kept_bytes, windows_of
-from recordings import Picture, decodable
+from recordings import HEADER, Picture, decodable, read_pictures
 from schedule import KINDS, QUIET_END_S, Fault, make_schedule
 
 PERIOD = 1 / 30
@@ -119,6 +120,40 @@ class Costs(unittest.TestCase):
     def test_every_kind_of_fault_has_an_explanation(self):
         for kind in KINDS:
             self.assertTrue(kind.name in EXPLANATIONS or kind.name.startswith("guest: "), kind.name)
+
+
+def element(identity, content):
+    size = len(content)
+    return bytes.fromhex(identity) + bytes([0x08, *size.to_bytes(4, "big")]) + content
+
+
+def block_group(stream, frame, reference):
+    header = HEADER.pack(1, 8, int(frame == reference), 0, stream, 1, frame, reference, 0, 1, 0, 7, 1000 * frame)
+    additional = header.ljust(64, b"\0")
+    more = element("a6", element("ee", b"\x02") + element("a5", additional))
+    return element("a0", element("a1", b"\x81\0\0\0") + element("75a1", more))
+
+
+class Recordings(unittest.TestCase):
+    def read(self, *content):
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(b"".join(content))
+            file.flush()
+            return read_pictures(file.name)
+
+    def test_media_headers_are_read_as_the_format_says(self):
+        cluster = element("1f43b675", block_group(0, 5, 5) + block_group(1, 6, 5))
+        pictures = self.read(element("1a45dfa3", b""), element("18538067", element("1549a966", b"") + cluster))
+        self.assertEqual(pictures, [Picture(0, 1, 5, 5, 5000, True), Picture(1, 1, 6, 5, 6000, True)])
+
+    def test_what_was_cut_off_costs_its_cluster_alone(self):
+        clusters = [element("1f43b675", block_group(0, n, max(n - 1, 0))) for n in range(3)]
+        unknown_size = bytes.fromhex("1853806701ffffffffffffff")
+        self.assertEqual([p.frame for p in self.read(unknown_size, *clusters[:2], clusters[2][:-9])], [0, 1])
+
+    def test_a_chain_does_not_go_on_in_the_next_segment(self):
+        segment = element("18538067", element("1f43b675", block_group(0, 1, 0)))
+        self.assertEqual([p.begins_chain for p in self.read(segment, segment)], [True, True])
 
 
 class Schedule(unittest.TestCase):
