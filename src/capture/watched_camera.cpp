@@ -168,6 +168,12 @@ WatchedCamera::Turn WatchedCamera::abandon() {
     return Turn(++turn_);
 }
 
+void WatchedCamera::forgive() {
+    const std::lock_guard lock(mutex_);
+    if (entered_driver_ != TimePoint{})
+        entered_driver_ = clock_.now();
+}
+
 WatchedCamera::Status WatchedCamera::status() const {
     const std::lock_guard lock(mutex_);
     const TimePoint now = clock_.now();

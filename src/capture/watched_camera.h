@@ -49,6 +49,10 @@ public:
     // From any thread: gives up on whoever is in step(), and returns the next turn.
     Turn abandon();
 
+    // From any thread: this process stood still, its machine perhaps asleep, so the time until now
+    // says nothing about the driver.
+    void forgive();
+
     // From any thread, as of now.
     struct Status {
         wire::CameraCondition condition{};

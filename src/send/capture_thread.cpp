@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "send/capture_thread.h"
 
+#include <utility>
+
 #include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
@@ -11,6 +13,8 @@ namespace {
 
 constexpr Duration patience = 100ms;       // for one picture
 constexpr Duration last_patience = 500ms;  // for a thread to end
+// Between two looks. After more the process has stood still, not a driver.
+constexpr Duration longest_pause = 1s;
 
 }  // namespace
 
@@ -18,7 +22,9 @@ CaptureThread::CaptureThread(std::unique_ptr<capture::Camera> camera,
                              capture::WatchedCamera::Open open_again,
                              std::function<void(FramePtr)> sink,
                              capture::WatchedCamera::Clock clock)
-    : shared_(new Shared{
+    : now_(clock.now),
+      looked_(now_()),
+      shared_(new Shared{
           capture::WatchedCamera(std::move(camera), std::move(open_again), std::move(clock)),
           {},
           std::move(sink)}) {
@@ -71,6 +77,9 @@ void CaptureThread::run(Shared& shared, capture::WatchedCamera::Turn turn) {
 }
 
 capture::WatchedCamera::Status CaptureThread::look() {
+    const TimePoint now = now_();
+    if (now - std::exchange(looked_, now) > longest_pause)
+        shared_->camera.forgive();
     const capture::WatchedCamera::Status status = shared_->camera.status();
     if (!status.hangs)
         return status;

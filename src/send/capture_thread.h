@@ -44,6 +44,8 @@ private:
     void start(capture::WatchedCamera::Turn turn);
     static void run(Shared& shared, capture::WatchedCamera::Turn turn);
 
+    const std::function<TimePoint()> now_;
+    TimePoint looked_;  // the last time
     std::shared_ptr<Shared> shared_;
     std::vector<Runner> runners_;  // the last one is at work
 };
