@@ -67,6 +67,27 @@ def check_content(path, expected, known):
     return problems
 
 
+def verify(path, pictures, decodable_pictures):
+    """Has the program decode everything; it must find as many pictures of depth as are there, and none damaged."""
+    code, out, errors = program("inspect", path, "--verify", "--json")
+    try:
+        told = json.loads(out)
+        minutes = [minute["depth"] for camera in told["cameras"] for minute in camera["minutes"]]
+    except (ValueError, KeyError):
+        return [f"inspect --verify ends with {code}: {errors.strip()[-300:]}"]
+    problems = []
+    found = sum(minute["pictures"] for minute in minutes)
+    damaged = sum(minute["damaged"] for minute in minutes)
+    decoded = found - damaged - sum(minute["undecodable"] for minute in minutes)
+    if found != pictures:
+        problems.append(f"inspect --verify finds {found} pictures of depth where {pictures} are")
+    if decoded != decodable_pictures:
+        problems.append(f"inspect --verify decodes {decoded} of {decodable_pictures} pictures of depth that can be decoded")
+    if damaged or code not in (0, 3):
+        problems.append(f"inspect --verify ends with {code} and finds {damaged} pictures damaged")
+    return problems
+
+
 def files_of(first):
     """All files of the recording that begins in `first`."""
     return [first, *sorted(first.parent.glob(f"{first.stem}.*{first.suffix}"))]
@@ -81,16 +102,10 @@ def examine(path, known, with_content):
     answer = {"entries": entries, "bytes": sum(f.stat().st_size for f in files_of(path)), "problems": []}
     if not pictures:
         return answer
-    code, out, errors = program("inspect", path, "--json")
-    if code != 0:
-        answer["problems"].append(f"inspect ends with {code}: {errors.strip()[-300:]}")
-    else:
-        told = sum(c[k]["frames"] for c in json.loads(out)["cameras"] for k in ("depth", "color") if k in c)
-        if told != len(pictures):
-            answer["problems"].append(f"inspect finds {told} pictures where {len(pictures)} are")
+    depth = [is_good for picture, is_good in zip(pictures, good) if picture.stream % 2 == 0]
+    answer["problems"] += verify(path, len(depth), sum(depth))
     if with_content:
-        depth = sum(is_good for picture, is_good in zip(pictures, good) if picture.stream % 2 == 0)
-        answer["problems"] += check_content(path, depth, set(known))
+        answer["problems"] += check_content(path, sum(depth), set(known))
     return answer
 
 
