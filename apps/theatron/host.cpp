@@ -58,6 +58,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     const auto state = options.state.empty() ? default_state_folder() : options.state;
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
+    if (!options.token.empty())
+        check_token(options.token);
     config.token = options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
     // Monitoring systems need not be able to join.
     http_tokens = {config.token, load_or_make_token(state, "metrics.token")};

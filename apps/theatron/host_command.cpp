@@ -17,6 +17,7 @@
 #include "capture/camera.h"
 #include "commands.h"
 #include "host.h"
+#include "host_identity.h"
 #include "input_lines.h"
 #include "json_text.h"
 #include "progress.h"
@@ -32,6 +33,7 @@ struct Flags {
     std::vector<std::string> regions;
     std::string listen = "0.0.0.0:4400";
     std::string state;
+    std::string token_file;
     std::string summary;
     double seconds = 0;
     bool json = false;
@@ -93,6 +95,8 @@ void obey(Host& host, InputLines& input) {
 void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
+    if (!flags.token_file.empty())
+        flags.options.token = read_token(flags.token_file);
     catch_stop_signals();
     Host host(flags.options, show_progress());
     draw_regions(host, flags.regions);
@@ -179,8 +183,13 @@ void add_host_command(CLI::App& app) {
     command->add_option(
         "--link-host", flags->options.link_host,
         "Name or address written into the link, if participants reach this host under another");
-    command->add_option("--token", flags->options.token,
-                        "The join token; by default one is made at first start and kept");
+    CLI::Option* token = command->add_option(
+        "--token", flags->options.token,
+        "The join token, at least 16 characters; by default one is made at first start and kept");
+    command
+        ->add_option("--token-file", flags->token_file,
+                     "The same from a file that only you may read, or /dev/stdin")
+        ->excludes(token);
     command->add_option(
         "--state", flags->state,
         "Folder for the host's key, certificate and token (default: ~/.local/state/theatron)");

@@ -6,36 +6,72 @@
 #include <net/if.h>
 #include <netinet/in.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <sstream>
 
 #include "base/error.h"
+#include "files/private_file.h"
 #include "net/certificate.h"
 
 namespace theatron::app {
 
 std::filesystem::path default_state_folder() {
-    if (const char* set = std::getenv("XDG_STATE_HOME"); set && *set)
-        return std::filesystem::path(set) / "theatron";
-    const char* home = std::getenv("HOME");
-    return std::filesystem::path(home ? home : "/tmp") / ".local/state/theatron";
+    const auto folder_in = [](const char* variable) {
+        const char* set = std::getenv(variable);
+        const std::filesystem::path folder = set ? set : "";
+        return folder.is_absolute() ? folder : std::filesystem::path();
+    };
+    if (const auto state = folder_in("XDG_STATE_HOME"); !state.empty())
+        return state / "theatron";
+    if (const auto home = folder_in("HOME"); !home.empty())
+        return home / ".local/state/theatron";
+    // A folder that everybody may write to, such as /tmp, is none: another user could put keys
+    // there.
+    throw Error(
+        "Neither XDG_STATE_HOME nor HOME names a folder for the host's key and tokens; name one "
+        "with --state.");
+}
+
+void check_token(const std::string& token) {
+    if (token.size() < least_token_characters)
+        throw Error("The join token has " + std::to_string(token.size()) +
+                    " characters and could be guessed; give at least " +
+                    std::to_string(least_token_characters) +
+                    ", or leave it out, and the host makes one.");
+    if (!std::ranges::all_of(token, [](char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                   std::string_view("-._~").find(c) != std::string_view::npos;
+        }))
+        throw Error(
+            "A join token is part of a link, so it may hold letters, digits and -._~ only.");
+}
+
+std::string read_token(const std::filesystem::path& path) {
+    const auto text = files::read_private_file(path, files::Privacy::secret);
+    if (!text)
+        throw Error("There is no file '" + path.string() + "' with a join token.");
+    std::string token;
+    std::istringstream(*text) >> token;
+    check_token(token);
+    return token;
 }
 
 std::string load_or_make_token(const std::filesystem::path& folder, const char* name) {
     const auto path = folder / name;
+    const auto text = files::read_private_file(path, files::Privacy::secret);
     std::string token;
-    std::ifstream(path) >> token;
-    if (!token.empty())
+    std::istringstream(text.value_or("")) >> token;
+    if (!token.empty()) {
+        try {
+            check_token(token);
+        } catch (const Error& error) {
+            throw Error("In '" + path.string() + "': " + error.what());
+        }
         return token;
+    }
     token = net::random_token();
-    std::ofstream out(path);
-    out << token << "\n";
-    out.close();
-    if (!out)
-        throw Error("Cannot write " + path.string() +
-                    "; make its folder writable or name another with --state.");
-    std::filesystem::permissions(
-        path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    files::write_private_file(path, token + "\n");
     return token;
 }
 

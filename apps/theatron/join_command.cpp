@@ -16,6 +16,7 @@
 #include "head_text.h"
 #include "input_lines.h"
 #include "json_text.h"
+#include "link_argument.h"
 #include "participant.h"
 #include "participant_figures.h"
 #include "renderer_text.h"
@@ -171,7 +172,7 @@ bool obey(Participant& participant, InputLines& input) {
 
 void run(const Flags& flags) {
     Participant::Options options;
-    options.link = net::parse_link(flags.link);
+    options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     const auto depth = video::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
@@ -278,7 +279,8 @@ void add_join_command(CLI::App& app) {
         "--json\n"
         "  theatron join LINK --target-latency 250 --max-mbit 15\n"
         "  theatron join LINK --person 1=0.2:1.65:-0.4,reach=1 --myself 0=0:1.7:0.5,yaw=180");
-    command->add_option("link", flags->link, "The link that the host printed")->required();
+    command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
+        ->required();
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->capture_default_str();
     command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "commands.h"
+#include "link_argument.h"
 
 int main(int argc, char** argv) {
     theatron::log::flush_before_abort();
@@ -32,7 +33,11 @@ int main(int argc, char** argv) {
     theatron::app::add_background_command(app);
 
     try {
-        app.parse(argc, argv);
+        const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+        std::vector<const char*> taken;
+        for (const std::string& argument : arguments)
+            taken.push_back(argument.c_str());
+        app.parse(argc, taken.data());
     } catch (const CLI::ParseError& e) {
         return app.exit(e);
     } catch (const theatron::Error& e) {

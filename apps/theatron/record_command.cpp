@@ -14,6 +14,7 @@
 #include "base/steady_clock.h"
 #include "camera_option.h"
 #include "commands.h"
+#include "link_argument.h"
 #include "progress.h"
 #include "record_source.h"
 #include "stop_signal.h"
@@ -74,7 +75,7 @@ std::unique_ptr<RecordSource> open_source(const Flags& flags) {
             throw Error(
                 "Say what to record: 'theatron record LINK FILE.mkv' or 'theatron record "
                 "--camera SPEC FILE.mkv'.");
-        return record_session(net::parse_link(flags.names[0]), file, codecs, options);
+        return record_session(parse_link_argument(flags.names[0]), file, codecs, options);
     }
     if (flags.names.size() != 1)
         throw Error("With --camera, only the file to record into can be named.");
@@ -285,7 +286,7 @@ void add_record_command(CLI::App& app) {
         "recording:both.mkv,camera=1,loop=1");
     command
         ->add_option("what", flags->names,
-                     "The link of a session, unless --camera is given, "
+                     "The link of a session (or @FILE with it), unless --camera is given, "
                      "and the file to write")
         ->required()
         ->expected(1, 2);

@@ -7,6 +7,7 @@
 #include "host_figures.h"
 #include "host_http.h"
 #include "json_text.h"
+#include "link_argument.h"
 
 namespace theatron::app {
 
@@ -18,10 +19,11 @@ void add_status_command(CLI::App& app) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("status", "How a running host and its cameras are");
     command->footer("Example: theatron status 'https://HOST:PORT/#join=...&cert=...'");
-    command->add_option("link", flags->link, "The link that the host printed")->required();
+    command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
+        ->required();
     command->add_flag("--json", flags->json, "Print everything as one JSON line");
     command->callback([flags] {
-        const nlohmann::json figures = status_of_host(net::parse_link(flags->link));
+        const nlohmann::json figures = status_of_host(parse_link_argument(flags->link));
         if (flags->json)
             std::printf("%s\n", json_text(figures).c_str());
         else

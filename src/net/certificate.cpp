@@ -7,13 +7,11 @@
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509.h>
-#include <sys/stat.h>
 
-#include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "base/error.h"
+#include "files/private_file.h"
 
 namespace theatron::net {
 namespace {
@@ -43,24 +41,6 @@ std::string content(BIO* bio) {
     char* data = nullptr;
     const long size = BIO_get_mem_data(bio, &data);
     return std::string(data, std::size_t(size));
-}
-
-std::string read_file(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
-void write_private(const std::filesystem::path& path, const std::string& text) {
-    const mode_t before = umask(0077);
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.close();
-    umask(before);
-    if (!out)
-        throw Error("Cannot write " + path.string() +
-                    "; make its folder writable or name another with --state.");
 }
 
 }  // namespace
@@ -104,18 +84,21 @@ Certificate make_certificate() {
 }
 
 Certificate load_or_make_certificate(const std::filesystem::path& folder) {
+    using files::Privacy;
+    files::open_private_folder(folder);
     const auto certificate_path = folder / "host.crt", key_path = folder / "host.key";
-    std::error_code ignored;
-    if (!std::filesystem::exists(certificate_path, ignored) &&
-        !std::filesystem::exists(key_path, ignored)) {
-        std::filesystem::create_directories(folder, ignored);
+    const auto certificate = files::read_private_file(certificate_path, Privacy::readable);
+    if (!certificate) {
+        // The certificate comes last: no link has ever named a key without one, so that what a
+        // crash left of the first start is made anew.
         const Certificate made = make_certificate();
-        write_private(key_path, made.private_key_pem);
-        write_private(certificate_path, made.certificate_pem);
+        files::write_private_file(key_path, made.private_key_pem);
+        files::write_private_file(certificate_path, made.certificate_pem);
         return made;
     }
 
-    Certificate c{read_file(certificate_path), read_file(key_path), ""};
+    Certificate c{*certificate,
+                  files::read_private_file(key_path, Privacy::secret).value_or(std::string()), ""};
     const Bio in(BIO_new_mem_buf(c.certificate_pem.data(), int(c.certificate_pem.size())));
     const Bio key_in(BIO_new_mem_buf(c.private_key_pem.data(), int(c.private_key_pem.size())));
     const X509Ptr x509(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));

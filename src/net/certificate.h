@@ -22,8 +22,9 @@ std::string certificate_fingerprint(x509_st* certificate);
 // A new P-256 key with a certificate for ten years. Throws Error.
 Certificate make_certificate();
 
-// Reads host.crt and host.key from `folder`, or makes them (the key readable by
-// its owner alone). Throws Error naming the file that is damaged or not writable.
+// Reads host.crt and host.key from `folder`, or makes them and the folder, readable by their owner
+// alone. A crash while they are made leaves what the next start completes. Throws Error naming the
+// file that is damaged, not writable, or open to others.
 Certificate load_or_make_certificate(const std::filesystem::path& folder);
 
 // 128 random bits as 32 hex digits.

@@ -35,6 +35,22 @@ bool is_hex_digest(std::string_view text) {
            });
 }
 
+// A link as an error message may show it: what follows host and port is secret, and so may be a
+// long word that is no address at all.
+std::string without_secrets(std::string_view text) {
+    constexpr std::size_t longest_shown = 80, longest_word = 15;
+    std::string_view shown = text.substr(0, text.find('#'));
+    for (const std::string_view secret : {"join=", "token=", "cert="})
+        shown = shown.substr(0, shown.find(secret));
+    if (shown.size() > longest_word && shown.find_first_of(".:/") == std::string_view::npos)
+        shown = {};
+    shown = shown.substr(0, longest_shown);
+    std::string result;
+    for (const char c : shown)
+        result += c >= ' ' && c <= '~' ? c : '?';
+    return shown.size() < text.size() ? result + "..." : result;
+}
+
 }  // namespace
 
 std::string format_link(const Link& link) {
@@ -45,7 +61,7 @@ std::string format_link(const Link& link) {
 
 Link parse_link(std::string_view text) {
     const auto wrong = [&](const std::string& why) {
-        return Error("The link '" + std::string(text) + "' " + why +
+        return Error("The link '" + without_secrets(text) + "' " + why +
                      "; copy the whole link that the host printed.");
     };
     if (!text.starts_with(scheme))

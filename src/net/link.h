@@ -21,7 +21,7 @@ struct Link {
 
 std::string format_link(const Link& link);
 
-// Throws Error saying what is missing or wrong.
+// Throws Error saying what is missing or wrong, without the link's token.
 Link parse_link(std::string_view text);
 
 // "ADDRESS:PORT", "[IPV6]:PORT" or ":PORT"; port 0 lets the system choose.

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/private_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+
+namespace theatron::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int get() const { return number_; }
+    bool is_open() const { return number_ >= 0; }
+    bool close() {
+        const int number = std::exchange(number_, -1);
+        return number < 0 || ::close(number) == 0;
+    }
+
+private:
+    int number_;
+};
+
+std::string quoted(const fs::path& path) {
+    return "'" + path.string() + "'";
+}
+
+[[noreturn]] void refuse(const char* what, const fs::path& path) {
+    throw Error(std::string("Cannot ") + what + " " + quoted(path) + ": " + std::strerror(errno) +
+                "; make its folder writable or name another with --state.");
+}
+
+void require_own(const struct stat& info, const fs::path& path) {
+    if (info.st_uid != geteuid() && info.st_uid != 0)
+        throw Error(quoted(path) + " belongs to another user (number " +
+                    std::to_string(info.st_uid) +
+                    "), who could change it; name another folder with --state, or make this one "
+                    "your own with chown.");
+}
+
+bool write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t count = ::write(file, text.data(), text.size());
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return false;
+        text.remove_prefix(std::size_t(count));
+    }
+    return true;
+}
+
+}  // namespace
+
+void open_private_folder(const fs::path& folder) {
+    fs::path made;
+    for (const fs::path& part : folder) {
+        made /= part;
+        struct stat there {};
+        if (stat(made.c_str(), &there) != 0 && mkdir(made.c_str(), 0700) != 0 && errno != EEXIST)
+            refuse("make the folder", made);
+    }
+    struct stat info {};
+    if (stat(folder.c_str(), &info) != 0)
+        refuse("use the folder", folder);
+    if (!S_ISDIR(info.st_mode))
+        throw Error(quoted(folder) + " is not a folder; name another with --state.");
+    require_own(info, folder);
+    if (info.st_mode & (S_IWGRP | S_IWOTH))
+        throw Error("Others may write into the folder " + quoted(folder) +
+                    " and replace its keys; take that away with: chmod go-w " + quoted(folder) +
+                    ".");
+}
+
+std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy) {
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+    if (!file.is_open() && errno == ENOENT)
+        return std::nullopt;
+    struct stat info {};
+    if (!file.is_open() || fstat(file.get(), &info) != 0)
+        refuse("read", path);
+    // A pipe has been handed over by whoever wrote the command.
+    if (S_ISREG(info.st_mode)) {
+        require_own(info, path);
+        if (info.st_mode & (S_IWGRP | S_IWOTH))
+            throw Error("Others may write to " + quoted(path) +
+                        "; take that away with: chmod go-w " + quoted(path) + ".");
+        if (privacy == Privacy::secret && (info.st_mode & (S_IRGRP | S_IROTH)))
+            throw Error("Others may read the secret in " + quoted(path) +
+                        "; take that away with: chmod 600 " + quoted(path) +
+                        ", or delete it if somebody may have read it.");
+    }
+    std::string text(max_private_file_bytes + 1, '\0');
+    std::size_t size = 0;
+    while (size < text.size()) {
+        const ssize_t count = read(file.get(), text.data() + size, text.size() - size);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            refuse("read", path);
+        if (count == 0)
+            break;
+        size += std::size_t(count);
+    }
+    if (size > max_private_file_bytes)
+        throw Error(quoted(path) + " is too long for a key or a token.");
+    text.resize(size);
+    return text;
+}
+
+void write_private_file(const fs::path& path, const std::string& text) {
+    fs::path draft = path;
+    draft += ".part";
+    // A crash may have left one; O_EXCL never writes into what somebody else put there.
+    unlink(draft.c_str());
+    Descriptor file(open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+    if (!file.is_open())
+        refuse("write", draft);
+    if (!write_all(file.get(), text) || fsync(file.get()) != 0 || !file.close() ||
+        rename(draft.c_str(), path.c_str()) != 0) {
+        const int reason = errno;
+        unlink(draft.c_str());
+        errno = reason;
+        refuse("write", path);
+    }
+    // The new name is on the disk once its folder is.
+    const fs::path parent = path.parent_path();
+    const Descriptor folder(
+        open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!folder.is_open() || fsync(folder.get()) != 0)
+        refuse("write", path);
+}
+
+}  // namespace theatron::files

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/link.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace theatron::net {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string problem_with(const std::string& text) {
+    try {
+        parse_link(text);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Link, WhatIsSaidAboutAWrongOneNeverHoldsItsToken) {
+    const std::string token = "0123456789abcdef0123456789abcdef";
+    for (const std::string& text :
+         {"https://or3:4400/#join=" + token, "https://or3:4400/join=" + token,
+          "http://or3:4400/#join=" + token + "&cert=12", "https://or3/#join=" + token,
+          "https://or3:4400/?token=" + token, "join=" + token, token,
+          "https://or3:4400/#" + token}) {
+        EXPECT_THAT(problem_with(text), HasSubstr("copy the whole link")) << text;
+        EXPECT_THAT(problem_with(text), Not(HasSubstr(token.substr(0, 8)))) << text;
+    }
+}
+
+TEST(Link, WhatIsSaidAboutAWrongOneShowsItsHost) {
+    EXPECT_THAT(problem_with("https://or3:4400/#join=secret"),
+                HasSubstr("'https://or3:4400/...' carries no certificate fingerprint"));
+    EXPECT_THAT(problem_with("localhost:4400"),
+                HasSubstr("'localhost:4400' does not begin with https://"));
+    EXPECT_THAT(problem_with("\033[31m"), HasSubstr("'?[31m'"));
+    EXPECT_LT(problem_with("http://" + std::string(100'000, 'x')).size(), 200u);
+}
+
+}  // namespace
+}  // namespace theatron::net
