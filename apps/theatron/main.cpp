@@ -5,10 +5,12 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "capture/mkv_reader.h"
 #include "commands.h"
 #include "link_argument.h"
 
 int main(int argc, char** argv) {
+    theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
     theatron::log::flush_before_abort();
     // A file that reaches the size that is allowed is an error to report, not the end.
     std::signal(SIGXFSZ, SIG_IGN);

@@ -65,9 +65,9 @@ public:
         pair_.reset();
     }
 
-    // Seeking needs an index, which a recording that was cut off lacks.
+    // From the beginning: seeking needs an index, which a recording that was cut off lacks.
     void rewind() override {
-        file_ = MkvFile(path_);
+        file_.rewind();
         pairing_ = TimePairing<Bytes>(tolerance());
         pair_.reset();
     }

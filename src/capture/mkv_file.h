@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tracks of an Azure Kinect recording (Matroska, read through libavformat):
-// depth as 16-bit big-endian values, colour as JPEG, the factory calibration as
-// an attachment. Pictures come out as they lie in the file; nothing is decoded.
+// The pictures of an Azure Kinect recording, read by a process in a sandbox (mkv_reader.h): a file
+// that does harm there is a sentence here.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "base/bytes.h"
 #include "base/time.h"
-#include "image/view.h"
+#include "capture/mkv_answer.h"
+#include "sandbox/limits.h"
 
 namespace theatron::capture {
 
@@ -25,32 +24,39 @@ public:
         enum class Track { depth, color };
         Track track = Track::depth;
         Duration time{};
-        Bytes bytes;
+        Bytes bytes;  // empty: more than any camera's picture has
     };
 
-    // Throws Error for what is no Matroska file or has no depth track.
-    explicit MkvFile(const std::filesystem::path& path);
+    // Functions throw Error: for what is no Matroska file or has no depth track, and for what made
+    // its reader end.
+    explicit MkvFile(const std::filesystem::path& path, const sandbox::Limits& limits = {});
     ~MkvFile();
-    MkvFile(MkvFile&&) noexcept;
-    MkvFile& operator=(MkvFile&&) noexcept;
 
-    Size depth_size() const;
-    Size color_size() const;  // 0 x 0 without a JPEG colour track
+    Size depth_size() const { return description_.depth; }
+    Size color_size() const { return description_.color; }  // 0 x 0 without a JPEG colour track
     // What the colour track holds instead, or empty.
-    const std::string& other_color() const;
-    double frames_per_second() const;  // 0 if the file does not say
+    const std::string& other_color() const { return description_.other_color; }
+    // 0 if the file does not say.
+    double frames_per_second() const { return description_.frames_per_second; }
     // The factory calibration's text; empty if there is none.
-    const std::string& calibration() const;
+    const std::string& calibration() const { return description_.calibration; }
 
     // Whether the file lacks its end, as after a full disk or an aborted copy.
-    bool is_cut_off() const;
+    bool is_cut_off() const { return cut_off_; }
 
     // The next depth or colour picture, nothing at the end.
     std::optional<Packet> read();
+    // Back to the first one.
+    void rewind();
 
 private:
-    struct Library;
-    std::unique_ptr<Library> library_;
+    struct Process;
+    MkvDescription open();
+
+    std::filesystem::path path_;
+    std::unique_ptr<Process> process_;
+    bool cut_off_ = false;
+    MkvDescription description_;
 };
 
 }  // namespace theatron::capture

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/mkv_reader.h"
+
+extern "C" {
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+}
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <new>
+#include <string>
+#include <string_view>
+
+namespace theatron::capture {
+namespace {
+
+constexpr std::uint32_t tag_of(const char (&text)[5]) {
+    return std::uint32_t(text[0]) | std::uint32_t(text[1]) << 8 | std::uint32_t(text[2]) << 16 |
+           std::uint32_t(text[3]) << 24;
+}
+
+std::string_view metadata(const AVStream& stream, const char* key) {
+    const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
+    return entry ? entry->value : "";
+}
+
+// Infrared has the format of depth, so that only names tell them apart.
+bool is_called(const AVStream& stream, std::string_view name) {
+    const std::string tag = "K4A_" + std::string(name) + "_TRACK";
+    return metadata(stream, "title") == name || !metadata(stream, tag.c_str()).empty();
+}
+
+struct PacketDeleter {
+    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+
+Size size_of(const AVStream& stream) {
+    const Size size{stream.codecpar->width, stream.codecpar->height};
+    return is_valid(size) ? size : Size{};
+}
+
+// The bytes behind a descriptor, for libavformat.
+class Input {
+public:
+    explicit Input(int descriptor) : descriptor_(descriptor) {
+        constexpr int buffer_bytes = 64 << 10;
+        auto* buffer = static_cast<unsigned char*>(av_malloc(buffer_bytes));
+        context_ = buffer ? avio_alloc_context(buffer, buffer_bytes, 0, this, read, nullptr, seek)
+                          : nullptr;
+        if (!context_)
+            throw std::bad_alloc();
+    }
+    ~Input() {
+        // The buffer may be another one by now.
+        av_freep(&context_->buffer);
+        avio_context_free(&context_);
+    }
+    Input(const Input&) = delete;
+
+    AVIOContext* context() { return context_; }
+
+private:
+    static int read(void* self, std::uint8_t* out, int size) {
+        auto& input = *static_cast<Input*>(self);
+        const ssize_t count = pread(input.descriptor_, out, std::size_t(size), input.place_);
+        if (count <= 0)
+            return count == 0 ? AVERROR_EOF : AVERROR(errno);
+        input.place_ += count;
+        return int(count);
+    }
+    static std::int64_t seek(void* self, std::int64_t offset, int whence) {
+        auto& input = *static_cast<Input*>(self);
+        if (whence == AVSEEK_SIZE)
+            return input.size();
+        const std::int64_t from = whence == SEEK_SET   ? 0
+                                  : whence == SEEK_CUR ? input.place_
+                                                       : input.size();
+        std::int64_t place;
+        if (__builtin_add_overflow(from, offset, &place) || place < 0)
+            return AVERROR(EINVAL);
+        return input.place_ = place;
+    }
+    std::int64_t size() const { return lseek(descriptor_, 0, SEEK_END); }
+
+    int descriptor_;
+    off_t place_ = 0;
+    AVIOContext* context_ = nullptr;
+};
+
+// Failing for want of memory must not look like a damaged file.
+void check_memory(int result) {
+    if (result == AVERROR(ENOMEM))
+        throw std::bad_alloc();
+}
+
+}  // namespace
+
+struct MkvReader::Library {
+    explicit Library(int descriptor) : input(descriptor) {
+        if (!packet)
+            throw std::bad_alloc();
+    }
+    ~Library() {
+        packet.reset();
+        avformat_close_input(&file);
+    }
+
+    const AVStream& stream(int index) const { return *file->streams[index]; }
+
+    Kind open();
+    void find_tracks();
+
+    Input input;
+    AVFormatContext* file = nullptr;
+    std::unique_ptr<AVPacket, PacketDeleter> packet{av_packet_alloc()};
+    int depth = -1;  // indices of tracks
+    int color = -1;
+    MkvDescription description;
+};
+
+MkvReader::Kind MkvReader::Library::open() {
+    av_log_set_level(AV_LOG_QUIET);
+    file = avformat_alloc_context();
+    if (!file)
+        throw std::bad_alloc();
+    file->pb = input.context();
+    // This container alone; nothing else can be opened from in here.
+    const int failed = avformat_open_input(&file, "", av_find_input_format("matroska"), nullptr);
+    check_memory(failed);
+    if (failed)
+        return Kind::no_matroska;
+    find_tracks();
+    if (depth < 0)
+        return Kind::no_depth;
+    description.depth = size_of(stream(depth));
+    if (description.depth == Size{})
+        return Kind::impossible_size;
+    if (color >= 0)
+        description.color = size_of(stream(color));
+    const AVRational rate = stream(depth).avg_frame_rate;
+    description.frames_per_second = rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
+    return Kind::description;
+}
+
+void MkvReader::Library::find_tracks() {
+    for (int i = 0; i < int(file->nb_streams); ++i) {
+        AVStream& track = *file->streams[i];
+        const AVCodecParameters& codec = *track.codecpar;
+        track.discard = AVDISCARD_ALL;
+        if (codec.codec_type == AVMEDIA_TYPE_ATTACHMENT) {
+            if (metadata(track, "filename") == "calibration.json" && codec.extradata_size > 0)
+                description.calibration.assign(
+                    reinterpret_cast<const char*>(codec.extradata),
+                    std::min(std::size_t(codec.extradata_size), max_calibration_bytes));
+        } else if (codec.codec_type == AVMEDIA_TYPE_VIDEO) {
+            const bool is_depth =
+                codec.codec_tag == tag_of("b16g") && is_called(track, "DEPTH") && depth < 0;
+            if (is_depth)
+                depth = i;
+            else if (is_called(track, "COLOR") && codec.codec_id == AV_CODEC_ID_MJPEG && color < 0)
+                color = i;
+            else if (is_called(track, "COLOR"))
+                description.other_color =
+                    std::string(avcodec_get_name(codec.codec_id)).substr(0, max_codec_name);
+        }
+    }
+    for (const int i : {depth, color})
+        if (i >= 0)
+            file->streams[i]->discard = AVDISCARD_DEFAULT;
+}
+
+MkvReader::MkvReader(int descriptor)
+    : library_(std::make_unique<Library>(descriptor)), kind_(library_->open()) {}
+
+MkvReader::~MkvReader() = default;
+
+const MkvDescription& MkvReader::description() const {
+    return library_->description;
+}
+
+std::optional<MkvReader::Picture> MkvReader::read() {
+    AVPacket& packet = *library_->packet;
+    while (true) {
+        av_packet_unref(&packet);
+        const int failed = av_read_frame(library_->file, &packet);
+        check_memory(failed);
+        if (failed < 0)
+            return std::nullopt;
+        const bool is_depth = packet.stream_index == library_->depth;
+        const bool is_color = packet.stream_index == library_->color;
+        const bool whole = !(packet.flags & AV_PKT_FLAG_CORRUPT) && packet.size > 0;
+        if (!whole || packet.pts == AV_NOPTS_VALUE || (!is_depth && !is_color))
+            continue;
+        const AVRational unit = library_->stream(packet.stream_index).time_base;
+        const auto* data = reinterpret_cast<const std::byte*>(packet.data);
+        return Picture{is_depth ? Kind::depth : Kind::color,
+                       Duration(av_rescale_q(packet.pts, unit, {1, 1'000'000})),
+                       {data, std::size_t(packet.size)}};
+    }
+}
+
+void MkvReader::serve(sandbox::Inside& inside) {
+    std::optional<MkvReader> reader;
+    const auto answer = [&](Kind kind, Duration time = {}, ByteView bytes = {}) {
+        // A picture that is larger than any camera's arrives empty, and so as a damaged one.
+        if (bytes.size() > inside.area().size())
+            bytes = {};
+        std::copy(bytes.begin(), bytes.end(), inside.area().begin());
+        inside.send(encode(MkvAnswer{kind, time, std::uint32_t(bytes.size())}));
+    };
+    while (const std::optional<Bytes> request = inside.receive()) {
+        if (request->size() == 1 && (*request)[0] == std::byte(MkvRequest::open)) {
+            reader.emplace(inside.input());
+            if (reader->kind() == Kind::description)
+                answer(Kind::description, {}, encode(reader->description()));
+            else
+                answer(reader->kind());
+        } else if (const auto picture = reader ? reader->read() : std::nullopt) {
+            answer(picture->kind, picture->time, picture->bytes);
+        } else {
+            answer(Kind::end);
+        }
+    }
+}
+
+}  // namespace theatron::capture

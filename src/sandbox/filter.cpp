@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sandbox/filter.h"
+
+#include <seccomp.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <initializer_list>
+#include <memory>
+
+namespace theatron::sandbox {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// A sanitizer has threads of its own, which do more than the product's code may.
+constexpr bool all_threads = false;
+#else
+constexpr bool all_threads = true;
+#endif
+
+class Filter {
+public:
+    Filter() : context_(seccomp_init(SCMP_ACT_KILL_PROCESS), seccomp_release) {
+        good_ = context_ != nullptr;
+        if (good_ && all_threads)
+            check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, 1));
+    }
+
+    // The call is allowed if all conditions on its arguments hold.
+    void allow(int call, std::initializer_list<scmp_arg_cmp> conditions = {}) {
+        if (good_)
+            check(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call,
+                                         unsigned(conditions.size()), conditions.begin()));
+    }
+
+    bool load() {
+        if (good_)
+            check(seccomp_load(context_.get()));
+        return good_;
+    }
+
+private:
+    void check(int error) { good_ = good_ && error == 0; }
+
+    std::unique_ptr<void, decltype(&seccomp_release)> context_;
+    bool good_ = false;
+};
+
+// Registers are wider than a descriptor or a flag, and what is above them means nothing.
+constexpr scmp_datum_t low_half = 0xffffffff;
+
+scmp_arg_cmp is(unsigned argument, scmp_datum_t value) {
+    return {argument, SCMP_CMP_MASKED_EQ, low_half, value};
+}
+scmp_arg_cmp lacks(unsigned argument, scmp_datum_t bits) {
+    return {argument, SCMP_CMP_MASKED_EQ, bits, 0};
+}
+scmp_arg_cmp is_null(unsigned argument) {
+    return {argument, SCMP_CMP_EQ, 0, 0};
+}
+
+void allow_computing(Filter& filter) {
+    for (const int call :
+         {SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise), SCMP_SYS(futex),
+          SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday), SCMP_SYS(sched_yield), SCMP_SYS(gettid),
+          SCMP_SYS(getpid), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(rt_sigreturn),
+          SCMP_SYS(rt_sigprocmask), SCMP_SYS(restart_syscall)})
+        filter.allow(call);
+    // Memory of its own, and none that can be executed.
+    constexpr unsigned protection = 2, descriptor = 4;
+    filter.allow(SCMP_SYS(mmap), {lacks(protection, PROT_EXEC), is(descriptor, low_half)});
+    filter.allow(SCMP_SYS(mprotect), {lacks(protection, PROT_EXEC)});
+    // abort() tells the parent more than a forbidden call would.
+    filter.allow(SCMP_SYS(tgkill), {is(0, scmp_datum_t(getpid())), is(2, SIGABRT)});
+    filter.allow(SCMP_SYS(write), {is(0, STDERR_FILENO)});
+    filter.allow(SCMP_SYS(writev), {is(0, STDERR_FILENO)});
+}
+
+void allow_channel(Filter& filter) {
+    filter.allow(SCMP_SYS(read), {is(0, channel_descriptor)});
+    filter.allow(SCMP_SYS(write), {is(0, channel_descriptor)});
+}
+
+void allow_file(Filter& filter) {
+    for (const int call : {SCMP_SYS(read), SCMP_SYS(pread64), SCMP_SYS(lseek)})
+        filter.allow(call, {is(0, input_descriptor)});
+}
+
+void allow_source(Filter& filter) {
+    filter.allow(SCMP_SYS(read), {is(0, input_descriptor)});
+    filter.allow(SCMP_SYS(write), {is(0, input_descriptor)});
+    // With an address these would reach others than the parent chose.
+    constexpr unsigned address = 4;
+    filter.allow(SCMP_SYS(recvfrom), {is(0, input_descriptor), is_null(address)});
+    filter.allow(SCMP_SYS(sendto), {is(0, input_descriptor), is_null(address)});
+    filter.allow(SCMP_SYS(poll));
+    filter.allow(SCMP_SYS(ppoll));
+}
+
+}  // namespace
+
+bool load_filter(Profile profile) {
+    Filter filter;
+    allow_computing(filter);
+    allow_channel(filter);
+    profile == Profile::file ? allow_file(filter) : allow_source(filter);
+    return filter.load();
+}
+
+}  // namespace theatron::sandbox

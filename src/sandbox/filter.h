@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sandbox/limits.h"
+
+namespace theatron::sandbox {
+
+// The only descriptors of a child besides three that lead to /dev/null.
+inline constexpr int channel_descriptor = 3, input_descriptor = 4, area_descriptor = 5;
+
+// From now on this process ends at any system call that the profile does not name. False where the
+// system has no filters; then nothing has changed.
+bool load_filter(Profile profile);
+
+}  // namespace theatron::sandbox
