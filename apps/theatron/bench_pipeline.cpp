@@ -149,9 +149,11 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
     const double yardstick = yardstick_ms();
     const TemporaryFolder folder;
     const std::string summary_file = (folder.path / "host.json").string();
-    std::vector<std::string> arguments = {
-        "host",      "--listen",   "127.0.0.1:0", "--json",    "--state", folder.path.string(),
-        "--summary", summary_file, "--filter",    bench.filter};
+    std::vector<std::string> arguments = {"host",        "--listen",
+                                          "127.0.0.1:0", "--json",
+                                          "--state",     (folder.path / "state").string(),
+                                          "--summary",   summary_file,
+                                          "--filter",    bench.filter};
     for (const std::string& camera : bench.cameras) {
         arguments.push_back("--camera");
         arguments.push_back(camera);

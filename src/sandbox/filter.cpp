@@ -12,18 +12,11 @@
 namespace theatron::sandbox {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// A sanitizer has threads of its own, which do more than the product's code may.
-constexpr bool all_threads = false;
-#else
-constexpr bool all_threads = true;
-#endif
-
 class Filter {
 public:
     Filter() : context_(seccomp_init(SCMP_ACT_KILL_PROCESS), seccomp_release) {
         good_ = context_ != nullptr;
-        if (good_ && all_threads)
+        if (good_ && !has_sanitizer)
             check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, 1));
     }
 

@@ -142,9 +142,9 @@ pid_t spawn(const SpawnOptions& options) {
     Actions actions;
     actions.to_null(STDIN_FILENO, O_RDONLY);
     actions.to_null(STDOUT_FILENO, O_WRONLY);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    actions.to_null(STDERR_FILENO, O_WRONLY);
-#endif
+    // What a sanitizer says must be seen.
+    if (!has_sanitizer)
+        actions.to_null(STDERR_FILENO, O_WRONLY);
     actions.move(options.channel, channel_descriptor);
     actions.move(options.input, input_descriptor);
     actions.move(options.area, area_descriptor);
