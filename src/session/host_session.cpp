@@ -126,6 +126,20 @@ void HostSession::acknowledge(ParticipantId id, const wire::Received& word) {
     actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, word.media_bytes});
 }
 
+void HostSession::end() {
+    for (auto& [id, participant] : participants_) {
+        if (!participant.takes_part())
+            continue;
+        participant.closing = true;
+        actions_.push_back({Action::Kind::goodbye,
+                            id,
+                            wire::Goodbye{"The host has ended the session."},
+                            "the session has ended",
+                            {},
+                            0});
+    }
+}
+
 void HostSession::join(ParticipantId id, const wire::Join& hello) {
     if (hello.protocol_min > wire::protocol_max)
         return refuse(id, "This host is older than your Theatron (protocol " +

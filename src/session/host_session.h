@@ -49,6 +49,7 @@ public:
         enum class Kind {
             send,             // `message` to `participant`
             close,            // `participant`, after what was sent; `why` for the log
+            goodbye,          // send `message` and close: the session is over
             joined,           // `participant` is in; for the log
             request_key,      // a key frame of `key`
             change_settings,  // encode exactly depth_settings() and color_settings()
@@ -97,6 +98,8 @@ public:
     // Ten times a second for each participant.
     void on_link(ParticipantId participant, const LinkMeasure& link, TimePoint now);
     void on_tick(TimePoint now);
+    // The session is over: everybody is told so.
+    void end();
 
     // A frame was encoded, `size` bytes. Who gets it.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,

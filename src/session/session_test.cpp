@@ -587,6 +587,25 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     EXPECT_EQ(viewer.renderer_word(), wire::SetRenderer{}) << "another host may think otherwise";
 }
 
+TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
+    join(alice);
+    session.on_connected(bob, now);  // has not joined
+    session.take_actions();
+    session.end();
+    session.end();
+    const auto actions = session.take_actions();
+    ASSERT_EQ(actions.size(), 1u);
+    EXPECT_EQ(actions[0].kind, Kind::goodbye);
+    EXPECT_EQ(actions[0].participant, alice);
+
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(wire::encode_control(actions[0].message)),
+              ViewerSession::Change::goodbye);
+    EXPECT_EQ(viewer.goodbye(), "The host has ended the session.");
+    (void)viewer.begin();
+    EXPECT_EQ(viewer.goodbye(), "");
+}
+
 TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {
     ViewerSession viewer({});
     ASSERT_EQ(viewer.on_control(wire::encode_control(wire::Welcome{})),

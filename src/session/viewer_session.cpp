@@ -21,6 +21,7 @@ Bytes ViewerSession::begin() {
     camera_states_.clear();
     delivery_ = {};
     renderer_word_ = {};
+    goodbye_.clear();
     acknowledged_at_ = {};
     acknowledged_ = 0;
     wire::Join join;
@@ -77,6 +78,10 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (auto* word = std::get_if<wire::SetRenderer>(&*message)) {
         renderer_word_ = std::move(*word);
         return Change::renderer;
+    }
+    if (auto* goodbye = std::get_if<wire::Goodbye>(&*message)) {
+        goodbye_ = goodbye->reason.empty() ? "The session has ended." : goodbye->reason;
+        return Change::goodbye;
     }
     return Change::nothing;
 }

@@ -39,6 +39,7 @@ public:
         pong,      // pong() answers a ping
         delivery,  // delivery(): the host sends more or less
         renderer,  // renderer_word(): how the host wants this participant to draw
+        goodbye,   // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: what is damaged or not understood is nothing.
     Change on_control(ByteView message);
@@ -70,6 +71,8 @@ public:
     const wire::Delivery& delivery() const { return delivery_; }
     // Of this connection's host; empty as long as it said nothing.
     const wire::SetRenderer& renderer_word() const { return renderer_word_; }
+    // One sentence for the user; empty as long as the session goes on.
+    const std::string& goodbye() const { return goodbye_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -84,6 +87,7 @@ private:
     wire::Pong pong_;
     wire::Delivery delivery_;
     wire::SetRenderer renderer_word_;
+    std::string goodbye_;
     TimePoint acknowledged_at_;
     std::uint64_t acknowledged_ = 0;
 };

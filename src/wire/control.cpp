@@ -97,9 +97,13 @@ Body pack(Builder& b, const SetRenderer& m) {
     return fbs::CreateSetRenderer(b, b.CreateString(m.renderer), m.locked).Union();
 }
 
+Body pack(Builder& b, const Goodbye& m) {
+    return fbs::CreateGoodbye(b, b.CreateString(m.reason)).Union();
+}
+
 // The union's numbers follow the order of the variant's alternatives, from 1.
-static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::SetRenderer) == 14);
-static_assert(std::variant_size_v<Control> == 14);
+static_assert(int(fbs::Body::Join) == 1 && int(fbs::Body::Goodbye) == 15);
+static_assert(std::variant_size_v<Control> == 15);
 
 // From table to struct. Strings and vectors may be absent. Tables may share strings and vectors,
 // so each field has a limit of its own: the size of the message limits nothing.
@@ -207,6 +211,10 @@ SetRenderer unpack(const fbs::SetRenderer& m) {
     return {text(m.renderer(), max_renderer), m.locked()};
 }
 
+Goodbye unpack(const fbs::Goodbye& m) {
+    return {text(m.reason(), max_sentence)};
+}
+
 }  // namespace
 
 Bytes encode_control(const Control& message) {
@@ -291,6 +299,8 @@ Result<Control> decode_control(ByteView bytes) {
             return Control(unpack(*control.body_as_Delivery()));
         case fbs::Body::SetRenderer:
             return Control(unpack(*control.body_as_SetRenderer()));
+        case fbs::Body::Goodbye:
+            return Control(unpack(*control.body_as_Goodbye()));
         case fbs::Body::NONE:
             break;
     }

@@ -157,9 +157,15 @@ struct SetRenderer {
     bool operator==(const SetRenderer&) const = default;
 };
 
+// The session is over; `reason` is one sentence for the user. The host closes the connection,
+// and coming back is of no use.
+struct Goodbye {
+    std::string reason;
+};
+
 using Control =
     std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Welcome, Refused, Settings,
-                 CameraState, Pong, Received, ChooseDelivery, Delivery, SetRenderer>;
+                 CameraState, Pong, Received, ChooseDelivery, Delivery, SetRenderer, Goodbye>;
 
 Bytes encode_control(const Control& message);
 

@@ -54,6 +54,7 @@ struct Measure {
         (*this)(m.reason);
     }
     void operator()(const wire::SetRenderer& m) { (*this)(m.renderer); }
+    void operator()(const wire::Goodbye& m) { (*this)(m.reason); }
     template <class Plain>
     void operator()(const Plain&) {}
 };

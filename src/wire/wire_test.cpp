@@ -195,6 +195,7 @@ TEST(Control, EveryMessageRoundTrips) {
     const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}, "blend"});
     EXPECT_EQ(report.renderer, "blend");
     EXPECT_EQ(round_trip(SetRenderer{"mesh", true}), (SetRenderer{"mesh", true}));
+    EXPECT_EQ(round_trip(Goodbye{"It is over."}).reason, "It is over.");
     ASSERT_EQ(report.streams.size(), 1u);
     EXPECT_EQ(report.streams[0].bytes, 4u);
     EXPECT_EQ(report.streams[0].age, Duration(5));
