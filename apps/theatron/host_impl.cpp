@@ -7,6 +7,12 @@
 #include "host_http.h"
 
 namespace theatron::app {
+namespace {
+
+// For participants who do not take the word that the session is over.
+constexpr Duration goodbye_patience = std::chrono::seconds(1);
+
+}  // namespace
 
 net::Server::Handler Host::Impl::handler() {
     net::Server::Handler h;
@@ -33,6 +39,7 @@ net::Server::Handler Host::Impl::handler() {
                       {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
         session->on_closed(ParticipantId(std::uint32_t(peer)));
         carry_out();
+        note_left(peer);
     };
     h.now = steady_now;
     h.tick = [this] {
@@ -69,6 +76,11 @@ void Host::Impl::carry_out(const session::HostSession::Action& action) {
                               {"address", addresses[peer]},
                               log::outside("why", action.why),
                               {"left_out", *left_out}});
+            server->close(peer, action.why);
+            break;
+        case Kind::goodbye:
+            leaving.insert(peer);
+            server->send_control(peer, wire::encode_control(action.message));
             server->close(peer, action.why);
             break;
         case Kind::joined:
@@ -108,6 +120,27 @@ void Host::Impl::carry_out(const session::HostSession::Action& action) {
                       {{"id", int(peer)}, log::outside("renderer", action.why)});
             break;
     }
+}
+
+void Host::Impl::note_left(net::PeerId peer) {
+    if (leaving.erase(peer) > 0 && leaving.empty()) {
+        const std::lock_guard lock(goodbye_mutex);
+        all_left = true;
+        goodbye_changed.notify_all();
+    }
+}
+
+void Host::Impl::say_goodbye() {
+    server->post([this] {
+        // Nobody at all counts as one who has left; closing may tell of others at once.
+        constexpr net::PeerId nobody{};
+        leaving.insert(nobody);
+        session->end();
+        carry_out();
+        note_left(nobody);
+    });
+    std::unique_lock lock(goodbye_mutex);
+    goodbye_changed.wait_for(lock, goodbye_patience, [this] { return all_left; });
 }
 
 void Host::Impl::change_settings() {

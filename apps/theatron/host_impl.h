@@ -2,6 +2,7 @@
 // The inside of a Host: what its threads share.
 #pragma once
 
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <set>
@@ -46,8 +47,15 @@ struct Host::Impl {
     std::vector<std::string> http_tokens;
     const TimePoint begun = steady_now();
 
+    std::set<net::PeerId> leaving;  // told that the session is over; server's thread
+    std::mutex goodbye_mutex;
+    std::condition_variable goodbye_changed;
+    bool all_left = false;  // guarded by goodbye_mutex
+
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
+        if (thread.joinable())
+            say_goodbye();
         // The server's thread uses the lanes: it ends first.
         if (server)
             server->stop();
@@ -74,6 +82,11 @@ struct Host::Impl {
     void on_camera_states();
     void measure_links();
     void note_participants();
+
+    void note_left(net::PeerId peer);
+
+    // Tells everybody that the session is over, and waits a little for them to be gone.
+    void say_goodbye();
 
     // From any thread.
     void take_media(send::EncodedMedia encoded);

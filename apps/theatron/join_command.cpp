@@ -223,6 +223,8 @@ void run(const Flags& flags) {
         const auto status = participant.status();
         if (status.phase == Participant::Phase::refused)
             throw Error(status.problem);
+        if (status.phase == Participant::Phase::ended)
+            break;
         if (!obey(participant, input))
             break;
         const TimePoint now = steady_now();

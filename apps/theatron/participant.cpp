@@ -123,17 +123,22 @@ void Participant::run() {
         if (shared_->stopping)
             return;
         const bool refused = end.final || !session_.refusal().empty();
-        const std::string why = session_.refusal().empty() ? end.why : session_.refusal();
+        const bool ended = !session_.goodbye().empty();
+        const std::string why = refused && !session_.refusal().empty() ? session_.refusal()
+                                : ended                                ? session_.goodbye()
+                                                                       : end.why;
         const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
         if (shared_->status.phase == Phase::joined) {
             was_joined = true;
             wait = first_wait;
         }
-        shared_->status.phase = refused ? Phase::refused : Phase::lost;
+        shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
         shared_->status.problem = why;
         lock.unlock();
         announce();
-        if (refused)
+        if (ended && !refused)
+            remark(why);
+        if (refused || ended)
             return;
         if (news)
             remark(why + (was_joined ? " Reconnecting." : " Trying again."));
@@ -259,6 +264,7 @@ void Participant::on_control(ByteView message) {
             break;
         }
         case Change::refused:
+        case Change::goodbye:
         case Change::nothing:
             break;
     }

@@ -48,10 +48,10 @@ public:
     explicit Participant(Options options);
     ~Participant();
 
-    enum class Phase { connecting, joined, lost, refused };
+    enum class Phase { connecting, joined, lost, refused, ended };
     struct Status {
         Phase phase = Phase::connecting;
-        std::string problem;  // why lost or refused
+        std::string problem;  // why lost, refused or ended
         std::string host_name;
         Duration round_trip{};
         Duration clock_error{};

@@ -29,6 +29,8 @@ const char* text_of(Participant::Phase phase) {
             return "lost";
         case Participant::Phase::refused:
             return "refused";
+        case Participant::Phase::ended:
+            return "ended";
     }
     return "unknown";
 }

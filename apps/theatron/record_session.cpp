@@ -57,6 +57,8 @@ public:
                                                : status.problem);
         if (status.phase == Participant::Phase::refused)
             end_ = End{status.problem, true};
+        if (status.phase == Participant::Phase::ended)
+            end_ = End{"", false};  // the participant has said it
         if (status.phase == Participant::Phase::joined)
             note_states();
     }

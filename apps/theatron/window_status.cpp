@@ -144,6 +144,8 @@ WindowMessage window_message(const Participant::Status& status, const OnScreen& 
                     old + status.problem};
         case Participant::Phase::refused:
             return {"The host does not let you in", status.problem + " Press Esc to leave."};
+        case Participant::Phase::ended:
+            return {"The session is over", old + status.problem + " Press Esc to leave."};
     }
     return {};
 }

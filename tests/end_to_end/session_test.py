@@ -106,6 +106,21 @@ class Session(unittest.TestCase):
                 self.assertEqual(found["host"], "operating room")
             self.assertIn("Reconnecting", "".join(viewer.errors))
 
+    def test_a_session_that_the_host_ends_is_over_for_everybody(self):
+        file = self.folder / "over.mkv"
+        with host(self.state, self.camera) as h, \
+                Process("join", h.greeting["link"], "--every", "0.2") as viewer, \
+                Process("record", h.greeting["link"], file, "--json") as recorder:
+            viewer.wait_for(lambda f: f["fps"] > 0, 20)
+            while not file.exists() or file.stat().st_size < 50_000:
+                viewer.read_json()
+            h.send(signal.SIGINT)
+            self.assertEqual(h.end(), 0)
+            for guest in (viewer, recorder):
+                self.assertEqual(guest.end(), 0, guest.errors)
+                self.assertIn("The host has ended the session.", "".join(guest.errors))
+                self.assertNotIn("Reconnecting", "".join(guest.errors))
+
     def test_nobody_notices_a_killed_viewer(self):
         with host(self.state, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as stays, \
