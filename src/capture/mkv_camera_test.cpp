@@ -198,8 +198,9 @@ TEST(MkvFile, AFileThatNeedsTooMuchMemoryIsNamed) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("recording.mkv' made its reader "));
         // A sanitizer without memory ends otherwise.
-        if (!sandbox::has_sanitizer)
+        if (!sandbox::has_sanitizer) {
             EXPECT_THAT(error.what(), HasSubstr("use more than 0 MiB"));
+        }
     }
 }
 

@@ -21,9 +21,10 @@ public:
         : chain_(parse_chain(filters).settings, {.size = size}) {}
 
     const DepthImage& next(double mm, double sigma, Duration since = frame_time) {
-        std::normal_distribution<double> noise(mm, sigma);
+        std::normal_distribution<double> noise;
         for (auto& pixel : in.pixels)
-            pixel = mm > 0 ? std::uint16_t(std::lround(noise(random_))) : std::uint16_t(0);
+            pixel =
+                mm > 0 ? std::uint16_t(std::lround(noise(random_) * sigma + mm)) : std::uint16_t(0);
         out = copy_of(chain_.apply(in.view(), since));
         return out;
     }

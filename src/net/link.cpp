@@ -38,13 +38,13 @@ bool is_hex_digest(std::string_view text) {
 // A link as an error message may show it: what follows host and port is secret, and so may be a
 // long word that is no address at all.
 std::string without_secrets(std::string_view text) {
-    constexpr std::size_t longest_shown = 80, longest_word = 15;
+    constexpr std::size_t shown_characters = 80, word_characters = 15;
     std::string_view shown = text.substr(0, text.find('#'));
     for (const std::string_view secret : {"join=", "token=", "cert="})
         shown = shown.substr(0, shown.find(secret));
-    if (shown.size() > longest_word && shown.find_first_of(".:/") == std::string_view::npos)
+    if (shown.size() > word_characters && shown.find_first_of(".:/") == std::string_view::npos)
         shown = {};
-    shown = shown.substr(0, longest_shown);
+    shown = shown.substr(0, shown_characters);
     std::string result;
     for (const char c : shown)
         result += c >= ' ' && c <= '~' ? c : '?';

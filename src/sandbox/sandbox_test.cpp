@@ -253,8 +253,9 @@ TEST_F(Sandbox, WhatAReaderMayNotDoEndsItAloneAndIsSaid) {
         const std::string problem = problem_with(forbidden.reader.name);
         EXPECT_THAT(problem, StartsWith("The file 'x' "));
         // A sanitizer that wants to report a crash, or needs memory for it, ends otherwise.
-        if (!has_sanitizer)
+        if (!has_sanitizer) {
             EXPECT_THAT(problem, HasSubstr(forbidden.said));
+        }
     }
     EXPECT_FALSE(fs::exists("/tmp/theatron_was_here"));
 }
