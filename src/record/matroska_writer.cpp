@@ -105,8 +105,10 @@ void add_unicode(EbmlMaster& parent, const std::string& value) {
 
 template <class Element>
 void add_bytes(EbmlMaster& parent, ByteView value) {
-    add<Element>(parent).CopyBuffer(reinterpret_cast<const binary*>(value.data()),
-                                    uint32(value.size()));
+    // The library copies from the pointer also where there is nothing to copy.
+    const std::byte nothing{};
+    const std::byte* const bytes = value.empty() ? &nothing : value.data();
+    add<Element>(parent).CopyBuffer(reinterpret_cast<const binary*>(bytes), uint32(value.size()));
 }
 
 void render_head(Bytes& out) {

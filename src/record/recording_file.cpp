@@ -113,8 +113,10 @@ void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundH
     const std::size_t index = segments_.size();
     std::map<StreamId, StreamContent*> streams;
     for (auto& [id, part] : cameras_of(head)) {
-        auto camera = std::find_if(cameras_.begin(), cameras_.end(),
-                                   [&](const CameraContent& c) { return c.id == id; });
+        // Named anew, because clang 14 does not let a lambda use a structured binding.
+        auto camera =
+            std::find_if(cameras_.begin(), cameras_.end(),
+                         [wanted = id](const CameraContent& c) { return c.id == wanted; });
         if (camera == cameras_.end()) {
             cameras_.push_back({id,
                                 part.name,
