@@ -109,7 +109,9 @@ TEST(LaneMemory, ARunningLaneAllocatesNoPictures) {
     const std::uint64_t made = wait_for(300);
     counting = false;
     ASSERT_GE(made, 300u);
-    EXPECT_LE(large_allocations, 3u);
+    // One picture allocated per frame would make a hundred. On a slow machine a setting may be
+    // found dear meanwhile, and the thread that encodes it behind then makes its scratch memory.
+    EXPECT_LE(large_allocations, 10u);
     EXPECT_LE(double(allocations) / double(made), 4);
     std::printf("%llu allocations, %llu of them large, for %llu messages\n",
                 static_cast<unsigned long long>(allocations),
