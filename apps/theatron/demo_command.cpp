@@ -18,6 +18,7 @@
 #include "participant.h"
 #include "participant_figures.h"
 #include "progress.h"
+#include "seconds_option.h"
 #include "stop_signal.h"
 #include "viewer_scene.h"
 
@@ -115,7 +116,7 @@ void add_demo_command(CLI::App& app) {
     command->add_option("--out", flags->out, "Folder for the pictures")->capture_default_str();
     command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
         ->capture_default_str();
-    command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->callback([flags, &app] {
         flags->program = app.get_name();
         run(*flags);

@@ -98,6 +98,10 @@ void run(const Flags& flags) {
     if (flags.registered && flags.undistort)
         throw Error("Pictures are exported either --undistort or --registered.");
     const Recording recording = record::RecordingFile::open(flags.file);
+    if (flags.camera && std::size_t(*flags.camera) >= recording->cameras().size())
+        throw Error("'" + flags.file + "' has no camera " + std::to_string(*flags.camera) +
+                    ": it has " + std::to_string(recording->cameras().size()) +
+                    ", counted from 0.");
     const std::vector<std::string> filters = filters_of(*recording, flags.camera);
     std::size_t calibrations = 1;
     for (const record::CameraContent& camera : recording->cameras())

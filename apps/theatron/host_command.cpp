@@ -23,6 +23,7 @@
 #include "progress.h"
 #include "region_text.h"
 #include "renderer_text.h"
+#include "seconds_option.h"
 #include "stop_signal.h"
 
 namespace theatron::app {
@@ -193,7 +194,7 @@ void add_host_command(CLI::App& app) {
     command->add_option(
         "--state", flags->state,
         "Folder for the host's key, certificate and token (default: ~/.local/state/theatron)");
-    command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->add_option("--summary", flags->summary,
                         "Write what went on as JSON to this file at the end");
     command->add_flag("--json", flags->json, "Print one JSON line with the link instead of text");

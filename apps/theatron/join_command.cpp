@@ -20,6 +20,7 @@
 #include "participant.h"
 #include "participant_figures.h"
 #include "renderer_text.h"
+#include "seconds_option.h"
 #include "session/renderer_choice.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
@@ -335,8 +336,8 @@ void add_join_command(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_flag("--stereo", flags->stereo,
                       "With --offscreen: what the left and the right eye see, beside each other");
-    command->add_option("--seconds", flags->seconds,
-                        "End this long after the first picture (default with --offscreen: 3)");
+    add_seconds_option(*command, flags->seconds,
+                       "End this long after the first picture (default with --offscreen: 3)");
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
     command->add_option("--every", flags->every,
                         "Print the figures as a JSON line every so many seconds");

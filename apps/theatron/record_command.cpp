@@ -17,6 +17,7 @@
 #include "link_argument.h"
 #include "progress.h"
 #include "record_source.h"
+#include "seconds_option.h"
 #include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -61,7 +62,7 @@ record::Recorder::Options recorder_options(const Flags& flags) {
     if (flags.buffer_mb < least_mb || flags.buffer_mb > most_mb)
         throw Error("--buffer is from " + std::to_string(least_mb) + " to " +
                     std::to_string(most_mb) + " megabytes.");
-    return {std::size_t(flags.buffer_mb) << 20};
+    return {std::size_t(flags.buffer_mb) << 20, flags.overwrite};
 }
 
 std::unique_ptr<RecordSource> open_source(const Flags& flags) {
@@ -297,7 +298,7 @@ void add_record_command(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--raw", flags->raw,
                       "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
-    command->add_option("--seconds", flags->seconds, "End by itself after this time");
+    add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command
         ->add_option("--buffer", flags->buffer_mb,
                      "Megabytes of pictures that may wait for a disk that stands still")

@@ -2,6 +2,7 @@
 #include "capture/mkv_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -56,6 +57,8 @@ public:
             close(descriptor_);
             throw Error(quoted(path) + " is not a file.");
         }
+        // A recording into this very file is refused.
+        (void)flock(descriptor_, LOCK_SH | LOCK_NB);
     }
     ~File() { close(descriptor_); }
     File(const File&) = delete;

@@ -2,6 +2,7 @@
 #include "record/byte_source.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,6 +29,9 @@ public:
             close(file_);
             throw Error("'" + path.string() + "' is not a file.");
         }
+        // Whoever would replace the file meanwhile is refused; one that is being recorded is read
+        // without a lock.
+        (void)flock(file_, LOCK_SH | LOCK_NB);
         size_ = std::uint64_t(found.st_size);
     }
     FileSource(const FileSource&) = delete;

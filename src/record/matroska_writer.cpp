@@ -19,6 +19,8 @@
 #include <matroska/KaxSemantic.h>
 #include <matroska/KaxTags.h>
 #include <matroska/KaxTracks.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -293,6 +295,29 @@ int write_at(int file, ByteView bytes, std::uint64_t offset) {
     return 0;
 }
 
+// An empty file that nobody else writes or plays: what is there is cut only once it is locked.
+int create(const std::filesystem::path& path, bool replace) {
+    const std::string name = "'" + path.string() + "'";
+    const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (file < 0)
+        throw Error("Cannot create " + name + ": " + std::strerror(errno) + ".");
+    const auto refuse = [&](const std::string& why) {
+        close(file);
+        throw Error(why);
+    };
+    // Some network file systems have no locks.
+    if (flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        refuse(name + " is being recorded or played; name another file, or end that first.");
+    struct stat found {};
+    if (fstat(file, &found) != 0)
+        refuse("Cannot create " + name + ": " + std::strerror(errno) + ".");
+    if (!replace && found.st_size > 0)
+        refuse(name + " exists already; name another file, or give --overwrite.");
+    if (ftruncate(file, 0) != 0)
+        refuse("Cannot create " + name + ": " + std::strerror(errno) + ".");
+    return file;
+}
+
 }  // namespace
 
 MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& layout)
@@ -325,9 +350,7 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
         bytes.insert(bytes.end(), head_copy_.begin(), head_copy_.end());
     }
 
-    file_ = open(path.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, 0644);
-    if (file_ < 0)
-        throw Error("Cannot create '" + path.string() + "': " + std::strerror(errno) + ".");
+    file_ = create(path, layout.replace);
     if (const std::string problem = append(bytes); !problem.empty()) {
         close(file_);
         throw Error(problem);

@@ -78,10 +78,11 @@ public:
         std::optional<Uid> uid, family_uid;
         std::optional<UtcTime> utc;  // of time 0; not given: now
         bool repeat_head = false;    // write copies of the head
+        bool replace = true;         // a file that is there and not empty; else it is refused
     };
 
-    // Creates `path`, in place of a file that is there, and writes everything
-    // before the first block. Throws Error.
+    // Creates `path` and writes everything before the first block. The file is locked as long as
+    // this lives. Throws Error, also where another program records into the file or plays it.
     MatroskaWriter(const std::filesystem::path& path, const Layout& layout);
     MatroskaWriter(const MatroskaWriter&) = delete;
     // Leaves the file as it is: call finish() first.

@@ -48,7 +48,7 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     : path_(path), buffer_bytes_(options.buffer_bytes) {
     info_.recording = make_uid();
     info_.clock = clock;
-    writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_);
+    writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace);
     streams_ = streams_of(cameras);
     last_now_ = clock.session;
     figures_.bytes = writer_->bytes();

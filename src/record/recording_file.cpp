@@ -245,11 +245,14 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
         std::optional<SegmentInfo> info;
     };
     std::vector<Member> members;
+    std::uint64_t unreadable = 0;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Result<FoundHead> head = read_head(*sources[i]);
         if (!head) {
             if (i == 0)
                 return head.error();
+            // Its name says that it belongs here, and nothing else can be known of it.
+            ++unreadable;
             continue;
         }
         const auto info = info_of(*head);
@@ -271,8 +274,10 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
         members.end());
 
     std::unique_ptr<RecordingFile> recording(new RecordingFile);
-    recording->missing_segments_ =
+    // A segment that cannot be read is either one of those missing in between, or behind them.
+    const std::uint64_t between =
         number_of(members.back()) - number_of(members.front()) + 1 - members.size();
+    recording->missing_segments_ = std::max(between, unreadable);
     for (Member& member : members)
         recording->add_segment(std::move(sources[member.source]), member.head, member.info,
                                std::move(files[member.source]));

@@ -435,6 +435,58 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }
 
+TEST(Recorder, NeverTakesAFileFromAnotherRecorderOrAPlayer) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "one.mkv";
+    const auto refused = [&](const Recorder::Options& options) -> std::string {
+        try {
+            Recorder second(path, cameras(1), session_begin, options);
+        } catch (const Error& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    const std::string in_use =
+        "'" + path.string() +
+        "' is being recorded or played; name another file, or end that first.";
+    Bytes whole;
+    {
+        Recorder first(path, cameras(1), session_begin);
+        EXPECT_EQ(refused({}), in_use);
+        for (const Message& m : generated(1, 3, 100))
+            ASSERT_EQ(add(first, m), Recorder::Added::taken);
+        first.finish();
+    }
+    whole = bytes_of(path);
+    {
+        const auto playing = RecordingFile::open(path);
+        EXPECT_EQ(refused({}), in_use);
+    }
+    // It came into being after whoever asked had looked.
+    EXPECT_EQ(refused({.replace = false}),
+              "'" + path.string() + "' exists already; name another file, or give --overwrite.");
+    EXPECT_EQ(bytes_of(path), whole);
+    EXPECT_EQ(refused({}), "") << "nobody uses it any more";
+}
+
+TEST(Recording, ALastSegmentThatCannotBeReadIsMissing) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "chain.mkv";
+    {
+        Recorder recorder(path, cameras(1), session_begin);
+        const auto messages = generated(1, 4, 100);
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
+        recorder.begin_segment(cameras(1), session_begin);
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
+    }
+    const fs::path second = folder.path() / "chain.002.mkv";
+    EXPECT_TRUE(RecordingFile::open(path)->complete());
+    const auto size = fs::file_size(second);
+    std::ofstream(second, std::ios::trunc) << std::string(size, '\0');
+    EXPECT_EQ(RecordingFile::open(path)->missing_segments(), 1u);
+    EXPECT_FALSE(RecordingFile::open(path)->complete());
+}
+
 TEST(Recording, WhereNoFileCanBeIsOneSentence) {
     try {
         Recorder recorder("/nowhere/at/all.mkv", cameras(1), session_begin);

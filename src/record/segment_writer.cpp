@@ -13,8 +13,9 @@ namespace {
 constexpr std::int64_t far_us = std::int64_t(1) << 60;
 
 MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
-                                 const SegmentInfo& info) {
+                                 const SegmentInfo& info, bool replace) {
     MatroskaWriter::Layout layout;
+    layout.replace = replace;
     layout.side_name = side_name;
     layout.note_name = note_name;
     layout.check_name = check_name;
@@ -68,8 +69,9 @@ std::int64_t block_time_us(TimePoint captured, TimePoint arrived, TimePoint begi
 }
 
 SegmentWriter::SegmentWriter(const std::filesystem::path& path,
-                             const std::vector<RecordedCamera>& cameras, const SegmentInfo& info)
-    : begin_(info.clock.session), writer_(path, layout_of(cameras, info)) {}
+                             const std::vector<RecordedCamera>& cameras, const SegmentInfo& info,
+                             bool replace)
+    : begin_(info.clock.session), writer_(path, layout_of(cameras, info, replace)) {}
 
 std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
     std::vector<Block> blocks;

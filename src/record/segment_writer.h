@@ -39,7 +39,7 @@ class SegmentWriter {
 public:
     // Creates the file, in place of one that is there. Throws Error.
     SegmentWriter(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-                  const SegmentInfo& info);
+                  const SegmentInfo& info, bool replace = true);
 
     // Each returns one sentence if it failed. After that, only finish() makes sense.
     std::string write(std::span<const RecordedMessage> messages);

@@ -28,6 +28,7 @@ from schedule import KINDS, Fault, edges, make_schedule  # noqa: E402
 from stage import Stage, possible_kinds  # noqa: E402
 
 SAMPLE_EVERY_S = 1.0
+WELL_AGAIN_S = 15  # until a viewer must have pictures of all cameras again
 USUAL_START_S = 1.0   # from the first process until all take part, on a machine with nothing else to do
 START_PATIENCE_S = 60
 SETTLE_S = 6.0        # at the end, with no more faults
@@ -151,8 +152,12 @@ class Run:
     def finish(self):
         """Everybody is well, and ends when told to."""
         for role in self.stage.viewers:
+            # The last faults may have ended a moment ago, and its figures come once a second.
+            patience = time.monotonic() + WELL_AGAIN_S
+            while not sees_pictures(role) and time.monotonic() < patience:
+                time.sleep(SAMPLE_EVERY_S)
             newest = role.now.newest or {}
-            if newest.get("phase") != "joined" or not newest.get("fps", 0) > 0:
+            if not sees_pictures(role):
                 self.find(f"{role.name} sees nothing at the end: {newest.get('phase')}, {newest.get('fps')} fps, "
                           f"{role.now.last_words()}")
         ends = [(self.stage.recorder, 60), *((v, 20) for v in self.stage.viewers), (self.stage.host, 20)]
@@ -160,6 +165,11 @@ class Run:
             code = role.now.end(signal.SIGINT, timeout)
             if code < 0:
                 self.find(f"{role.name} ended with signal {-code} when it was told to end")
+
+
+def sees_pictures(role):
+    newest = role.now.newest or {}
+    return newest.get("phase") == "joined" and newest.get("fps", 0) > 0
 
 
 def parse(arguments):
