@@ -234,7 +234,7 @@ bool is_built_in(const Codecs& codecs) {
 
 TEST(DamagedRecording, OfEveryCodecAFlippedBitCostsAtMostTwoSecondsAndIsReported) {
     const char* const count = std::getenv("COUNT");
-    const int flips = count ? std::atoi(count) : 50;
+    const int flips = count ? std::atoi(count) : 1000;
     const int each = (flips + int(std::size(all_codecs)) - 1) / int(std::size(all_codecs));
     std::minstd_rand random(12);
     for (const Codecs& codecs : all_codecs) {

@@ -142,9 +142,18 @@ void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundH
             streams[color_stream(camera.id)] = &camera.color;
     }
 
+    const auto is_listed = [&](int track) {
+        return std::any_of(head.tracks.begin(), head.tracks.end(),
+                           [&](const FoundTrack& t) { return t.number == track; });
+    };
     bool any = false;
     std::optional<TimePoint> first_captured;
     const FoundClusters found = read_clusters(*source, head, [&](const FoundBlock& block) {
+        // A file has blocks of its own tracks only, those that this reader does not know included.
+        if (!is_listed(block.track)) {
+            ++refused_;
+            return;
+        }
         if (block.track < 1 || block.track > max_camera_track)
             return;
         const StreamId id = stream_of_track(block.track);
