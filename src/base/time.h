@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time in a session: microseconds of the host's steady clock.
 //
-// Points in time are passed as arguments; only apps, send and receive read a
-// clock (base/steady_clock.h), so everything else can be tested with made-up time.
+// Points in time are passed as arguments; only apps and threads of capture, send and
+// record read a clock (steady_clock.h), so all else can be tested with made-up time.
 #pragma once
 
 #include <chrono>
