@@ -36,7 +36,7 @@ private:
     // About what the cameras of one thread send at once. More would only make frames older,
     // and keep the host encoding what nobody decodes in time.
     static constexpr std::size_t most_waiting = 10;
-    // Of all threads together, in bytes. A message that is larger waits alone.
+    // Limit for all threads together, in bytes. A message that is larger waits alone.
     static constexpr std::size_t most_bytes_waiting = std::size_t(128) << 20;
     // Memory of messages that is kept for the next ones, of each thread.
     static constexpr std::size_t most_bytes_spare = std::size_t(8) << 20;

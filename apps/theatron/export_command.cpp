@@ -45,7 +45,7 @@ ExportSource open_source(const Flags& flags, const Recording& recording, std::si
     return source;
 }
 
-// What was exported, and what of it was lost.
+// Counts of pictures that were exported and of those that were lost.
 struct Exported {
     std::size_t count = 0;
     capture::PictureLosses losses;

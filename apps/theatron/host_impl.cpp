@@ -55,7 +55,7 @@ net::Server::Handler Host::Impl::handler() {
     return h;
 }
 
-// What one action meets costs only the participant that it is for.
+// A fault in one action costs only the participant that the action is for.
 void Host::Impl::carry_out() {
     for (const auto& action : session->take_actions())
         if (!contain("host", [&] { carry_out(action); }))

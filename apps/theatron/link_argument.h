@@ -13,7 +13,7 @@ namespace theatron::app {
 // A link, or @FILE with a link as its first word; @/dev/stdin reads standard input. Throws Error.
 net::Link parse_link_argument(const std::string& argument);
 
-// What is longer in a file is no link.
+// A file that holds more is refused: it holds no link.
 inline constexpr std::size_t max_link_characters = 4096;
 
 // The program's arguments; in `argv` itself, where `ps` looks, asterisks take the place of links'

@@ -55,7 +55,7 @@ Participant::Participant(Options options)
                     std::to_string(wire::max_first_envelope_size) +
                     " bytes; choose a shorter name.");
     thread_ = std::thread([this] {
-        // What is to be done again for a connection that met a fault, run() does by itself.
+        // run() connects again by itself after a fault of the connection.
         if (!contain("participant", [this] { run(); }))
             give_up();
     });

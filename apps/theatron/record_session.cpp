@@ -173,7 +173,7 @@ private:
         if (clock_known_)
             return record(header, std::move(message));
         early_bytes_ += message->size();
-        // What is left out shows as a gap in the frames' numbers.
+        // A message that is left out shows as a gap in the frames' numbers.
         if (early_bytes_ <= max_early_bytes)
             early_.push_back({header, std::move(message)});
     }

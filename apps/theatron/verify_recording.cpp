@@ -15,7 +15,7 @@ int minute_of(Duration time) {
     return int(std::chrono::duration_cast<std::chrono::minutes>(time).count());
 }
 
-// What the index alone says.
+// Counts missing pictures from the index alone.
 void count_gaps(const record::StreamContent& stream, double frames_per_second,
                 VerifiedPictures VerifiedMinute::*kind, Minutes& minutes) {
     for (std::size_t i = 1; i < stream.frames.size(); ++i) {

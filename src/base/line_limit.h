@@ -18,7 +18,7 @@ public:
     // More sources at once share what one has.
     static constexpr std::size_t max_sources = 64;
 
-    // Whether a line about `source` may be written now: then how many were not, since the last.
+    // If a line about `source` may be written now: the number of those left out since the last.
     std::optional<std::uint64_t> take(const std::string& source, TimePoint now);
 
 private:

@@ -21,7 +21,7 @@ enum class MkvRequest : std::uint8_t {
     next = 2,  // answered with a picture, or the end
 };
 
-// What a recording says of itself.
+// Description of a recording, as its reader sends it.
 struct MkvDescription {
     Size depth, color;  // colour 0 x 0: there is none that is JPEG
     double frames_per_second = 0;

@@ -8,9 +8,9 @@ import pathlib
 import re
 import struct
 import subprocess
+import sys
 import tempfile
 import unittest
-import zlib
 
 import payload
 import recording
@@ -18,6 +18,9 @@ from ans import decode_ans
 from byte_codecs import decode_lz4, decode_raw, decode_zstd
 from rvl import decode_rvl, decode_trvl
 from strata import decode_strata
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
+import grey_png  # noqa: E402
 
 DOCS = pathlib.Path(__file__).parents[2] / "docs/formats"
 
@@ -83,35 +86,14 @@ class Pages(unittest.TestCase):
 
 def png_pixels(path):
     """Of a 16-bit grey PNG."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack_from(">I4s", data, at)
-        if kind == b"IHDR":
-            width, height = struct.unpack_from(">II", data, at + 8)
-        elif kind == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    raw, pixels = zlib.decompress(packed), []
-    stride, above = 2 * width, bytes(2 * width)
-    for y in range(height):
-        how, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            a, b, c = (line[i - 2] if i > 1 else 0), above[i], (above[i - 2] if i > 1 else 0)
-            paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
-            line[i] = line[i] + (0, a, b, (a + b) // 2, paeth)[how] & 255
-        pixels += struct.unpack(f">{width}H", line)
-        above = line
-    return pixels
+    width, _, rows = grey_png.read_png(path)
+    return [pixel for row in rows for pixel in struct.unpack(f">{width}H", row)]
 
 
 def write_png(path, width, height, pixel):
     """16-bit grey; `pixel` gives the value at x, y."""
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    rows = b"".join(b"\0" + struct.pack(f">{width}H", *(pixel(x, y) for x in range(width))) for y in range(height))
-    head = struct.pack(">IIBBBBB", width, height, 16, 0, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows))
-                     + chunk(b"IEND", b""))
+    grey_png.write_png(path, width, [struct.pack(f">{width}H", *(pixel(x, y) for x in range(width)))
+                                     for y in range(height)])
 
 
 class Recordings(unittest.TestCase):
