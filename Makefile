@@ -25,7 +25,7 @@ setup:
 
 build: setup
 	@cmake --preset release > /dev/null
-	@cmake --build --preset release --target theatron
+	@cmake --build --preset release --target theatron theatron_bench
 
 demo: build
 	@build/release/apps/theatron/theatron demo $(SECONDS_OF_DEMO)

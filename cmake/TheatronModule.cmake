@@ -76,3 +76,17 @@ function(theatron_module name)
     endforeach()
   endif()
 endfunction()
+
+# theatron_program_library(NAME DEPENDS module... [LINK library...])
+#
+# theatron_NAME from the .cpp files of a program's folder, without main.cpp and tests. Includes are
+# those of its own folder and "MODULE/…" of DEPENDS, which tools/check_includes.py compares.
+function(theatron_program_library name)
+  cmake_parse_arguments(M "" "" "DEPENDS;LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  list(FILTER sources EXCLUDE REGEX "(_test|/main)\\.cpp$")
+  add_library(theatron_${name} STATIC ${sources})
+  target_include_directories(theatron_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/apps)
+  list(TRANSFORM M_DEPENDS PREPEND theatron_ OUTPUT_VARIABLE modules)
+  target_link_libraries(theatron_${name} PUBLIC ${modules} ${M_LINK})
+endfunction()

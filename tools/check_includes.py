@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that modules include only what their CMakeLists.txt declares.
+"""Checks that modules and programs include only what their CMakeLists.txt declares.
 
-Reads theatron_module(NAME ... DEPENDS a b c ...) of every folder in src/ and
-compares it with the #include lines. Dependencies must not form a circle.
+Reads theatron_module(NAME ... DEPENDS a b c ...) of every folder in src/, and
+theatron_program_library of every folder in apps/ and bench/, and compares it with
+the #include lines. Dependencies must not form a circle, and no module depends on a program.
 """
 import pathlib
 import re
@@ -13,21 +14,28 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 KEYWORDS = {"WEB", "PURE", "DEPENDS", "LINK"}
 
 
+PROGRAMS = ("apps", "bench")
+
+
 def declared():
-    modules = {}
-    for file in sorted((ROOT / "src").glob("*/CMakeLists.txt")):
-        match = re.search(r"theatron_module\(([^)]*)\)", file.read_text())
+    """(name -> (dependencies, web), folder -> name) of modules, then of programs."""
+    modules, folders = {}, {}
+    places = [*sorted((ROOT / "src").glob("*/CMakeLists.txt")),
+              *(file for top in PROGRAMS for file in sorted((ROOT / top).glob("*/CMakeLists.txt")))]
+    for file in places:
+        match = re.search(r"theatron_(?:module|program_library)\(([^)]*)\)", file.read_text())
         if not match:
             continue
         words = match.group(1).split()
         name, depends, web = words[0], set(), "WEB" in words
+        folders[file.parent.relative_to(ROOT)] = name
         if "DEPENDS" in words:
             for word in words[words.index("DEPENDS") + 1:]:
                 if word in KEYWORDS:
                     break
                 depends.add(word)
         modules[name] = (depends, web)
-    return modules
+    return modules, folders
 
 
 def closure(name, modules, path=()):
@@ -41,9 +49,12 @@ def closure(name, modules, path=()):
 
 
 def main():
-    modules = declared()
+    modules, folders = declared()
+    programs = {name for folder, name in folders.items() if folder.parts[0] in PROGRAMS}
     problems = []
     for name, (depends, web) in modules.items():
+        if name not in programs and depends & programs:
+            problems.append(f"src/{name}/CMakeLists.txt: a module depends on a program")
         for other in sorted(depends - modules.keys()):
             problems.append(f"src/{name}/CMakeLists.txt: there is no module {other}")
         for other in sorted(depends & modules.keys()):
@@ -55,12 +66,13 @@ def main():
                 closure(name, modules)
             except ValueError as circle:
                 problems.append(f"dependencies form a circle: {circle}")
-    for file in sorted((ROOT / "src").rglob("*")):
+    sources = [file for top in ("src", *PROGRAMS) for file in sorted((ROOT / top).glob("*/**/*"))]
+    for file in sources:
         if file.suffix not in {".h", ".cpp", ".cu"} or problems and "circle" in problems[-1]:
             continue
-        module = file.relative_to(ROOT / "src").parts[0]
-        if module not in modules:
-            problems.append(f"{file.relative_to(ROOT)}: its folder is no module")
+        module = folders.get(pathlib.Path(*file.relative_to(ROOT).parts[:2]))
+        if not module:
+            problems.append(f"{file.relative_to(ROOT)}: its folder is no module and no program")
             continue
         # Tests may use what stands beside the product: other modules' readers of files.
         allowed = closure(module, modules)
@@ -73,7 +85,7 @@ def main():
                     f"{file.relative_to(ROOT)}:{number}: {module} may not include {match.group(1)}")
     for problem in problems:
         print(problem)
-    print(f"{len(modules)} modules, {len(problems)} wrong dependencies")
+    print(f"{len(modules) - len(programs)} modules, {len(programs)} programs, {len(problems)} wrong dependencies")
     return 1 if problems else 0
 
 

@@ -8,11 +8,11 @@
 #include "base/error.h"
 #include "base/steady_clock.h"
 #include "capture/camera.h"
+#include "cli/progress.h"
 #include "commands.h"
 #include "files/file_bytes.h"
+#include "files/json_text.h"
 #include "filter/background.h"
-#include "json_text.h"
-#include "progress.h"
 
 namespace theatron::app {
 namespace {
@@ -28,7 +28,7 @@ struct Flags {
 constexpr Duration patience = std::chrono::seconds(12);
 
 filter::Background record(const Flags& flags) {
-    const capture::Progress progress = show_progress();
+    const capture::Progress progress = cli::show_progress();
     const auto camera = capture::open_camera(flags.camera, progress);
     filter::Background background;
     background.depth_unit_mm = camera->info().calibration.depth_unit_mm;
@@ -63,11 +63,11 @@ void run(const Flags& flags) {
     const auto unknown = std::count(pixels.begin(), pixels.end(), std::uint16_t(0));
     const double measured = 1 - double(unknown) / double(pixels.size());
     if (flags.json) {
-        std::printf("%s\n", json_text({{"path", flags.out},
-                                       {"frames", background.frames},
-                                       {"width", background.nearest.size.width},
-                                       {"height", background.nearest.size.height},
-                                       {"measured", measured}})
+        std::printf("%s\n", files::json_text({{"path", flags.out},
+                                              {"frames", background.frames},
+                                              {"width", background.nearest.size.width},
+                                              {"height", background.nearest.size.height},
+                                              {"measured", measured}})
                                 .c_str());
         return;
     }

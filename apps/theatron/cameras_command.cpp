@@ -7,7 +7,7 @@
 #include "capture/camera.h"
 #include "capture/k4a_device.h"
 #include "commands.h"
-#include "json_text.h"
+#include "files/json_text.h"
 
 namespace theatron::app {
 namespace {
@@ -56,7 +56,7 @@ void add_cameras_command(CLI::App& app) {
     command->callback([json] {
         const FoundDevices found = capture::k4a::find_devices();
         if (*json)
-            std::cout << json_text(to_json(found), 2) << std::endl;
+            std::cout << files::json_text(to_json(found), 2) << std::endl;
         else
             print(found);
     });

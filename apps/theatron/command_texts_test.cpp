@@ -2,10 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/camera_names.h"
 #include "base/error.h"
-#include "head_text.h"
 #include "region_text.h"
-#include "view_choice.h"
+#include "viewer/head_text.h"
+#include "viewer/view_choice.h"
 
 namespace theatron::app {
 namespace {
@@ -67,46 +68,51 @@ TEST(RegionText, ACameraIsMeantByItsNameBeforeItsNumber) {
 }
 
 TEST(HeadText, APersonStandsWhereTheTextSaysAndLooksAlongMinusZ) {
-    const SeenPerson person = parse_seen_person("1=0.2:1.65:-0.4", Seen::oneself);
+    const viewer::SeenPerson person =
+        viewer::parse_seen_person("1=0.2:1.65:-0.4", viewer::Seen::oneself);
     EXPECT_EQ(person.camera, "1");
-    EXPECT_EQ(person.who, Seen::oneself);
+    EXPECT_EQ(person.who, viewer::Seen::oneself);
     const Vec3 eyes = person.room_from_head * Vec3{0, 0, 0};
     const Vec3 ahead = person.room_from_head * Vec3{0, 0, 1} - eyes;
     EXPECT_NEAR(eyes.x, 0.2, 1e-9);
     EXPECT_NEAR(eyes.y, 1.65, 1e-9);
     EXPECT_NEAR(eyes.z, -0.4, 1e-9);
     EXPECT_NEAR(ahead.z, -1, 1e-9);
-    const SeenPerson turned = parse_seen_person("1=0:0:0,yaw=90", Seen::other);
+    const viewer::SeenPerson turned =
+        viewer::parse_seen_person("1=0:0:0,yaw=90", viewer::Seen::other);
     EXPECT_NEAR((turned.room_from_head * Vec3{0, 0, 1}).x, -1, 1e-9);
 }
 
 TEST(HeadText, WhatIsNoPersonIsNamed) {
     for (const char* text : {"0.2:1.65:-0.4", "=0:0:0", "1=0:0", "1=0:0:0:0", "1=0:0:x",
                              "1=nan:0:0", "1=0:inf:0", "1=0:101:0"})
-        EXPECT_THAT(refusal([&] { parse_seen_person(text, Seen::other); }),
+        EXPECT_THAT(refusal([&] { viewer::parse_seen_person(text, viewer::Seen::other); }),
                     HasSubstr("is not understood"))
             << text;
-    EXPECT_THAT(refusal([&] { parse_seen_person("1=0:0:0,pitch=81", Seen::other); }),
-                HasSubstr("pitch"));
-    EXPECT_THAT(refusal([&] { parse_seen_person("1=0:0:0,reach=nan", Seen::other); }),
-                HasSubstr("reach"));
+    EXPECT_THAT(
+        refusal([&] { viewer::parse_seen_person("1=0:0:0,pitch=81", viewer::Seen::other); }),
+        HasSubstr("pitch"));
+    EXPECT_THAT(
+        refusal([&] { viewer::parse_seen_person("1=0:0:0,reach=nan", viewer::Seen::other); }),
+        HasSubstr("reach"));
 }
 
 TEST(HeadText, OneCameraHasOnePerson) {
-    EXPECT_EQ(parse_seen_people({"0=0:0:0"}, {"1=0:0:0"}).size(), 2u);
-    EXPECT_THAT(refusal([&] { parse_seen_people({"0=0:0:0"}, {"0=0:0:0"}); }),
+    EXPECT_EQ(viewer::parse_seen_people({"0=0:0:0"}, {"1=0:0:0"}).size(), 2u);
+    EXPECT_THAT(refusal([&] { viewer::parse_seen_people({"0=0:0:0"}, {"0=0:0:0"}); }),
                 HasSubstr("has two people"));
 }
 
 TEST(ViewText, ACameraAndTwoAnglesOrASentence) {
-    const ViewChoice view = parse_view("camera:12,yaw=20,pitch=-10");
+    const viewer::ViewChoice view = viewer::parse_view("camera:12,yaw=20,pitch=-10");
     EXPECT_EQ(view.camera, CameraId(12));
     EXPECT_EQ(view.yaw_degrees, 20);
     EXPECT_EQ(view.pitch_degrees, -10);
-    EXPECT_THAT(refusal([&] { parse_view(""); }), HasSubstr("names no kind"));
+    EXPECT_THAT(refusal([&] { viewer::parse_view(""); }), HasSubstr("names no kind"));
     for (const char* text : {"camera", "camera:", "camera:-1", "camera:1000", "camera:1x", "eye:1"})
-        EXPECT_THAT(refusal([&] { parse_view(text); }), HasSubstr("is not understood")) << text;
-    EXPECT_THAT(refusal([&] { parse_view("camera:1,yaw=181"); }), HasSubstr("yaw"));
+        EXPECT_THAT(refusal([&] { viewer::parse_view(text); }), HasSubstr("is not understood"))
+            << text;
+    EXPECT_THAT(refusal([&] { viewer::parse_view("camera:1,yaw=181"); }), HasSubstr("yaw"));
 }
 
 }  // namespace

@@ -11,16 +11,16 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
-#include "camera_option.h"
+#include "cli/camera_option.h"
+#include "cli/progress.h"
+#include "cli/seconds_option.h"
+#include "cli/stop_signal.h"
+#include "client/participant.h"
 #include "commands.h"
 #include "files/png_file.h"
-#include "host.h"
-#include "participant.h"
-#include "participant_figures.h"
-#include "progress.h"
-#include "seconds_option.h"
-#include "stop_signal.h"
-#include "viewer_scene.h"
+#include "host/host.h"
+#include "participant_json.h"
+#include "viewer/offscreen_view_native.h"
 
 namespace theatron::app {
 namespace {
@@ -37,11 +37,11 @@ struct Flags {
 struct View {
     const char* file;
     const char* renderer;
-    ViewChoice choice;
+    viewer::ViewChoice choice;
 };
 
 void run(const Flags& flags) {
-    catch_stop_signals();
+    cli::catch_stop_signals();
     const std::filesystem::path folder = flags.out;
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -49,21 +49,21 @@ void run(const Flags& flags) {
         throw Error("Cannot make the folder '" + flags.out +
                     "' for the pictures: " + error.message() + ".");
 
-    HostOptions options;
+    host::HostOptions options;
     options.cameras = flags.cameras;
     options.listen = net::parse_endpoint(flags.listen);
     options.state = folder / "host";
     options.name = "demo operating room";
-    Host host(options, show_progress());
+    host::Host host(options, cli::show_progress());
 
-    Participant::Options join;
+    client::Participant::Options join;
     join.link = net::parse_link(host.link());
     join.name = "demo viewer";
     join.remark = [](const std::string& text) { log::say(text); };
-    Participant viewer(join);
+    client::Participant viewer(join);
 
     constexpr Size size{1280, 720};
-    ViewerScene scene;
+    viewer::OffscreenView scene;
     const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
                           {"from_between.png", "blend", {CameraId{0}, -45, 5}},
                           {"as_mesh.png", "mesh", {CameraId{0}, -45, 5}},
@@ -75,7 +75,7 @@ void run(const Flags& flags) {
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
     bool announced = false;
-    while (!stop_requested() &&
+    while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         viewer.wait_for_frame(50ms);
         scene.take(viewer);
@@ -111,12 +111,12 @@ void add_demo_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("demo", "See it work: a generated room, streamed to a viewer");
     command->footer("Example: theatron demo --seconds 20 --out pictures");
-    add_camera_option(*command, flags->cameras,
-                      "Other cameras than the generated ones; repeat for more");
+    cli::add_camera_option(*command, flags->cameras,
+                           "Other cameras than the generated ones; repeat for more");
     command->add_option("--out", flags->out, "Folder for the pictures")->capture_default_str();
     command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
         ->capture_default_str();
-    add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->callback([flags, &app] {
         flags->program = app.get_name();
         run(*flags);

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "base/error.h"
+#include "cli/progress.h"
 #include "commands.h"
-#include "export_formats.h"
-#include "filter_choice.h"
-#include "json_text.h"
-#include "progress.h"
+#include "export/export_formats.h"
+#include "files/json_text.h"
+#include "host/filter_choice.h"
 
 namespace theatron::app {
 namespace {
@@ -28,9 +28,10 @@ struct Flags {
 using Recording = std::shared_ptr<const record::RecordingFile>;
 
 // The cameras that have a calibration of this number: one after the other, they count from 0.
-ExportSource open_source(const Flags& flags, const Recording& recording, std::size_t calibration) {
-    ExportSource source;
-    source.progress = show_progress();
+exporting::ExportSource open_source(const Flags& flags, const Recording& recording,
+                                    std::size_t calibration) {
+    exporting::ExportSource source;
+    source.progress = cli::show_progress();
     const std::size_t count = recording->cameras().size();
     source.one_camera = flags.camera || count == 1;
     for (std::size_t i = 0; i < count || (flags.camera && i == std::size_t(*flags.camera)); ++i) {
@@ -50,7 +51,7 @@ struct Exported {
     std::size_t count = 0;
     capture::PictureLosses losses;
 
-    void add(const ExportSource& source, std::size_t written) {
+    void add(const exporting::ExportSource& source, std::size_t written) {
         count += written;
         for (const auto& camera : source.cameras) {
             const capture::PictureLosses& l = camera->losses();
@@ -113,12 +114,12 @@ void run(const Flags& flags) {
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;
         if (flags.json)
-            std::cout << json_text({{"format", what},
-                                    {"count", e.count},
-                                    {"path", place},
-                                    {"lost_depth", e.losses.depth()},
-                                    {"lost_color", e.losses.color()},
-                                    {"filters", filters}})
+            std::cout << files::json_text({{"format", what},
+                                           {"count", e.count},
+                                           {"path", place},
+                                           {"lost_depth", e.losses.depth()},
+                                           {"lost_color", e.losses.color()},
+                                           {"filters", filters}})
                       << std::endl;
         else
             std::cout << place << ": " << e.count << (e.count == 1 ? " frame" : " frames")
@@ -134,7 +135,7 @@ void run(const Flags& flags) {
     const auto export_as = [&](const char* what, const std::string& place, auto write) {
         Exported exported;
         for (std::size_t n = 0; n < calibrations; ++n) {
-            ExportSource source = open_source(flags, recording, n);
+            exporting::ExportSource source = open_source(flags, recording, n);
             if (!source.cameras.empty())
                 exported.add(source, write(source, place_of(place, n)));
         }
@@ -142,24 +143,27 @@ void run(const Flags& flags) {
     };
     if (!flags.json)
         for (const std::string& line : filters)
-            std::cout << "depth was filtered before it was recorded: " << shown_filter(line)
+            std::cout << "depth was filtered before it was recorded: " << host::shown_filter(line)
                       << std::endl;
     if (!flags.ply.empty())
-        export_as("ply", flags.ply, [&](ExportSource& source, const std::filesystem::path& place) {
-            return export_ply(source, place, flags.merged);
-        });
+        export_as("ply", flags.ply,
+                  [&](exporting::ExportSource& source, const std::filesystem::path& place) {
+                      return exporting::export_ply(source, place, flags.merged);
+                  });
     if (!flags.png.empty()) {
-        const Pictures pictures = flags.undistort    ? Pictures::undistorted
-                                  : flags.registered ? Pictures::registered
-                                                     : Pictures::recorded;
-        export_as("png", flags.png, [&](ExportSource& source, const std::filesystem::path& place) {
-            return export_png(source, place, pictures);
-        });
+        const exporting::Pictures pictures = flags.undistort    ? exporting::Pictures::undistorted
+                                             : flags.registered ? exporting::Pictures::registered
+                                                                : exporting::Pictures::recorded;
+        export_as("png", flags.png,
+                  [&](exporting::ExportSource& source, const std::filesystem::path& place) {
+                      return exporting::export_png(source, place, pictures);
+                  });
     }
     if (!flags.k4a.empty())
-        export_as("k4a", flags.k4a, [&](ExportSource& source, const std::filesystem::path& place) {
-            return export_k4a(source, place);
-        });
+        export_as("k4a", flags.k4a,
+                  [&](exporting::ExportSource& source, const std::filesystem::path& place) {
+                      return exporting::export_k4a(source, place);
+                  });
     if (!damaged)
         return;
     std::cerr << "Parts of the recording are damaged or missing; what is whole was exported. "

@@ -11,26 +11,27 @@
 #include <sstream>
 #include <thread>
 
+#include "base/camera_names.h"
 #include "base/error.h"
 #include "base/steady_clock.h"
-#include "camera_option.h"
 #include "capture/camera.h"
+#include "cli/camera_option.h"
+#include "cli/progress.h"
+#include "cli/seconds_option.h"
+#include "cli/stop_signal.h"
 #include "commands.h"
-#include "host.h"
-#include "host_identity.h"
+#include "files/json_text.h"
+#include "host/host.h"
+#include "host/host_identity.h"
 #include "input_lines.h"
-#include "json_text.h"
-#include "progress.h"
 #include "region_text.h"
-#include "renderer_text.h"
-#include "seconds_option.h"
-#include "stop_signal.h"
+#include "viewer/renderer_text.h"
 
 namespace theatron::app {
 namespace {
 
 struct Flags {
-    HostOptions options;
+    host::HostOptions options;
     std::vector<std::string> regions;
     std::string listen = "0.0.0.0:4400";
     std::string state;
@@ -41,7 +42,7 @@ struct Flags {
 };
 
 // All parts that are given for a camera make its region.
-void draw_regions(Host& host, const std::vector<std::string>& texts) {
+void draw_regions(host::Host& host, const std::vector<std::string>& texts) {
     std::map<std::size_t, codec::strata::Region> regions;
     for (const std::string& text : texts) {
         RegionText part = parse_region(text);
@@ -52,7 +53,7 @@ void draw_regions(Host& host, const std::vector<std::string>& texts) {
 }
 
 // "CAMERA PART...", "CAMERA none". Throws Error if it cannot be done.
-void change_region(Host& host, std::istringstream words) {
+void change_region(host::Host& host, std::istringstream words) {
     std::string camera, part;
     words >> camera;
     codec::strata::Region region;
@@ -68,7 +69,7 @@ void change_region(Host& host, std::istringstream words) {
 }
 
 // Throws Error if it cannot be done.
-void obey(Host& host, const std::string& line) {
+void obey(host::Host& host, const std::string& line) {
     std::istringstream words(line);
     std::string what, rest;
     words >> what;
@@ -76,14 +77,14 @@ void obey(Host& host, const std::string& line) {
     if (what == "region") {
         change_region(host, std::istringstream(rest));
     } else if (what == "renderer") {
-        const RendererText text = parse_renderer(rest);
+        const viewer::RendererText text = viewer::parse_renderer(rest);
         host.set_renderer(text.who, text.word);
     } else if (!what.empty()) {
         throw Error("There is no command '" + what + "'; lines begin with region or renderer.");
     }
 }
 
-void obey(Host& host, InputLines& input) {
+void obey(host::Host& host, InputLines& input) {
     while (const auto line = input.next()) {
         try {
             obey(host, *line);
@@ -97,15 +98,15 @@ void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     if (!flags.token_file.empty())
-        flags.options.token = read_token(flags.token_file);
-    catch_stop_signals();
-    Host host(flags.options, show_progress());
+        flags.options.token = host::read_token(flags.token_file);
+    cli::catch_stop_signals();
+    host::Host host(flags.options, cli::show_progress());
     draw_regions(host, flags.regions);
 
     if (flags.json) {
-        std::cout << json_text({{"link", host.link()},
-                                {"port", host.port()},
-                                {"cameras", host.camera_names()}})
+        std::cout << files::json_text({{"link", host.link()},
+                                       {"port", host.port()},
+                                       {"cameras", host.camera_names()}})
                   << std::endl;
     } else {
         std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
@@ -118,7 +119,7 @@ void run(Flags& flags) {
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line = begin, next_look = begin;
-    while (!stop_requested() &&
+    while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         obey(host, input);
@@ -135,7 +136,7 @@ void run(Flags& flags) {
         std::cout << "\n";
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);
-        out << json_text(to_json(host.figures()), 2) << "\n";
+        out << files::json_text(host::to_json(host.figures()), 2) << "\n";
         if (!out.flush())
             throw Error("Cannot write the summary to " + flags.summary + ".");
     }
@@ -163,7 +164,7 @@ void add_host_command(CLI::App& app) {
         "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
         "--listen 0.0.0.0:4400 --name 'OR 3'\n"
         "  theatron host --camera k4a:0 --region 0=200:150:240:180");
-    add_camera_option(*command, flags->options.cameras)->required();
+    cli::add_camera_option(*command, flags->options.cameras)->required();
     command
         ->add_option("--region", flags->regions,
                      "CAMERA=X:Y:WIDTH:HEIGHT, the part of a camera's depth image that stays exact "
@@ -194,7 +195,7 @@ void add_host_command(CLI::App& app) {
     command->add_option(
         "--state", flags->state,
         "Folder for the host's key, certificate and token (default: ~/.local/state/theatron)");
-    add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->add_option("--summary", flags->summary,
                         "Write what went on as JSON to this file at the end");
     command->add_flag("--json", flags->json, "Print one JSON line with the link instead of text");

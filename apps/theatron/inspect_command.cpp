@@ -7,12 +7,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "cli/progress.h"
 #include "commands.h"
-#include "filter_choice.h"
+#include "export/verify_recording.h"
 #include "geometry/calibration.h"
-#include "progress.h"
+#include "host/filter_choice.h"
 #include "record/recording_file.h"
-#include "verify_recording.h"
 
 namespace theatron::app {
 namespace {
@@ -41,7 +41,7 @@ Figures figures_of(const record::StreamContent& stream, double nominal_fps) {
         if (i == 0)
             continue;
         const record::RecordedFrame& before = stream.frames[i - 1];
-        f.missing += frames_between(before, frame);
+        f.missing += exporting::frames_between(before, frame);
         const double pause_ms = to_ms(frame.time() - before.time());
         f.gaps += pause_ms > 1500 / nominal_fps;
         f.longest_gap_ms = std::max(f.longest_gap_ms, pause_ms);
@@ -187,7 +187,7 @@ void print_filtering(const Json& depth) {
     for (const Json& change : depth["filters"]) {
         const std::string filters = change["filters"];
         print("          from %.1f s on: %s\n", double(change["from_seconds"]),
-              filters.empty() ? "no filters" : shown_filter(filters).c_str());
+              filters.empty() ? "no filters" : host::shown_filter(filters).c_str());
     }
 }
 
@@ -247,10 +247,10 @@ void print_minutes(const Json& camera) {
 // Decodes everything and says what is damaged. True if nothing is.
 bool add_verification(const std::shared_ptr<const record::RecordingFile>& recording,
                       const std::string& file, Json& json) {
-    const Verification found = verify(recording, file, show_progress());
+    const exporting::Verification found = exporting::verify(recording, file, cli::show_progress());
     for (std::size_t i = 0; i < found.cameras.size(); ++i) {
         Json minutes = Json::array();
-        const auto describe_minute = [](const VerifiedPictures& p) {
+        const auto describe_minute = [](const exporting::VerifiedPictures& p) {
             return Json{{"pictures", p.pictures},
                         {"damaged", p.damaged},
                         {"undecodable", p.undecodable},

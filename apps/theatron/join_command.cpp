@@ -11,21 +11,21 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "cli/seconds_option.h"
+#include "cli/stop_signal.h"
+#include "client/participant.h"
 #include "commands.h"
+#include "files/json_text.h"
 #include "files/png_file.h"
-#include "head_text.h"
 #include "input_lines.h"
-#include "json_text.h"
 #include "link_argument.h"
-#include "participant.h"
-#include "participant_figures.h"
-#include "renderer_text.h"
-#include "seconds_option.h"
+#include "participant_json.h"
 #include "session/renderer_choice.h"
-#include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
-#include "viewer_scene.h"
+#include "viewer/head_text.h"
+#include "viewer/offscreen_view_native.h"
+#include "viewer/renderer_text.h"
 #include "window_viewer.h"
 
 namespace theatron::app {
@@ -37,7 +37,7 @@ struct Flags {
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
     std::string offscreen, depth_file;
-    std::string renderer = automatic;
+    std::string renderer = viewer::automatic;
     std::string size = "1280x720";
     std::string view = "camera:0";
     std::string room = "on", quality = "auto";
@@ -70,8 +70,8 @@ Size parse_size(const std::string& text) {
 // Of grown-ups, on average.
 constexpr double eye_distance_m = 0.063;
 
-RoomChoice parse_room(const Flags& flags) {
-    RoomChoice choice;
+viewer::RoomChoice parse_room(const Flags& flags) {
+    viewer::RoomChoice choice;
     choice.shown = flags.room == "on";
     if (flags.quality != "auto")
         choice.quality =
@@ -94,27 +94,29 @@ double parse_render_scale(const std::string& text) {
 struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
         : size(parse_size(flags.size)),
-          view(parse_view(flags.view)),
+          view(viewer::parse_view(flags.view)),
           renderer(flags.renderer),
-          scene(parse_room(flags), parse_seen_people(flags.people, flags.myself)) {
-        check_renderer_choice(flags.renderer);
+          scene(parse_room(flags), viewer::parse_seen_people(flags.people, flags.myself)) {
+        viewer::check_renderer_choice(flags.renderer);
     }
 
     // What is new, also what the host said about drawing.
-    void take(Participant& participant) {
+    void take(client::Participant& participant) {
         scene.take(participant);
         if (const auto word = participant.take_renderer_word())
-            if (const std::string problem = follow_host(renderer, *word); !problem.empty())
+            if (const std::string problem = viewer::follow_host(renderer, *word); !problem.empty())
                 std::fprintf(stderr, "%s\n", problem.c_str());
         participant.tell_renderer(drawn_with());
     }
 
-    std::string drawn_with() const { return renderer_for(renderer.renderer(), scene.cameras()); }
+    std::string drawn_with() const {
+        return viewer::renderer_for(renderer.renderer(), scene.cameras());
+    }
 
     void write(const Flags& flags) {
         if (!scene.has_picture())
             throw Error("No picture came from the host, so none was written.");
-        ViewerScene::Wish wish{view, size, drawn_with(), {}};
+        viewer::OffscreenView::Wish wish{view, size, drawn_with(), {}};
         if (flags.stereo)
             wish.eye_distance_m = eye_distance_m;
         if (!flags.offscreen.empty())
@@ -124,16 +126,16 @@ struct OffscreenPicture {
     }
 
     Size size;
-    ViewChoice view;
+    viewer::ViewChoice view;
     session::RendererChoice renderer;
-    ViewerScene scene;
+    viewer::OffscreenView scene;
 };
 
 std::uint32_t to_kbit(double mbit) {
     return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
 }
 
-void choose_delivery(Participant& participant, bool latency, double value) {
+void choose_delivery(client::Participant& participant, bool latency, double value) {
     wire::ChooseDelivery goal = participant.status().goal;
     if (latency)
         goal.target_latency_ms = std::uint32_t(std::min(value, 60'000.0));
@@ -144,7 +146,7 @@ void choose_delivery(Participant& participant, bool latency, double value) {
 
 // Lines on standard input change what is sent: "depth rvl", "latency 200". False
 // after "quit".
-bool obey(Participant& participant, const std::string& line) {
+bool obey(client::Participant& participant, const std::string& line) {
     std::istringstream words(line);
     std::string what, value;
     words >> what >> value;
@@ -164,7 +166,7 @@ bool obey(Participant& participant, const std::string& line) {
 }
 
 // Obeys what has been typed so far. False if this ends the program.
-bool obey(Participant& participant, InputLines& input) {
+bool obey(client::Participant& participant, InputLines& input) {
     while (const auto line = input.next())
         if (!obey(participant, *line))
             return false;
@@ -172,7 +174,7 @@ bool obey(Participant& participant, InputLines& input) {
 }
 
 void run(const Flags& flags) {
-    Participant::Options options;
+    client::Participant::Options options;
     options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     const auto depth = video::parse_depth_setting(flags.depth_codec);
@@ -188,12 +190,12 @@ void run(const Flags& flags) {
     options.remark = [](const std::string& text) { log::say(text); };
 
     if (flags.window()) {
-        check_renderer_choice(flags.renderer);
-        WindowViewer viewer({options, parse_size(flags.size), parse_view(flags.view),
-                             parse_room(flags), parse_seen_people(flags.people, flags.myself),
-                             flags.renderer, parse_render_scale(flags.render_scale),
-                             flags.seconds});
-        catch_stop_signals();
+        viewer::check_renderer_choice(flags.renderer);
+        WindowViewer viewer({options, parse_size(flags.size), viewer::parse_view(flags.view),
+                             parse_room(flags),
+                             viewer::parse_seen_people(flags.people, flags.myself), flags.renderer,
+                             parse_render_scale(flags.render_scale), flags.seconds});
+        cli::catch_stop_signals();
         viewer.run();
         return;
     }
@@ -202,8 +204,8 @@ void run(const Flags& flags) {
     if (!flags.offscreen.empty() || !flags.depth_file.empty())
         picture = std::make_unique<OffscreenPicture>(flags);
 
-    catch_stop_signals();
-    Participant participant(options);
+    cli::catch_stop_signals();
+    client::Participant participant(options);
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
@@ -213,7 +215,7 @@ void run(const Flags& flags) {
     bool warm = flags.warmup <= 0;
     InputLines input;
 
-    while (!stop_requested()) {
+    while (!cli::stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
             first_frame = steady_now();
         if (picture)
@@ -222,9 +224,9 @@ void run(const Flags& flags) {
             (void)participant.take_frames();
 
         const auto status = participant.status();
-        if (status.phase == Participant::Phase::refused)
+        if (status.phase == client::Participant::Phase::refused)
             throw Error(status.problem);
-        if (status.phase == Participant::Phase::ended)
+        if (status.phase == client::Participant::Phase::ended)
             break;
         if (!obey(participant, input))
             break;
@@ -239,7 +241,7 @@ void run(const Flags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << json_text(participant_figures(participant)) << std::endl;
+            std::cout << files::json_text(participant_json(participant)) << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -248,11 +250,11 @@ void run(const Flags& flags) {
     }
     if (live_line)
         std::cout << "\n";
-    const nlohmann::json figures = participant_figures(participant);
+    const nlohmann::json figures = participant_json(participant);
     if (picture)
         picture->write(flags);
     if (flags.json)
-        std::cout << json_text(figures) << std::endl;
+        std::cout << files::json_text(figures) << std::endl;
     else if (!live_line)
         std::cout << status_line(participant) << std::endl;
 }
@@ -298,7 +300,7 @@ void add_join_command(CLI::App& app) {
     command
         ->add_option(
             "--renderer", flags->renderer,
-            join_names(renderer_choices()) +
+            join_names(viewer::renderer_choices()) +
                 "; auto is blend for two cameras and more, in a window whatever keeps up. The "
                 "host may set another")
         ->capture_default_str();
@@ -336,8 +338,8 @@ void add_join_command(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_flag("--stereo", flags->stereo,
                       "With --offscreen: what the left and the right eye see, beside each other");
-    add_seconds_option(*command, flags->seconds,
-                       "End this long after the first picture (default with --offscreen: 3)");
+    cli::add_seconds_option(*command, flags->seconds,
+                            "End this long after the first picture (default with --offscreen: 3)");
     command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
     command->add_option("--every", flags->every,
                         "Print the figures as a JSON line every so many seconds");

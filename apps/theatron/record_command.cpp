@@ -12,13 +12,14 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
-#include "camera_option.h"
+#include "cli/camera_option.h"
+#include "cli/progress.h"
+#include "cli/seconds_option.h"
+#include "cli/stop_signal.h"
+#include "client/session_recording.h"
 #include "commands.h"
+#include "host/camera_recording.h"
 #include "link_argument.h"
-#include "progress.h"
-#include "record_source.h"
-#include "seconds_option.h"
-#include "stop_signal.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -40,7 +41,7 @@ struct Flags {
     bool json = false;
 };
 
-RecordCodecs check_codecs(const Flags& flags) {
+record::RecordCodecs check_codecs(const Flags& flags) {
     const auto depth = video::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
     // A session's host encodes; one's own cameras are encoded here.
@@ -65,8 +66,8 @@ record::Recorder::Options recorder_options(const Flags& flags) {
     return {std::size_t(flags.buffer_mb) << 20, flags.overwrite};
 }
 
-std::unique_ptr<RecordSource> open_source(const Flags& flags) {
-    const RecordCodecs codecs = check_codecs(flags);
+std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
+    const record::RecordCodecs codecs = check_codecs(flags);
     const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
     if (!flags.overwrite && std::filesystem::exists(file))
@@ -76,11 +77,11 @@ std::unique_ptr<RecordSource> open_source(const Flags& flags) {
             throw Error(
                 "Say what to record: 'theatron record LINK FILE.mkv' or 'theatron record "
                 "--camera SPEC FILE.mkv'.");
-        return record_session(parse_link_argument(flags.names[0]), file, codecs, options);
+        return client::record_session(parse_link_argument(flags.names[0]), file, codecs, options);
     }
     if (flags.names.size() != 1)
         throw Error("With --camera, only the file to record into can be named.");
-    return record_cameras(flags.cameras, file, codecs, options, show_progress());
+    return host::record_cameras(flags.cameras, file, codecs, options, cli::show_progress());
 }
 
 double free_gigabytes(const std::string& file) {
@@ -118,7 +119,7 @@ struct Missing {
 };
 
 // Says what the recording has of each camera, and sums up what is missing.
-nlohmann::json describe(RecordSource& source, TimePoint begin, Missing& missing) {
+nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& missing) {
     nlohmann::json cameras = nlohmann::json::array();
     for (const record::Intake::Stream& stream : source.intake().streams(steady_now())) {
         const CameraId camera = camera_of(stream.id);
@@ -173,9 +174,9 @@ private:
 };
 
 void run(const Flags& flags) {
-    catch_stop_signals();
+    cli::catch_stop_signals();
     const std::string& file = flags.names.back();
-    const std::unique_ptr<RecordSource> source = open_source(flags);
+    const std::unique_ptr<record::RecordSource> source = open_source(flags);
     record::Intake& intake = source->intake();
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const auto say = [&](const std::string& text) {
@@ -183,11 +184,11 @@ void run(const Flags& flags) {
     };
     FileWatch watch(file);
     bool deleted = false;
-    std::optional<RecordSource::End> end;
+    std::optional<record::RecordSource::End> end;
     TimePoint begin{}, next_look{};
     double cpu_before = 0;
 
-    while (!stop_requested() && !(end = source->ended())) {
+    while (!cli::stop_requested() && !(end = source->ended())) {
         std::this_thread::sleep_for(20ms);
         source->tick();
         for (const std::string& sentence : intake.news(steady_now()))
@@ -291,14 +292,14 @@ void add_record_command(CLI::App& app) {
                      "and the file to write")
         ->required()
         ->expected(1, 2);
-    add_camera_option(*command, flags->cameras);
+    cli::add_camera_option(*command, flags->cameras);
     command->add_option("--depth-codec", flags->depth_codec, "How depth is encoded")
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How colour is encoded")
         ->capture_default_str();
     command->add_flag("--raw", flags->raw,
                       "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
-    add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command
         ->add_option("--buffer", flags->buffer_mb,
                      "Megabytes of pictures that may wait for a disk that stands still")

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "cli/progress.h"
 #include "commands.h"
-#include "progress.h"
 #include "record/recover.h"
 
 namespace theatron::app {
@@ -26,7 +26,7 @@ std::string default_out(const std::filesystem::path& file) {
 
 void run(const Flags& flags) {
     const auto recording = record::RecordingFile::open(flags.file);
-    const capture::Progress show = show_progress();
+    const capture::Progress show = cli::show_progress();
     const record::Recovered saved = record::recover(
         *recording, flags.out.empty() ? default_out(flags.file) : flags.out, [&](double done) {
             if (show)

@@ -60,18 +60,4 @@ RegionText parse_region(const std::string& text) {
     return {text.substr(0, equals), parse_polygon(std::string_view(text).substr(equals + 1))};
 }
 
-std::size_t find_camera(const std::string& number_or_name, const std::vector<std::string>& names) {
-    const auto named = std::find(names.begin(), names.end(), number_or_name);
-    if (named != names.end())
-        return std::size_t(named - names.begin());
-    std::size_t number = 0;
-    const char* const end = number_or_name.data() + number_or_name.size();
-    const auto [next, error] = std::from_chars(number_or_name.data(), end, number);
-    if (error != std::errc() || next != end || number >= names.size())
-        throw Error("There is no camera '" + number_or_name +
-                    "'; the cameras have the numbers 0 to " + std::to_string(names.size() - 1) +
-                    ".");
-    return number;
-}
-
 }  // namespace theatron::app

@@ -23,7 +23,4 @@ struct RegionText {
 // "CAMERA=NUMBERS"; throws Error with one sentence if it is not.
 RegionText parse_region(const std::string& text);
 
-// The number of the camera that is meant; throws Error if there is none.
-std::size_t find_camera(const std::string& number_or_name, const std::vector<std::string>& names);
-
 }  // namespace theatron::app

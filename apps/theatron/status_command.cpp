@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "host_figures.h"
-#include "host_http.h"
-#include "json_text.h"
+#include "files/json_text.h"
+#include "host/host_figures.h"
+#include "host/host_http.h"
 #include "link_argument.h"
 
 namespace theatron::app {
@@ -23,11 +23,11 @@ void add_status_command(CLI::App& app) {
         ->required();
     command->add_flag("--json", flags->json, "Print everything as one JSON line");
     command->callback([flags] {
-        const nlohmann::json figures = status_of_host(parse_link_argument(flags->link));
+        const nlohmann::json figures = host::status_of_host(parse_link_argument(flags->link));
         if (flags->json)
-            std::printf("%s\n", json_text(figures).c_str());
+            std::printf("%s\n", files::json_text(figures).c_str());
         else
-            std::printf("%s", to_table(figures).c_str());
+            std::printf("%s", host::to_table(figures).c_str());
     });
 }
 

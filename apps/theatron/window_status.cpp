@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window_status.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "filter_choice.h"
-#include "participant_figures.h"
+#include "client/participant_figures.h"
+#include "host/filter_choice.h"
+#include "wire/condition_text.h"
 
 namespace theatron::app {
 namespace {
@@ -27,40 +28,30 @@ std::string age_text(double ms) {
     return rounded(std::floor(ms / 60'000), 0, "min");
 }
 
-const std::string& text_of(const nlohmann::json& camera, const char* field) {
-    return camera[field].get_ref<const std::string&>();
-}
-
 // "2 live", or "1 live, 1 stale".
-xr::Fact cameras_fact(const nlohmann::json& cameras) {
+xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
+    using Condition = wire::CameraCondition;
     std::string text;
     bool trouble = false;
-    for (const char* state : {"live", "stale", "ended", "failed"}) {
-        int count = 0;
-        for (const auto& camera : cameras)
-            count += text_of(camera, "state") == state;
+    for (const Condition condition :
+         {Condition::live, Condition::stale, Condition::ended, Condition::failed}) {
+        const auto count = std::count_if(cameras.begin(), cameras.end(), [&](const auto& camera) {
+            return camera.camera.state.condition == condition;
+        });
         if (count == 0)
             continue;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + state;
-        trouble = trouble || state != std::string("live");
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + wire::text_of(condition);
+        trouble = trouble || condition != Condition::live;
     }
     return {"Cameras", text.empty() ? "none" : text, trouble};
 }
 
-// The slowest of those that should deliver.
-double received_per_second(const nlohmann::json& cameras) {
-    std::optional<double> least;
-    for (const auto& camera : cameras)
-        if (text_of(camera, "state") == "live")
-            least = std::min(least.value_or(1e9), camera["fps"].get<double>());
-    return least.value_or(0);
-}
-
-// What the cameras have in common, or that they differ.
-std::string common(const nlohmann::json& cameras, const char* field) {
+// The one text that all cameras have, "several" if they differ, "none" if there is none.
+template <class TextOf>
+std::string common(const std::vector<client::CameraFigures>& cameras, const TextOf& text_of) {
     std::string text;
     for (const auto& camera : cameras) {
-        const std::string& value = text_of(camera, field);
+        const std::string value = text_of(camera);
         if (value.empty() || value == text)
             continue;
         if (!text.empty())
@@ -84,33 +75,35 @@ std::string drawing_text(const OnScreen& screen) {
 
 }  // namespace
 
-std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen) {
+std::vector<xr::Fact> window_facts(const client::Participant& participant, const OnScreen& screen) {
     const auto status = participant.status();
-    const bool joined = status.phase == Participant::Phase::joined;
+    const bool joined = status.phase == client::Participant::Phase::joined;
     std::vector<xr::Fact> facts;
     facts.push_back({"Host", status.host_name.empty() ? screen.address : status.host_name});
     if (!joined)
-        facts.push_back({"Connection",
-                         status.phase == Participant::Phase::connecting ? "connecting" : "none",
-                         status.phase != Participant::Phase::connecting});
+        facts.push_back(
+            {"Connection",
+             status.phase == client::Participant::Phase::connecting ? "connecting" : "none",
+             status.phase != client::Participant::Phase::connecting});
     const xr::Fact age{"Age of picture", screen.age_ms ? age_text(*screen.age_ms) : "unknown",
                        screen.age_ms && *screen.age_ms > old_ms};
     if (joined) {
-        const nlohmann::json f = participant_figures(participant);
-        const auto& cameras = f["cameras"];
+        const client::ParticipantFigures figures = client::figures_of(participant);
+        const auto& cameras = figures.cameras;
         facts.push_back(cameras_fact(cameras));
         if (screen.has_picture)
             facts.push_back(age);
-        facts.push_back({"Received", rounded(received_per_second(cameras), 0, "fps")});
+        facts.push_back({"Received", rounded(figures.live_frames_per_second(), 0, "fps")});
         facts.push_back({"Drawn", rounded(screen.drawn_per_second, 0, "fps")});
-        facts.push_back({"Data", rounded(f["mbit_per_s"], 1, "Mbit/s")});
-        facts.push_back({"Dropped", std::to_string(f["dropped"].get<std::uint64_t>())});
+        facts.push_back({"Data", rounded(figures.mbit_per_second(), 1, "Mbit/s")});
+        facts.push_back({"Dropped", std::to_string(figures.dropped())});
         if (status.delivery.level > 0)
             facts.push_back({"Sent", status.delivery.what, true});
-        facts.push_back({"Depth", common(cameras, "depth_codec")});
-        facts.push_back({"Colour", common(cameras, "color_codec")});
-        const std::string filter = common(cameras, "filter");
-        facts.push_back({"Filter", shown_filter(filter == "none" ? std::string() : filter)});
+        facts.push_back({"Depth", common(cameras, [](const auto& c) { return c.depth.codec; })});
+        facts.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
+        const std::string filter =
+            common(cameras, [](const auto& c) { return c.camera.state.filter; });
+        facts.push_back({"Filter", host::shown_filter(filter == "none" ? std::string() : filter)});
     } else if (screen.has_picture) {
         facts.push_back(age);
     }
@@ -119,32 +112,33 @@ std::vector<xr::Fact> window_facts(const Participant& participant, const OnScree
     return facts;
 }
 
-std::string window_warning(const Participant::Status& status, const OnScreen& screen) {
+std::string window_warning(const client::Participant::Status& status, const OnScreen& screen) {
     constexpr double still_ms = 2000;
-    const bool joined = status.phase == Participant::Phase::joined;  // else the message tells
+    const bool joined =
+        status.phase == client::Participant::Phase::joined;  // else the message tells
     if (!joined || !screen.has_picture || !screen.age_ms || *screen.age_ms < still_ms)
         return {};
     return "This picture is " + age_text(*screen.age_ms) + " old";
 }
 
-WindowMessage window_message(const Participant::Status& status, const OnScreen& screen) {
+WindowMessage window_message(const client::Participant::Status& status, const OnScreen& screen) {
     const std::string old = screen.has_picture && screen.age_ms && *screen.age_ms >= 1000
                                 ? "This picture is " + age_text(*screen.age_ms) + " old. "
                                 : "";
     switch (status.phase) {
-        case Participant::Phase::joined:
+        case client::Participant::Phase::joined:
             if (!screen.has_picture)
                 return {"Waiting for the first picture…", ""};
             return {};
-        case Participant::Phase::connecting:
+        case client::Participant::Phase::connecting:
             return {"Connecting…", screen.address};
-        case Participant::Phase::lost:
+        case client::Participant::Phase::lost:
             return {status.joins > 0 ? "Connection lost, trying again…"
                                      : "No connection yet, trying again…",
                     old + status.problem};
-        case Participant::Phase::refused:
+        case client::Participant::Phase::refused:
             return {"The host does not let you in", status.problem + " Press Esc to leave."};
-        case Participant::Phase::ended:
+        case client::Participant::Phase::ended:
             return {"The session is over", old + status.problem + " Press Esc to leave."};
     }
     return {};

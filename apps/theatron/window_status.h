@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "participant.h"
+#include "client/participant.h"
 #include "xr/drawing_pace.h"
 #include "xr/overlay_native.h"
 
@@ -21,15 +21,15 @@ struct OnScreen {
     std::string address;  // of the host
 };
 
-std::vector<xr::Fact> window_facts(const Participant& participant, const OnScreen& screen);
+std::vector<xr::Fact> window_facts(const client::Participant& participant, const OnScreen& screen);
 
 // What a person must not overlook in a picture that seems all right: that it stands still.
-std::string window_warning(const Participant::Status& status, const OnScreen& screen);
+std::string window_warning(const client::Participant::Status& status, const OnScreen& screen);
 
 // Both empty while everything is as it should be.
 struct WindowMessage {
     std::string message, detail;
 };
-WindowMessage window_message(const Participant::Status& status, const OnScreen& screen);
+WindowMessage window_message(const client::Participant::Status& status, const OnScreen& screen);
 
 }  // namespace theatron::app

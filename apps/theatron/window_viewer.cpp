@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
-#include "participant_figures.h"
-#include "renderer_text.h"
-#include "stop_signal.h"
+#include "cli/stop_signal.h"
+#include "participant_json.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
+#include "viewer/renderer_text.h"
 
 namespace theatron::app {
 namespace {
@@ -37,7 +37,7 @@ WindowViewer::WindowViewer(Options options)
       pace_(xr::automatic_ways(1, options_.scale)),
       participant_(with_callbacks(options_.join)) {}
 
-Participant::Options WindowViewer::with_callbacks(Participant::Options join) {
+client::Participant::Options WindowViewer::with_callbacks(client::Participant::Options join) {
     join.news = [this] { window_.wake(); };
     join.remark = [this, also = join.remark](const std::string& text) {
         also(text);
@@ -58,7 +58,7 @@ void WindowViewer::note(const std::string& text, Duration length) {
 
 void WindowViewer::run() {
     TimePoint next_picture{};
-    while (!stop_requested()) {
+    while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
         window_.wait((before < next_picture || fading_ ? next_picture : next_texts_) - before);
 
@@ -113,7 +113,7 @@ bool WindowViewer::obey(const xr::WindowInput& input) {
 }
 
 void WindowViewer::obey(const xr::KeyPress& key) {
-    Participant::Options& join = options_.join;
+    client::Participant::Options& join = options_.join;
     switch (key.action) {
         case xr::Action::help:
             texts_.help = !texts_.help;
@@ -137,7 +137,7 @@ void WindowViewer::obey(const xr::KeyPress& key) {
             break;
         case xr::Action::own_view:
         case xr::Action::view_camera: {
-            ViewChoice choice{options_.view.camera, 0, 0};
+            viewer::ViewChoice choice{options_.view.camera, 0, 0};
             if (key.action == xr::Action::view_camera)
                 choice.camera = CameraId(key.camera);
             try {
@@ -154,7 +154,7 @@ void WindowViewer::obey(const xr::KeyPress& key) {
 }
 
 void WindowViewer::choose_renderer() {
-    if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
+    if (!choice_.choose(next_name(viewer::renderer_choices(), choice_.renderer())))
         return note("The host has set this way of drawing: " + choice_.renderer(), choice_shown);
     choose_pace();
     const bool as_drawn = choice_.renderer() == way().renderer;
@@ -167,7 +167,7 @@ void WindowViewer::follow_host() {
     if (!word)
         return;
     const session::RendererChoice before = choice_;
-    if (const std::string problem = app::follow_host(choice_, *word); !problem.empty())
+    if (const std::string problem = viewer::follow_host(choice_, *word); !problem.empty())
         return note(problem, remark_shown);
     if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
         note(choice_.locked() || !before.locked()
@@ -179,7 +179,7 @@ void WindowViewer::follow_host() {
 
 // Begins anew where there are other ways to draw than before.
 void WindowViewer::choose_pace() {
-    auto ways = choice_.renderer() == automatic
+    auto ways = choice_.renderer() == viewer::automatic
                     ? xr::automatic_ways(scene_.calibrations().size(), options_.scale)
                     : xr::ways_of(choice_.renderer(), options_.scale);
     if (ways == pace_.ways())
@@ -189,7 +189,7 @@ void WindowViewer::choose_pace() {
 }
 
 // Throws Error if that camera does not exist or sent nothing yet.
-void WindowViewer::go_home(const ViewChoice& choice) {
+void WindowViewer::go_home(const viewer::ViewChoice& choice) {
     const auto own = choice.resolve(scene_.calibrations(), scene_.newest(), window_.pixels());
     const Calibration& calibration = scene_.calibrations().at(choice.camera);
     const DepthView depth = scene_.newest().at(choice.camera)->depth.view();
@@ -274,7 +274,7 @@ void WindowViewer::update_texts(TimePoint now) {
         }
     }
     const auto status = participant_.status();
-    if (status.phase == Participant::Phase::refused && status.joins == 0)
+    if (status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
 
     OnScreen screen;
@@ -286,9 +286,9 @@ void WindowViewer::update_texts(TimePoint now) {
     }
     screen.drawn_per_second = drawn_.per_second(now);
     screen.way = way();
-    screen.renderer_by = choice_.locked()                  ? OnScreen::By::host
-                         : choice_.renderer() == automatic ? OnScreen::By::program
-                                                           : OnScreen::By::person;
+    screen.renderer_by = choice_.locked()                          ? OnScreen::By::host
+                         : choice_.renderer() == viewer::automatic ? OnScreen::By::program
+                                                                   : OnScreen::By::person;
     participant_.tell_renderer(screen.way.renderer);
     screen.address = options_.join.link.host + ":" + std::to_string(options_.join.link.port);
 
@@ -348,7 +348,7 @@ void WindowViewer::draw(TimePoint begin) {
     // The session's time is known once the host has answered.
     presented_at_ = end;
     const auto status = participant_.status();
-    if (status.phase == Participant::Phase::joined && status.round_trip > Duration{}) {
+    if (status.phase == client::Participant::Phase::joined && status.round_trip > Duration{}) {
         const TimePoint presented = participant_.now();
         double age_ms = 0;
         for (const CameraId camera : updated_)

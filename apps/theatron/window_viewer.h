@@ -8,10 +8,10 @@
 #include <string>
 
 #include "base/statistics.h"
-#include "live_scene.h"
-#include "participant.h"
+#include "client/participant.h"
 #include "session/renderer_choice.h"
-#include "view_choice.h"
+#include "viewer/live_scene.h"
+#include "viewer/view_choice.h"
 #include "window_status.h"
 #include "xr/desktop_window_native.h"
 #include "xr/drawing_pace.h"
@@ -23,11 +23,11 @@ namespace theatron::app {
 class WindowViewer {
 public:
     struct Options {
-        Participant::Options join;
+        client::Participant::Options join;
         Size size{1280, 720};
-        ViewChoice view;
-        RoomChoice room;
-        std::vector<SeenPerson> people;
+        viewer::ViewChoice view;
+        viewer::RoomChoice room;
+        std::vector<viewer::SeenPerson> people;
         std::string renderer = "auto";
         double scale = 0;    // of the window's pixels to draw; 0: as there is time for
         double seconds = 0;  // end this long after the first picture; 0: never
@@ -40,7 +40,7 @@ public:
     void run();
 
 private:
-    Participant::Options with_callbacks(Participant::Options join);
+    client::Participant::Options with_callbacks(client::Participant::Options join);
     bool obey(const xr::WindowInput& input);
     void obey(const xr::KeyPress& key);
     void note(const std::string& text, Duration length);
@@ -48,7 +48,7 @@ private:
     void follow_host();
     void choose_pace();
     const xr::DrawingWay& way() const { return pace_.way(); }
-    void go_home(const ViewChoice& choice);
+    void go_home(const viewer::ViewChoice& choice);
     void find_view();
     std::string camera_text(CameraId camera) const;
     render::CameraView view() const;
@@ -60,7 +60,7 @@ private:
 
     Options options_;
     xr::DesktopWindow window_;
-    LiveScene scene_;
+    viewer::LiveScene scene_;
     xr::ScaledPicture picture_;
     xr::Overlay overlay_;
 
@@ -93,7 +93,7 @@ private:
     std::mutex mutex_;
     std::vector<std::string> remarks_;  // from the participant's thread
 
-    Participant participant_;  // last: its thread uses the window and the remarks
+    client::Participant participant_;  // last: its thread uses the window and the remarks
 };
 
 }  // namespace theatron::app

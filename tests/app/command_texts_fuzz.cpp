@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "head_text.h"
 #include "region_text.h"
-#include "view_choice.h"
+#include "viewer/head_text.h"
+#include "viewer/view_choice.h"
 
 namespace {
 
@@ -40,18 +40,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              });
     try_text(
         [&] {
-            return app::find_camera(text, {"left", "right"});
+            return find_camera(text, {"left", "right"});
         },
         [](std::size_t camera) { require(camera < 2); });
-    for (const app::Seen who : {app::Seen::other, app::Seen::oneself})
-        try_text([&] { return app::parse_seen_person(text, who); },
-                 [](const app::SeenPerson& person) {
+    for (const viewer::Seen who : {viewer::Seen::other, viewer::Seen::oneself})
+        try_text([&] { return viewer::parse_seen_person(text, who); },
+                 [](const viewer::SeenPerson& person) {
                      const Vec3 eyes = person.room_from_head * Vec3{0, 0, 0};
                      require(std::isfinite(eyes.x + eyes.y + eyes.z));
                      require(std::isfinite(person.reach_m) && person.reach_m > 0);
                  });
-    try_text([&] { return app::parse_view(text); },
-             [](const app::ViewChoice& view) {
+    try_text([&] { return viewer::parse_view(text); },
+             [](const viewer::ViewChoice& view) {
                  require(std::abs(view.yaw_degrees) <= 180 && std::abs(view.pitch_degrees) <= 80);
              });
     return 0;

@@ -29,6 +29,9 @@ class Hardening(unittest.TestCase):
         self.assertIn("__stack_chk_fail", imported)
         self.assertRegex(imported, r"__(memcpy|memmove|memset|snprintf|read)_chk")
 
+    def test_no_library_is_loaded_that_only_a_benchmark_needs(self):
+        self.assertNotRegex(readelf("--dynamic"), r"(?i)NEEDED.*(opencv|charls)")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "cli/stop_signal.h"
+
+namespace theatron::cli {
+
+capture::Progress show_progress() {
+    struct State {
+        std::string what;
+        TimePoint begin;
+        int shown = -1;  // percent
+    };
+    const auto state = std::make_shared<State>();
+    const bool terminal = isatty(STDERR_FILENO);
+    return [state, terminal](std::string_view what, double done) {
+        if (stop_requested())
+            throw Error("Stopped before this was complete: " + std::string(what) + ".");
+        if (state->what != what)
+            *state = {std::string(what), steady_now(), -1};
+        // What is over at once needs no progress.
+        if (steady_now() - state->begin < 1s)
+            return;
+        const int percent = int(done * 100) / (terminal ? 1 : 10) * (terminal ? 1 : 10);
+        if (percent == state->shown)
+            return;
+        state->shown = percent;
+        std::fprintf(stderr, terminal ? "\r\033[K%s %d %%" : "%s %d %%\n", state->what.c_str(),
+                     percent);
+        if (terminal && percent >= 100)
+            std::fputc('\n', stderr);
+    };
+}
+
+}  // namespace theatron::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long a command runs, as an option of several commands.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+namespace theatron::cli {
+
+// Three years: longer than anything runs, and well within a clock's range.
+inline constexpr double longest_seconds = 1e8;
+
+// Takes `seconds` from --seconds; refuses what is not a time greater than 0.
+inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds,
+                                       const std::string& help) {
+    return command.add_option("--seconds", seconds, help)
+        ->check([](const std::string& text) -> std::string {
+            double value = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            if (is_number && std::isfinite(value) && value > 0 && value <= longest_seconds)
+                return "";
+            return "'" + text + "' is not a number of seconds greater than 0";
+        });
+}
+
+}  // namespace theatron::cli

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM end a command cleanly: what runs is told to stop, files are
+// closed, figures are printed.
+#pragma once
+
+namespace theatron::cli {
+
+// From now on the signals only set a flag.
+void catch_stop_signals();
+bool stop_requested();
+
+}  // namespace theatron::cli

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "client/participant_figures.h"
+#include "wire/condition_text.h"
+
+namespace theatron::app {
+namespace {
+
+const char* text_of(receive::Exactness exact) {
+    switch (exact) {
+        case receive::Exactness::nowhere:
+            return "nowhere";
+        case receive::Exactness::region:
+            return "region";
+        case receive::Exactness::everywhere:
+            return "everywhere";
+    }
+    return "unknown";
+}
+
+nlohmann::json age(const receive::StreamFigures& f) {
+    return {{"p50", f.age_p50_ms}, {"p99", f.age_p99_ms}, {"max", f.age_max_ms}};
+}
+
+struct OldestAge {
+    double p50 = 0, p99 = 0, max = 0;
+
+    explicit OldestAge(const client::ParticipantFigures& figures) {
+        for (const client::CameraFigures& camera : figures.cameras)
+            for (const receive::StreamFigures* stream : {&camera.depth, &camera.color}) {
+                p50 = std::max(p50, stream->age_p50_ms);
+                p99 = std::max(p99, stream->age_p99_ms);
+                max = std::max(max, stream->age_max_ms);
+            }
+    }
+};
+
+std::string codecs_of_last(const client::ParticipantFigures& figures) {
+    if (figures.cameras.empty())
+        return "";
+    const client::CameraFigures& camera = figures.cameras.back();
+    return camera.depth.codec + (camera.color.codec.empty() ? "" : " " + camera.color.codec);
+}
+
+nlohmann::json camera_json(const client::CameraFigures& figures) {
+    const auto& [camera, depth, color] = figures;
+    return {{"name", camera.description.name},
+            {"state", wire::text_of(camera.state.condition)},
+            {"problem", camera.state.problem},
+            {"filter", camera.state.filter},
+            {"fps", depth.frames_per_second},
+            {"frames", depth.frames},
+            {"mbit_per_s", figures.mbit_per_second()},
+            {"newest_age_ms", depth.age_ms},
+            {"age_now_ms", depth.age_now_ms},
+            {"age_ms", age(depth)},
+            {"color_age_ms", age(color)},
+            {"dropped", figures.dropped()},
+            {"depth_codec", depth.codec},
+            {"depth_exact", text_of(depth.exact)},
+            {"color_codec", color.codec}};
+}
+
+}  // namespace
+
+nlohmann::json participant_json(const client::Participant& participant) {
+    const client::ParticipantFigures figures = client::figures_of(participant);
+    const client::Participant::Status& status = figures.status;
+    nlohmann::json cameras = nlohmann::json::array();
+    for (const client::CameraFigures& camera : figures.cameras)
+        cameras.push_back(camera_json(camera));
+    const OldestAge age(figures);
+    return {{"host", status.host_name},
+            {"phase", client::text_of(status.phase)},
+            {"cameras", cameras},
+            {"fps", figures.frames_per_second()},
+            {"mbit_per_s", figures.mbit_per_second()},
+            {"age_ms", {{"p50", age.p50}, {"p99", age.p99}, {"max", age.max}}},
+            {"dropped", figures.dropped()},
+            {"codec", codecs_of_last(figures)},
+            {"round_trip_ms", to_ms(status.round_trip)},
+            {"clock_error_ms", to_ms(status.clock_error)},
+            {"joins", status.joins},
+            {"target_latency_ms", status.goal.target_latency_ms},
+            {"max_mbit_per_s", status.goal.max_kbit_per_s / 1000.0},
+            {"level", status.delivery.level},
+            {"levels", status.delivery.levels},
+            {"sent", status.delivery.level > 0 ? status.delivery.what : "everything"},
+            {"level_reason", status.delivery.reason}};
+}
+
+std::string status_line(const client::Participant& participant) {
+    const client::ParticipantFigures figures = client::figures_of(participant);
+    const client::Participant::Status& status = figures.status;
+    if (status.phase != client::Participant::Phase::joined)
+        return std::string(client::text_of(status.phase)) +
+               (status.problem.empty() ? "" : ": " + status.problem);
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "%s: %zu camera(s)  %.1f fps  %.1f Mbit/s  age %.0f ms  dropped %llu  ",
+                  status.host_name.c_str(), figures.cameras.size(), figures.frames_per_second(),
+                  figures.mbit_per_second(), OldestAge(figures).p50,
+                  static_cast<unsigned long long>(figures.dropped()));
+    std::string line = text + codecs_of_last(figures);
+    if (status.delivery.level > 0)
+        line += "  sent: " + status.delivery.what + " (" + status.delivery.reason + ")";
+    return line;
+}
+
+}  // namespace theatron::app

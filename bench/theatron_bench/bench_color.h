@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colour codecs measured on a sequence of pictures: sizes, times, likeness.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace theatron::bench {
+
+// As bench_depth_sequence, for colour: {sequence,width,height,frames,codecs:[{name,lossless,
+// psnr_db,bytes_first,bytes_mean,ratio,encode_ms,decode_ms}]}. psnr_db is null where nothing
+// was lost. Yardsticks: zstd1_raw packs the raw pixels with zstd level 1; each codec of JPEG has
+// a row libjpeg_turbo with the same parameters. Throws Error.
+nlohmann::json bench_color_sequence(const std::string& sequence_name,
+                                    const std::vector<ColorImage>& frames,
+                                    const std::vector<std::string>& codecs);
+
+}  // namespace theatron::bench

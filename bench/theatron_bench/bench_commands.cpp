@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench_color.h"
+#include "bench_commands.h"
+#include "bench_depth.h"
+#include "bench_filter.h"
+#include "bench_pipeline.h"
+#include "bench_plot.h"
+#include "bench_render.h"
+#include "bench_report.h"
+#include "bench_sequence.h"
+#include "bench_view.h"
+#include "capture/crop.h"
+#include "capture/tiled_recording.h"
+#include "cli/camera_option.h"
+#include "cli/progress.h"
+#include "codec/depth_codec.h"
+#include "codec/rows.h"
+#include "render/cloud_scene.h"
+#include "video/color_codec.h"
+#include "video/depth_codecs.h"
+
+namespace theatron::bench {
+namespace {
+
+// How far a lossy codec's result is from its input.
+std::string likeness(const nlohmann::json& codec) {
+    if (codec["lossless"].get<bool>())
+        return "";
+    char text[80] = "  lossy";
+    if (codec.contains("rmse_mm"))
+        std::snprintf(text, sizeof(text), "  lossy: RMSE %.1f, at most %d mm",
+                      codec["rmse_mm"].get<double>(), codec["max_error_mm"].get<int>());
+    else if (codec.contains("psnr_db") && codec["psnr_db"].is_number())
+        std::snprintf(text, sizeof(text), "  lossy: PSNR %.1f dB, SSIM %.4f",
+                      codec["psnr_db"].get<double>(), codec["ssim"].get<double>());
+    return text;
+}
+
+void print_codecs(const nlohmann::json& sequences) {
+    for (const auto& sequence : sequences) {
+        std::printf("%s  %dx%d, %d frames\n", sequence["sequence"].get<std::string>().c_str(),
+                    sequence["width"].get<int>(), sequence["height"].get<int>(),
+                    sequence["frames"].get<int>());
+        std::printf("  %-28s %9s %9s %7s %10s %10s\n", "codec", "first kB", "mean kB", "ratio",
+                    "encode ms", "decode ms");
+        for (const auto& c : sequence["codecs"])
+            std::printf("  %-28s %9.1f %9.1f %7.2f %10.2f %10.2f%s\n",
+                        c["name"].get<std::string>().c_str(), c["bytes_first"].get<double>() / 1000,
+                        c["bytes_mean"].get<double>() / 1000, c["ratio"].get<double>(),
+                        c["encode_ms"].get<double>(), c["decode_ms"].get<double>(),
+                        likeness(c).c_str());
+    }
+}
+
+struct CodecFlags {
+    std::vector<std::string> folders;
+    std::vector<std::string> codecs;
+    int frames = 150;
+    std::string json;
+    std::string plot;
+    std::string crop;
+    std::string tile;
+};
+
+CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, CodecFlags& flags) {
+    CLI::App* command = bench.add_subcommand(name, help);
+    command->add_option("folder", flags.folders, "Folders with depth/*.png and color/*")
+        ->required();
+    command->add_option("--codecs", flags.codecs,
+                        "Which codecs, separated by blanks (default: all)");
+    command->add_option("--frames", flags.frames, "At most so many frames of each")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--json", flags.json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->add_option("--plot", flags.plot, "Draw size against speed into this SVG file");
+    return command;
+}
+
+void write_plot(const nlohmann::json& sequences, const std::string& file) {
+    if (file.empty())
+        return;
+    std::ofstream out(file);
+    out << size_speed_svg(sequences);
+    if (!out.flush())
+        throw Error("Cannot write " + file + ".");
+}
+
+void crop_depth(BenchSequence& sequence, const std::string& text) {
+    if (text.empty())
+        return;
+    const auto crop = capture::parse_crop(text);
+    if (!crop)
+        throw Error("--crop " + text + " is not X:Y:WxH, for example --crop 50:50:540x476.");
+    for (DepthImage& depth : sequence.depth) {
+        if (!capture::lies_in(*crop, depth.size))
+            throw Error("--crop " + text + " reaches beyond the pictures of " + sequence.name +
+                        ".");
+        DepthImage part(crop->size);
+        codec::copy_rows(capture::part_of(std::as_const(depth).view(), *crop), part.view());
+        depth = std::move(part);
+    }
+}
+
+// Those that this machine can encode.
+std::vector<std::string> depth_codecs_here() {
+    std::vector<std::string> names;
+    for (const std::string& name : video::depth_codec_names())
+        if (video::missing_depth_encoder(video::parse_depth_setting(name).setting).empty())
+            names.push_back(name);
+    return names;
+}
+
+void add_depth(CLI::App& bench) {
+    const auto flags = std::make_shared<CodecFlags>();
+    CLI::App* command = add_codec_bench(
+        bench, "depth", "Depth codecs: size and speed, checked, one thread", *flags);
+    command->add_option("--crop", flags->crop, "Only this part of the depth, X:Y:WxH");
+    command->footer(
+        "Example: theatron bench depth recordings/table --codecs rvl trvl --json depth.json");
+    command->callback([flags] {
+        const auto codecs = flags->codecs.empty() ? depth_codecs_here() : flags->codecs;
+        nlohmann::json sequences = nlohmann::json::array();
+        for (const std::string& folder : flags->folders) {
+            BenchSequence s = load_sequence(folder, false, flags->frames);
+            crop_depth(s, flags->crop);
+            sequences.push_back(bench_depth_sequence(s.name, s.depth, codecs));
+        }
+        const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
+        report(result, flags->json, [&] { print_codecs(sequences); });
+        write_plot(sequences, flags->plot);
+    });
+}
+
+void tile_color(BenchSequence& sequence, const std::string& text) {
+    if (text.empty())
+        return;
+    Size size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+        !is_valid(size))
+        throw Error("--tile " + text + " is not WIDTHxHEIGHT, for example --tile 640x576.");
+    for (ColorImage& picture : sequence.color)
+        picture = capture::tiled(picture, size);
+}
+
+// The same for colour.
+std::vector<std::string> color_codecs_here() {
+    std::vector<std::string> names;
+    for (const std::string& name : video::color_codec_names())
+        if (video::missing_color_encoder(video::parse_color_setting(name).setting).empty())
+            names.push_back(name);
+    return names;
+}
+
+void add_color(CLI::App& bench) {
+    const auto flags = std::make_shared<CodecFlags>();
+    CLI::App* command = add_codec_bench(
+        bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
+    command->add_option("--tile", flags->tile, "Pictures repeated in space to this WIDTHxHEIGHT");
+    command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
+    command->callback([flags] {
+        const auto codecs = flags->codecs.empty() ? color_codecs_here() : flags->codecs;
+        nlohmann::json sequences = nlohmann::json::array();
+        for (const std::string& folder : flags->folders) {
+            BenchSequence s = load_sequence(folder, true, flags->frames);
+            tile_color(s, flags->tile);
+            sequences.push_back(bench_color_sequence(s.name, s.color, codecs));
+        }
+        const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
+        report(result, flags->json, [&] { print_codecs(sequences); });
+        write_plot(sequences, flags->plot);
+    });
+}
+
+void add_pipeline(CLI::App& bench) {
+    struct Flags {
+        PipelineBench bench;
+        int cameras = 0;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "pipeline", "From cameras to decoded images, host and viewers in processes of their own");
+    command->footer(
+        "Example: theatron bench pipeline --camera folder:recordings/table,loop=1,preload=1 "
+        "--cameras 4 --seconds 20");
+    cli::add_camera_option(*command, flags->bench.cameras)->required();
+    command->add_option("--cameras", flags->cameras, "So many in all, by using those given again");
+    command->add_option("--viewers", flags->bench.viewers, "Participants")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command->add_option("--seconds", flags->bench.seconds, "Measured time")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 86400));
+    command->add_option("--warmup", flags->bench.warmup_seconds, "Time before that")
+        ->capture_default_str();
+    command->add_option("--depth-codec", flags->bench.depth_codec, "Of all viewers")
+        ->capture_default_str();
+    command->add_option("--color-codec", flags->bench.color_codec, "Of all viewers")
+        ->capture_default_str();
+    command->add_option("--filter", flags->bench.filter, "Of all cameras")->capture_default_str();
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        PipelineBench b = flags->bench;
+        for (std::size_t i = 0; b.cameras.size() < std::size_t(flags->cameras); ++i)
+            b.cameras.push_back(flags->bench.cameras[i % flags->bench.cameras.size()]);
+        const nlohmann::json r = bench_pipeline(b);
+        report(r, flags->json, [&] {
+            std::printf("%d camera(s), %d viewer(s), %.0f s, %s + %s\n", r["cameras"].get<int>(),
+                        r["viewers"].get<int>(), r["seconds"].get<double>(), b.depth_codec.c_str(),
+                        b.color_codec.c_str());
+            std::printf(
+                "  lowest %.2f fps, %lu frame(s) dropped, %.1f Mbit/s a camera, %.2f cores\n",
+                r["fps_min"].get<double>(), r["frames_dropped"].get<unsigned long>(),
+                r["mbit_per_camera"].get<double>(), r["cpu_cores"].get<double>());
+            std::printf("  age when decoded: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n",
+                        r["age_ms"]["p50"].get<double>(), r["age_ms"]["p99"].get<double>(),
+                        r["age_ms"]["max"].get<double>());
+            std::printf("  memory: host %.0f MB (%+.1f in the run), viewer %.0f MB (%+.1f)\n",
+                        r["host_memory_mb"].get<double>(), r["memory_growth_mb"].get<double>(),
+                        r["viewer_memory_mb"].get<double>(),
+                        r["viewer_memory_growth_mb"].get<double>());
+            std::printf(
+                "  this machine could carry %.1f cameras; %s would be full first, the host's "
+                "costliest stage is %s; zstd1 of a frame %.2f ms\n",
+                r["cameras_possible"].get<double>(), r["ends_first"].get<std::string>().c_str(),
+                r["costliest_stage"].get<std::string>().c_str(), r["yardstick_ms"].get<double>());
+            if (const double others = r["cpu_cores_of_others"].get<double>(); others > 0.2)
+                std::printf("  other programs used %.2f cores meanwhile: measure again alone\n",
+                            others);
+            for (const auto& stage : r["stages"])
+                std::printf("  %-14s p50 %6.2f ms  p99 %6.2f ms\n",
+                            stage["name"].get<std::string>().c_str(), stage["p50_ms"].get<double>(),
+                            stage["p99_ms"].get<double>());
+        });
+    });
+}
+
+void add_render(CLI::App& bench) {
+    struct Flags {
+        int cameras = 4, depth_step = 1;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        bench.add_subcommand("render", "Renderers: time of a picture and of an upload, checked");
+    command->footer("Example: theatron bench render --cameras 4 --json render.json");
+    command->add_option("--cameras", flags->cameras, "Generated cameras")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    command
+        ->add_option("--depth-step", flags->depth_step,
+                     "Draw the depth pixels of every so many columns and rows only, as a window "
+                     "does that is too slow otherwise")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 8));
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        RenderBench b;
+        b.cameras = generated_render_cameras(flags->cameras);
+        b.depth_step = flags->depth_step;
+        const nlohmann::json r = bench_render(b);
+        report(r, flags->json, [&] {
+            std::printf("%s, %dx%d, %d camera(s)\n", r["gl_renderer"].get<std::string>().c_str(),
+                        r["width"].get<int>(), r["height"].get<int>(), r["cameras"].get<int>());
+            for (const auto& renderer : r["renderers"])
+                std::printf("  %-12s picture %7.2f ms  upload of a camera %6.2f ms\n",
+                            renderer["name"].get<std::string>().c_str(),
+                            renderer["frame_ms"].get<double>(),
+                            renderer["upload_ms"].get<double>());
+        });
+    });
+}
+
+void add_view(CLI::App& bench) {
+    struct Flags {
+        ViewBenchOptions scene;
+        std::vector<std::string> renderers;
+        std::string filter = "default", pictures, json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "view", "Renderers: pictures of the generated operating room beside the exact ones");
+    command->footer("Example: theatron bench view --cameras 4 --json view.json");
+    command->add_option("--cameras", flags->scene.cameras, "Generated cameras")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 12));
+    command->add_option("--renderers", flags->renderers,
+                        "Which renderers, separated by blanks (default: all)");
+    command
+        ->add_option("--exposure", flags->scene.exposure_stops,
+                     "How far the cameras' exposures differ, in stops")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--filter", flags->filter, "Of all cameras: off, paper, default or a line")
+        ->capture_default_str();
+    command->add_option("--detail", flags->scene.detail, "Of the generated room, 0.3 to 1")
+        ->capture_default_str()
+        ->check(CLI::Range(0.3, 1.0));
+    command->add_option("--pictures", flags->pictures, "Write the pictures to this folder");
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        for (const std::string& renderer : flags->renderers)
+            render::check_renderer_name(renderer);
+        const filter::ParsedChain filter = filter::parse_chain(flags->filter);
+        if (!filter.problem.empty())
+            throw Error(filter.problem);
+        if (filter.settings.needs_background())
+            throw Error("The generated room has no recorded background; leave out 'background'.");
+        flags->scene.filter = filter.settings;
+        const capture::Progress progress = cli::show_progress();
+        const ViewBenchScene scene = make_view_bench_scene(flags->scene, progress);
+        nlohmann::json r = bench_view(scene, flags->renderers, flags->pictures, progress);
+        r["exposure_stops"] = flags->scene.exposure_stops;
+        r["filter"] = flags->filter;
+        report(r, flags->json, [&] {
+            std::printf("%s, %dx%d, %d camera(s), %d views, filters: %s\n",
+                        r["gl_renderer"].get<std::string>().c_str(), r["width"].get<int>(),
+                        r["height"].get<int>(), r["cameras"].get<int>(), r["views"].get<int>(),
+                        flags->filter.c_str());
+            std::printf("  %-8s %8s %10s %6s %8s %11s %9s %13s %6s %12s %11s\n", "renderer",
+                        "PSNR dB", "in overlap", "SSIM", "holes %", "outline px", "flicker",
+                        "patterned dB", "1080p", "depth-sized", "registered");
+            for (const auto& v : r["renderers"])
+                std::printf(
+                    "  %-8s %8.2f %10.2f %6.3f %8.2f %11.2f %9.2f %13.2f %6.2f %12.2f %11.2f\n",
+                    v["name"].get<std::string>().c_str(), v["psnr_db"].get<double>(),
+                    v["psnr_overlap_db"].get<double>(), v["ssim"].get<double>(),
+                    v["holes_percent"].get<double>(), v["silhouette_px"].get<double>(),
+                    v["flicker_overlap"].get<double>(), v["psnr_patterned_db"].get<double>(),
+                    v["psnr_patterned_fine_db"].get<double>(),
+                    v["psnr_patterned_depth_sized_db"].get<double>(),
+                    v["psnr_patterned_registered_db"].get<double>());
+        });
+    });
+}
+
+}  // namespace
+
+void add_benchmarks(CLI::App& app) {
+    add_depth(app);
+    add_color(app);
+    add_filter_bench(app);
+    add_pipeline(app);
+    add_render(app);
+    add_view(app);
+}
+
+}  // namespace theatron::bench

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The benchmarks as commands. Each callback measures and throws Error with one sentence if that
+// cannot be done.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace theatron::bench {
+
+void add_benchmarks(CLI::App& app);
+
+}  // namespace theatron::bench

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/participant.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <map>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/outside_text.h"
+#include "base/steady_clock.h"
+#include "base/thread_name.h"
+#include "net/clock_sync.h"
+#include "wire/envelope.h"
+
+namespace theatron::client {
+namespace {
+
+// Waiting before another attempt: soon at first, then patiently.
+constexpr Duration first_wait = std::chrono::milliseconds(200);
+constexpr Duration longest_wait = std::chrono::seconds(2);
+
+}  // namespace
+
+// What other threads see.
+struct Participant::Shared {
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    Status status;
+    std::vector<Camera> cameras;
+    std::uint64_t generation = 0;
+    std::vector<wire::StreamSetting> settings;
+    std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
+    std::vector<receive::StreamFigures> figures;
+    bool reset_wanted = false;
+    net::ClockSync clock;
+    net::Client* client = nullptr;  // while one runs
+    bool stopping = false;
+    std::string depth_wish, color_wish;  // codecs to ask for
+    std::optional<wire::ChooseDelivery> delivery_wish;
+    std::optional<wire::SetRenderer> renderer_word;  // not yet taken
+    std::string renderer;
+};
+
+Participant::Participant(Options options)
+    : options_(std::move(options)),
+      session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
+                options_.delivery, options_.records}),
+      shared_(std::make_unique<Shared>()),
+      decoders_(std::make_unique<Decoders>(decoded_events())) {
+    shared_->status.goal = options_.delivery;
+    if (session_.begin().size() + 1 > wire::max_first_envelope_size)
+        throw Error("Name, token and codecs together have more than " +
+                    std::to_string(wire::max_first_envelope_size) +
+                    " bytes; choose a shorter name.");
+    thread_ = std::thread([this] {
+        // run() connects again by itself after a fault of the connection.
+        if (!contain("participant", [this] { run(); }))
+            give_up();
+    });
+}
+
+// Without memory even for another attempt.
+void Participant::give_up() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->client = nullptr;
+        shared_->status.phase = Phase::lost;
+    }
+    announce();
+}
+
+Participant::~Participant() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->stopping = true;
+        if (shared_->client)
+            shared_->client->stop();
+    }
+    shared_->changed.notify_all();
+    thread_.join();
+}
+
+// From the decoding threads.
+receive::Receiver::Events Participant::decoded_events() {
+    receive::Receiver::Events events;
+    events.frame = [this](receive::CameraFramePtr frame) {
+        {
+            const std::lock_guard lock(shared_->mutex);
+            shared_->newest[frame->camera] = std::move(frame);
+        }
+        announce();
+    };
+    events.needs_key = [this](StreamId stream, SettingId setting) {
+        const std::lock_guard lock(shared_->mutex);
+        if (shared_->client)
+            shared_->client->post([this, stream, setting] { request_key(stream, setting); });
+    };
+    events.now = [this] { return now(); };
+    return events;
+}
+
+void Participant::run() {
+    name_this_thread("net");
+    Duration wait = first_wait;
+    bool was_joined = false;
+    while (true) {
+        net::Client client(options_.link, handler());
+        {
+            const std::lock_guard lock(shared_->mutex);
+            if (shared_->stopping)
+                return;
+            shared_->client = &client;
+            shared_->clock = {};
+            shared_->status.round_trip = {};
+            shared_->status.clock_known = false;
+        }
+        const net::Client::End end = client.run();
+
+        std::unique_lock lock(shared_->mutex);
+        shared_->client = nullptr;
+        if (shared_->stopping)
+            return;
+        const bool refused = end.final || !session_.refusal().empty();
+        const bool ended = !session_.goodbye().empty();
+        const std::string why = refused && !session_.refusal().empty() ? session_.refusal()
+                                : ended                                ? session_.goodbye()
+                                                                       : end.why;
+        const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
+        if (shared_->status.phase == Phase::joined) {
+            was_joined = true;
+            wait = first_wait;
+        }
+        shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
+        shared_->status.problem = why;
+        lock.unlock();
+        announce();
+        if (ended && !refused)
+            remark(why);
+        if (refused || ended)
+            return;
+        if (news)
+            remark(why + (was_joined ? " Reconnecting." : " Trying again."));
+        lock.lock();
+        if (shared_->changed.wait_for(lock, wait, [&] { return shared_->stopping; }))
+            return;
+        wait = std::min(2 * wait, longest_wait);
+    }
+}
+
+net::Client::Handler Participant::handler() {
+    net::Client::Handler h;
+    h.connected = [this] {
+        pings_ = 0;
+        next_ping_ = next_report_ = steady_now();
+        const Bytes hello = session_.begin();
+        shared_->client->send_control(hello);
+    };
+    h.control = [this](ByteView message) { on_control(message); };
+    h.media = [this](ByteView message) { on_media(message); };
+    h.received = [this](std::uint64_t media_bytes, bool complete) {
+        if (const auto message = session_.on_received(media_bytes, complete, steady_now()))
+            shared_->client->send_acknowledgement(*message);
+    };
+    h.now = [this] { return now(); };
+    h.tick = [this] { on_tick(); };
+    return h;
+}
+
+void Participant::on_media(ByteView message) {
+    if (!options_.media) {
+        decoders_->on_media(message);
+        return;
+    }
+    if (const auto header = wire::parse_media_header(message))
+        options_.media(*header, message);
+}
+
+void Participant::request_key(StreamId stream, SettingId setting) {
+    shared_->client->send_control(wire::encode_control(wire::RequestKey{stream, setting}));
+}
+
+void Participant::on_control(ByteView message) {
+    using Change = session::ViewerSession::Change;
+    switch (session_.on_control(message)) {
+        case Change::welcomed: {
+            decoders_->set_cameras(session_.cameras());
+            std::vector<Camera> cameras;
+            for (const wire::Camera& camera : session_.cameras()) {
+                const auto calibration = decode_calibration(camera.calibration);
+                cameras.push_back({camera, calibration.value(), {camera.id, {}, ""}});
+            }
+            for (const std::string& problem : session_.left_out())
+                remark(problem);
+            std::unique_lock lock(shared_->mutex);
+            shared_->cameras = std::move(cameras);
+            ++shared_->generation;
+            shared_->newest.clear();
+            shared_->settings.clear();
+            shared_->status.phase = Phase::joined;
+            shared_->status.problem.clear();
+            shared_->status.host_name = session_.welcome().host_name;
+            shared_->status.delivery = {};
+            shared_->renderer_word = wire::SetRenderer{};
+            const bool again = ++shared_->status.joins > 1;
+            lock.unlock();
+            ping(steady_now());
+            announce();
+            if (again)
+                remark("Connected again.");
+            if (options_.described)
+                options_.described();
+            break;
+        }
+        case Change::settings:
+            if (!session_.note().empty())
+                remark(session_.note());
+            {
+                const std::lock_guard lock(shared_->mutex);
+                shared_->settings = session_.settings();
+            }
+            if (options_.described)
+                options_.described();
+            try {
+                decoders_->set_settings(session_.settings());
+            } catch (const Error& e) {
+                remark(e.what());
+            }
+            break;
+        case Change::camera:
+            on_camera_states();
+            break;
+        case Change::pong: {
+            const wire::Pong& pong = session_.pong();
+            bool is_new = false;
+            {
+                const std::lock_guard lock(shared_->mutex);
+                shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
+                Status& status = shared_->status;
+                status.round_trip = shared_->clock.round_trip();
+                status.clock_error = shared_->clock.error_bound();
+                is_new = shared_->clock.known() && !std::exchange(status.clock_known, true);
+            }
+            if (is_new && options_.described)
+                options_.described();
+            break;
+        }
+        case Change::delivery: {
+            const std::lock_guard lock(shared_->mutex);
+            shared_->status.delivery = session_.delivery();
+            break;
+        }
+        case Change::renderer: {
+            wire::SetRenderer word = session_.renderer_word();
+            {
+                const std::lock_guard lock(shared_->mutex);
+                // Giving the choice back leaves what was said just before.
+                if (word.renderer.empty() && shared_->renderer_word)
+                    word.renderer = shared_->renderer_word->renderer;
+                shared_->renderer_word = std::move(word);
+            }
+            announce();
+            break;
+        }
+        case Change::refused:
+        case Change::goodbye:
+        case Change::nothing:
+            break;
+    }
+}
+
+void Participant::on_camera_states() {
+    std::vector<std::string> news;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        for (Camera& camera : shared_->cameras) {
+            const auto found = session_.camera_states().find(camera.description.id);
+            if (found == session_.camera_states().end())
+                continue;
+            const wire::CameraCondition before = camera.state.condition;
+            camera.state = found->second;
+            if (camera.state.condition == before)
+                continue;
+            using Condition = wire::CameraCondition;
+            const std::string name = "Camera " + camera.description.name;
+            if (camera.state.condition == Condition::ended)
+                news.push_back(name + " has ended; its last picture stays.");
+            else if (camera.state.condition == Condition::failed)
+                news.push_back(name + " has failed: " + camera.state.problem);
+            else if (camera.state.condition == Condition::stale)
+                news.push_back(name + " stands still. " + camera.state.problem);
+            else
+                news.push_back(name + " is live again.");
+        }
+    }
+    for (const std::string& text : news)
+        remark(text);
+}
+
+void Participant::ping(TimePoint local) {
+    shared_->client->send_control(wire::encode_control(wire::Ping{local}));
+    // The offset is wanted soon; then it only has to follow the drift.
+    next_ping_ = local + (++pings_ < 8 ? 100ms : 1000ms);
+}
+
+void Participant::on_tick() {
+    const TimePoint local = steady_now();
+    net::Client& client = *shared_->client;
+    if (!session_.joined())
+        return;
+    if (local >= next_ping_)
+        ping(local);
+
+    std::string depth_wish, color_wish;
+    std::optional<wire::ChooseDelivery> delivery_wish;
+    bool reset_wanted;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        reset_wanted = std::exchange(shared_->reset_wanted, false);
+        depth_wish = std::exchange(shared_->depth_wish, "");
+        color_wish = std::exchange(shared_->color_wish, "");
+        delivery_wish = std::exchange(shared_->delivery_wish, std::nullopt);
+    }
+    // Not under the lock that decoding threads take.
+    if (reset_wanted) {
+        decoders_->reset_figures();
+        next_report_ = local;
+    }
+    if (!depth_wish.empty() || !color_wish.empty())
+        client.send_control(session_.choose(depth_wish, color_wish));
+
+    if (delivery_wish)
+        client.send_control(session_.choose_delivery(*delivery_wish));
+
+    if (local < next_report_)
+        return;
+    next_report_ = local + 100ms;
+    const auto figures = decoders_->figures();
+    wire::Report report;
+    for (const auto& f : figures)
+        report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,
+                                  Duration(std::int64_t(f.age_ms * 1000))});
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->figures = figures;
+        report.renderer = shared_->renderer;
+    }
+    client.send_control(wire::encode_control(report));
+}
+
+Participant::Status Participant::status() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->status;
+}
+
+std::vector<Participant::Camera> Participant::cameras(std::uint64_t& generation) const {
+    const std::lock_guard lock(shared_->mutex);
+    generation = shared_->generation;
+    return shared_->cameras;
+}
+
+std::vector<wire::StreamSetting> Participant::settings() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->settings;
+}
+
+std::vector<receive::CameraFramePtr> Participant::take_frames() {
+    const std::lock_guard lock(shared_->mutex);
+    std::vector<receive::CameraFramePtr> frames;
+    for (auto& [camera, frame] : shared_->newest)
+        frames.push_back(std::move(frame));
+    shared_->newest.clear();
+    return frames;
+}
+
+bool Participant::wait_for_frame(Duration timeout) {
+    std::unique_lock lock(shared_->mutex);
+    return shared_->changed.wait_for(lock, timeout, [&] { return !shared_->newest.empty(); });
+}
+
+std::vector<receive::StreamFigures> Participant::figures() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->figures;
+}
+
+void Participant::reset_figures() {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->reset_wanted = true;
+}
+
+TimePoint Participant::now() const {
+    const std::lock_guard lock(shared_->mutex);
+    return steady_now() + shared_->clock.offset();
+}
+
+void Participant::choose_codecs(const std::string& depth, const std::string& color) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!depth.empty())
+        shared_->depth_wish = depth;
+    if (!color.empty())
+        shared_->color_wish = color;
+}
+
+void Participant::announce() const {
+    shared_->changed.notify_all();
+    if (options_.news)
+        options_.news();
+}
+
+void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->delivery_wish = goal;
+    shared_->status.goal = goal;
+}
+
+std::optional<wire::SetRenderer> Participant::take_renderer_word() {
+    const std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->renderer_word, std::nullopt);
+}
+
+void Participant::tell_renderer(const std::string& renderer) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->renderer = renderer;
+}
+
+void Participant::remark(const std::string& text) const {
+    // It may repeat the host's words.
+    if (options_.remark)
+        options_.remark(clean_text(text, max_remark_characters));
+}
+
+}  // namespace theatron::client

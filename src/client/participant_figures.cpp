@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/participant_figures.h"
+
+#include <algorithm>
+
+namespace theatron::client {
+
+const char* text_of(Participant::Phase phase) {
+    switch (phase) {
+        case Participant::Phase::connecting:
+            return "connecting";
+        case Participant::Phase::joined:
+            return "joined";
+        case Participant::Phase::lost:
+            return "lost";
+        case Participant::Phase::refused:
+            return "refused";
+        case Participant::Phase::ended:
+            return "ended";
+    }
+    return "unknown";
+}
+
+double ParticipantFigures::frames_per_second() const {
+    std::optional<double> least;
+    for (const CameraFigures& camera : cameras)
+        least = std::min(least.value_or(camera.depth.frames_per_second),
+                         camera.depth.frames_per_second);
+    return least.value_or(0);
+}
+
+double ParticipantFigures::live_frames_per_second() const {
+    std::optional<double> least;
+    for (const CameraFigures& camera : cameras)
+        if (camera.camera.state.condition == wire::CameraCondition::live)
+            least = std::min(least.value_or(camera.depth.frames_per_second),
+                             camera.depth.frames_per_second);
+    return least.value_or(0);
+}
+
+double ParticipantFigures::mbit_per_second() const {
+    double sum = 0;
+    for (const CameraFigures& camera : cameras)
+        sum += camera.mbit_per_second();
+    return sum;
+}
+
+std::uint64_t ParticipantFigures::dropped() const {
+    std::uint64_t sum = 0;
+    for (const CameraFigures& camera : cameras)
+        sum += camera.dropped();
+    return sum;
+}
+
+ParticipantFigures figures_of(const Participant& participant) {
+    ParticipantFigures figures;
+    figures.status = participant.status();
+    std::uint64_t generation = 0;
+    const auto streams = participant.figures();
+    for (auto& camera : participant.cameras(generation)) {
+        CameraFigures of_camera{std::move(camera), {}, {}};
+        const wire::Camera& description = of_camera.camera.description;
+        for (const auto& stream : streams) {
+            if (stream.stream == description.depth_stream)
+                of_camera.depth = stream;
+            else if (description.has_color && stream.stream == description.color_stream)
+                of_camera.color = stream;
+        }
+        figures.cameras.push_back(std::move(of_camera));
+    }
+    return figures;
+}
+
+}  // namespace theatron::client

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figures of what a participant receives, by camera and together.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/participant.h"
+
+namespace theatron::client {
+
+// "connecting", "joined", "lost", "refused" or "ended".
+const char* text_of(Participant::Phase phase);
+
+struct CameraFigures {
+    Participant::Camera camera;
+    receive::StreamFigures depth;
+    receive::StreamFigures color;  // without frames where the camera has no colour
+
+    double mbit_per_second() const { return depth.mbit_per_second + color.mbit_per_second; }
+    std::uint64_t dropped() const { return depth.dropped + color.dropped; }
+};
+
+struct ParticipantFigures {
+    Participant::Status status;
+    std::vector<CameraFigures> cameras;
+
+    // Of the slowest camera, and of the slowest one that is live.
+    double frames_per_second() const;
+    double live_frames_per_second() const;
+    // Of all cameras together.
+    double mbit_per_second() const;
+    std::uint64_t dropped() const;
+};
+
+ParticipantFigures figures_of(const Participant& participant);
+
+}  // namespace theatron::client

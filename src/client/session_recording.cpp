@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/session_recording.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "base/error.h"
+#include "client/participant.h"
+#include "session/request_budget.h"
+
+namespace theatron::client {
+namespace {
+
+constexpr Duration join_patience = std::chrono::seconds(15);
+// Pictures may come before the session's clock is known, on a connection of long delay.
+constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
+
+// The host grants each key frame that a recorder asks for in its turn.
+static_assert(
+    to_seconds(record::StreamGate::key_period) *
+        session::RequestBudget::limits[std::size_t(session::RequestBudget::Kind::key)].per_second >=
+    1);
+
+class SessionRecording final : public record::RecordSource {
+public:
+    SessionRecording(const net::Link& link, const std::string& file,
+                     const record::RecordCodecs& codecs, const record::Recorder::Options& recorder)
+        : created_(steady_now()), intake_(file, recorder) {
+        Participant::Options options;
+        options.link = link;
+        options.name = "recorder";
+        options.depth_codec = codecs.depth;
+        options.color_codec = codecs.color;
+        options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
+        options.records = true;
+        options.remark = [](const std::string& text) {
+            std::fprintf(stderr, "%s\n", text.c_str());
+        };
+        options.media = [this](const wire::MediaHeader& header, ByteView message) {
+            on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
+        };
+        options.described = [this] { on_described(); };
+        // Its thread may be in on_described() at once, and waits there until it can be used.
+        const std::lock_guard lock(mutex_);
+        participant_ = std::make_unique<Participant>(options);
+    }
+
+    ~SessionRecording() override { stop(); }
+
+    void tick() override {
+        const Participant::Status status = participant_->status();
+        const bool begun = intake_.recorder() != nullptr;
+        if (status.phase == Participant::Phase::refused && !begun)
+            throw Error(status.problem);
+        if (!begun && steady_now() - created_ > join_patience)
+            throw Error(status.problem.empty() ? "The host sent nothing to record."
+                                               : status.problem);
+        if (status.phase == Participant::Phase::refused)
+            end_ = End{status.problem, true};
+        if (status.phase == Participant::Phase::ended)
+            end_ = End{"", false};  // the participant has said it
+        if (status.phase == Participant::Phase::joined)
+            note_states();
+    }
+
+    record::Intake& intake() override { return intake_; }
+    record::Intake::Now now() const override {
+        return {steady_now(), {participant_->now(), record::utc_now()}};
+    }
+    std::optional<End> ended() override { return end_; }
+    std::uint64_t not_encoded(CameraId) const override { return 0; }
+    bool was_gone(CameraId) const override { return false; }
+
+    void stop() override {
+        {
+            // Its thread may be in on_media(), which uses the participant.
+            const std::lock_guard lock(mutex_);
+            stopped_ = true;
+        }
+        participant_.reset();
+    }
+
+private:
+    struct Early {
+        wire::MediaHeader header;
+        std::shared_ptr<const Bytes> message;
+    };
+
+    // On the participant's thread, before the media that it is about.
+    void on_described() {
+        const std::lock_guard lock(mutex_);
+        if (stopped_)
+            return;
+        const Participant::Status status = participant_->status();
+        if (status.joins != joins_) {
+            joins_ = status.joins;
+            new_connection_ = true;
+            early_.clear();
+            early_bytes_ = 0;
+        }
+        std::vector<record::RecordedCamera> cameras;
+        std::map<StreamId, SettingId> settings;
+        if (describe(cameras, settings)) {
+            intake_.describe(std::move(cameras), std::move(settings), new_connection_,
+                             steady_now());
+            new_connection_ = false;
+        }
+        clock_known_ = status.clock_known;
+        if (!clock_known_)
+            return;
+        for (Early& early : std::exchange(early_, {}))
+            record(early.header, std::move(early.message));
+        early_bytes_ = 0;
+    }
+
+    // False as long as the settings are still on their way.
+    bool describe(std::vector<record::RecordedCamera>& cameras,
+                  std::map<StreamId, SettingId>& settings) {
+        std::uint64_t generation = 0;
+        const auto sent = participant_->settings();
+        for (const Participant::Camera& camera : participant_->cameras(generation)) {
+            const wire::Camera& d = camera.description;
+            const auto codec_of = [&](StreamId id) -> std::string {
+                const auto found = std::find_if(sent.begin(), sent.end(),
+                                                [&](const auto& s) { return s.stream == id; });
+                if (found == sent.end())
+                    return "";
+                settings[id] = found->setting;
+                return found->codec;
+            };
+            const Size depth = camera.calibration.depth.size, color = camera.calibration.color.size;
+            record::RecordedCamera r;
+            r.id = camera_of(d.depth_stream);
+            r.name = d.name;
+            r.frames_per_second = d.frames_per_second;
+            r.calibration = d.calibration;
+            r.depth = {codec_of(d.depth_stream), depth.width, depth.height};
+            if (d.has_color)
+                r.color =
+                    record::RecordedStream{codec_of(d.color_stream), color.width, color.height};
+            if (r.depth.codec.empty() || (r.color && r.color->codec.empty()))
+                return false;
+            cameras.push_back(std::move(r));
+        }
+        return !cameras.empty();
+    }
+
+    // The host says on another way than the pictures' which filters run: to within the
+    // pictures that are on their way.
+    void note_states() {
+        std::uint64_t generation = 0;
+        const auto cameras = participant_->cameras(generation);
+        {
+            const std::lock_guard lock(mutex_);
+            for (const Participant::Camera& camera : cameras)
+                filters_[camera.description.depth_stream] = camera.state.filter;
+        }
+        for (const Participant::Camera& camera : cameras)
+            if (camera.state.condition == wire::CameraCondition::ended)
+                intake_.on_end(camera_of(camera.description.depth_stream));
+    }
+
+    // Of a frame that went through some.
+    std::string filters_of(StreamId stream) {
+        const std::string& filters = filters_[stream];
+        return filters.empty() ? "unnamed" : filters;
+    }
+
+    void on_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+        const std::lock_guard lock(mutex_);
+        if (stopped_)
+            return;
+        if (clock_known_)
+            return record(header, std::move(message));
+        early_bytes_ += message->size();
+        // A message that is left out shows as a gap in the frames' numbers.
+        if (early_bytes_ <= max_early_bytes)
+            early_.push_back({header, std::move(message)});
+    }
+
+    // The mutex is held; on the participant's thread.
+    void record(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+        const std::string filters = header.filtered == TimePoint{} ? "" : filters_of(header.stream);
+        if (intake_.take(header, std::move(message), filters, now()))
+            participant_->request_key(header.stream, header.setting);
+    }
+
+    const TimePoint created_;
+    record::Intake intake_;
+    std::optional<End> end_;
+
+    std::mutex mutex_;  // guards all below but the participant
+    bool stopped_ = false;
+    int joins_ = 0;
+    bool new_connection_ = false;
+    bool clock_known_ = false;
+    std::vector<Early> early_;  // came before the clock was known
+    std::size_t early_bytes_ = 0;
+    std::map<StreamId, std::string> filters_;  // that run on each camera's depth
+
+    // Last: its thread uses all of the above.
+    std::unique_ptr<Participant> participant_;
+};
+
+}  // namespace
+
+std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& file,
+                                                     const record::RecordCodecs& codecs,
+                                                     const record::Recorder::Options& options) {
+    return std::make_unique<SessionRecording>(link, file, codecs, options);
+}
+
+}  // namespace theatron::client

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exports into folders: PLY points, and the pictures of folder:DIR.
+#include <cstdio>
+#include <deque>
+#include <map>
+#include <optional>
+
+#include "base/error.h"
+#include "capture/folder_calibration.h"
+#include "export/export_formats.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "filter/color_registration.h"
+#include "filter/undistort.h"
+#include "geometry/ply.h"
+#include "video/jpeg_native.h"
+
+namespace theatron::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string numbered(std::size_t number, const char* ending) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%05zu%s", number, ending);
+    return text;
+}
+
+fs::path make_folder(const fs::path& folder) {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem)
+        throw Error("Cannot make the folder '" + folder.string() + "': " + problem.message() + ".");
+    return folder;
+}
+
+// Of one camera: the folder itself.
+fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size_t camera) {
+    return source.one_camera ? folder
+                             : folder / ("camera-" + std::to_string(source.numbers[camera]));
+}
+
+// The colour of each depth pixel.
+class ColorOfDepth {
+public:
+    // Counts in `undecoded`, which must stay, what it cannot decode.
+    ColorOfDepth(const Calibration& calibration, std::uint64_t& undecoded)
+        : undecoded_(undecoded),
+          size_(calibration.color.size),
+          registration_(calibration),
+          out_(calibration.depth.size),
+          seen_(calibration.depth.size) {}
+
+    // False if the frame has no colour, or none that can be decoded. What was found is valid until
+    // the next call.
+    bool apply(const Frame& frame) {
+        if (frame.color.empty())
+            return false;
+        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok) {
+            ++undecoded_;
+            return false;
+        }
+        const ColorImage& color = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
+        if (color.size != size_) {
+            ++undecoded_;
+            return false;
+        }
+        registration_.apply(frame.depth.view(), color.view(), out_.view(), seen_.view());
+        return true;
+    }
+    ColorView color() const { return out_.view(); }  // black where the colour camera sees nothing
+    Rgb color_at(std::size_t pixel) const { return out_.pixels[pixel]; }
+    bool seen(std::size_t pixel) const { return seen_.pixels[pixel] != 0; }
+
+private:
+    std::uint64_t& undecoded_;
+    Size size_;
+    filter::ColorRegistration registration_;
+    video::JpegDecompressor jpeg_;
+    ColorImage decoded_, out_;
+    Image<std::uint8_t> seen_;
+};
+
+class PointMaker {
+public:
+    PointMaker(const Calibration& calibration, std::uint64_t& undecoded)
+        : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {
+        if (calibration.color.size != Size{})
+            colors_.emplace(calibration, undecoded);
+    }
+
+    void append(const Frame& frame, std::vector<ColoredPoint>& out) {
+        const std::size_t first = out.size();
+        append_points(frame.depth.view(), rays_, {}, calibration_, out);
+        if (!colors_ || !colors_->apply(frame))
+            return;
+        ColoredPoint* point = out.data() + first;
+        for (std::size_t i = 0; i < rays_.pixels.size(); ++i) {
+            if (frame.depth.pixels[i] == 0 || rays_.pixels[i].x == no_ray)
+                continue;
+            if (colors_->seen(i))
+                point->color = colors_->color_at(i);
+            ++point;
+        }
+    }
+
+    const Calibration& calibration() const { return calibration_; }
+
+private:
+    Calibration calibration_;
+    Image<Ray> rays_;
+    std::optional<ColorOfDepth> colors_;
+};
+
+// One camera's pictures without the distortion of its lenses.
+class Straightener {
+public:
+    explicit Straightener(const Calibration& calibration)
+        : straight_(without_distortion(calibration)),
+          depth_lens_(calibration.depth, straight_.depth),
+          color_lens_(calibration.color, straight_.color),
+          depth_(calibration.depth.size),
+          color_(calibration.color.size) {}
+
+    const Calibration& calibration() const { return straight_; }
+
+    // Valid until the next call.
+    DepthView depth(const Frame& frame) {
+        depth_lens_.apply(frame.depth.view(), depth_.view());
+        return std::as_const(depth_).view();
+    }
+    // Nothing if it cannot be decoded.
+    std::optional<ColorView> color(const Frame& frame) {
+        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
+            return std::nullopt;
+        const ColorImage& from = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
+        if (from.size != color_.size)
+            return std::nullopt;
+        color_lens_.apply(from.view(), color_.view());
+        return std::as_const(color_).view();
+    }
+
+private:
+    static Calibration without_distortion(Calibration calibration) {
+        calibration.depth = filter::without_distortion(calibration.depth);
+        calibration.color = filter::without_distortion(calibration.color);
+        return calibration;
+    }
+
+    Calibration straight_;
+    filter::Undistortion depth_lens_, color_lens_;
+    video::JpegDecompressor jpeg_;
+    DepthImage depth_;
+    ColorImage color_, decoded_;
+};
+
+class ProgressOfAll {
+public:
+    explicit ProgressOfAll(const ExportSource& source) : report_(source.progress) {
+        for (const auto& camera : source.cameras)
+            frames_ += camera->frames();
+    }
+    void frame_done() {
+        ++done_;
+        if (report_)
+            report_("exporting", double(done_) / double(frames_));
+    }
+
+private:
+    const capture::Progress& report_;
+    std::size_t frames_ = 0, done_ = 0;
+};
+
+// One file for each moment, with all cameras that have a frame of it.
+std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
+    std::deque<PointMaker> makers;  // they stay where they are
+    for (const auto& camera : source.cameras)
+        makers.emplace_back(camera->info().calibration, source.undecoded_color);
+    make_folder(folder);
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::vector<ColoredPoint> points;
+    for (std::size_t written = 0;; ++written) {
+        std::map<std::size_t, TimePoint> moments;  // of each camera's upcoming frame
+        for (std::size_t i = 0; i < source.cameras.size(); ++i)
+            if (source.cameras[i]->offset())
+                moments[i] = source.cameras[i]->upcoming().moment;
+        if (moments.empty())
+            return written;
+        TimePoint moment = moments.begin()->second;
+        for (const auto& [camera, other] : moments)
+            moment = std::min(moment, other);
+        points.clear();
+        for (const auto& [camera, other] : moments) {
+            if (other != moment)
+                continue;
+            const std::size_t first = points.size();
+            source.cameras[camera]->read(frame);
+            makers[camera].append(frame, points);
+            transform_points(makers[camera].calibration().room_from_camera,
+                             std::span(points).subspan(first));
+            progress.frame_done();
+        }
+        files::write_file(folder / numbered(written, ".ply"), encode_ply(points));
+    }
+}
+
+}  // namespace
+
+std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged) {
+    if (merged)
+        return export_merged_ply(source, folder);
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::vector<ColoredPoint> points;
+    std::size_t files = 0;
+    for (std::size_t i = 0; i < source.cameras.size(); ++i) {
+        capture::RecordedFrames& camera = *source.cameras[i];
+        const fs::path own = make_folder(folder_of(source, folder, i));
+        PointMaker maker(camera.info().calibration, source.undecoded_color);
+        for (std::size_t n = 0; camera.offset(); ++n, ++files) {
+            camera.read(frame);
+            points.clear();
+            maker.append(frame, points);
+            files::write_file(own / numbered(n, ".ply"), encode_ply(points));
+            progress.frame_done();
+        }
+    }
+    return files;
+}
+
+std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pictures) {
+    ProgressOfAll progress(source);
+    Frame frame;
+    std::size_t frames = 0;
+    for (std::size_t i = 0; i < source.cameras.size(); ++i) {
+        capture::RecordedFrames& camera = *source.cameras[i];
+        const fs::path own = folder_of(source, folder, i);
+        const fs::path depth = make_folder(own / "depth");
+        const Calibration& calibration = camera.info().calibration;
+        const bool has_color = calibration.color.size != Size{};
+        const fs::path color = has_color ? make_folder(own / "color") : fs::path();
+        std::optional<Straightener> straight;
+        std::optional<ColorOfDepth> registered;
+        Calibration written = calibration;
+        if (pictures == Pictures::undistorted) {
+            straight.emplace(calibration);
+            written = straight->calibration();
+        } else if (pictures == Pictures::registered && has_color) {
+            registered.emplace(calibration, source.undecoded_color);
+            written.color = calibration.depth;
+            written.color_from_depth = {};
+        }
+        files::write_file(own / "calibration.json",
+                          as_bytes(capture::write_folder_calibration(written)));
+        for (std::size_t n = 0; camera.offset(); ++n, ++frames) {
+            camera.read(frame);
+            files::write_png(depth / numbered(n, ".png"),
+                             straight ? straight->depth(frame) : frame.depth.view());
+            if (registered) {
+                if (registered->apply(frame))
+                    files::write_png(color / numbered(n, ".png"), registered->color());
+            } else if (straight && !frame.color.empty()) {
+                if (const auto picture = straight->color(frame))
+                    files::write_png(color / numbered(n, ".png"), *picture);
+                else
+                    ++source.undecoded_color;
+            } else if (frame.color.is_jpeg())
+                files::write_file(color / numbered(n, ".jpg"), frame.color.jpeg);
+            else if (!frame.color.empty())
+                files::write_png(color / numbered(n, ".png"), frame.color.pixels.view());
+            progress.frame_done();
+        }
+    }
+    return frames;
+}
+
+}  // namespace theatron::exporting

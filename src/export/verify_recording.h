@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes all of a recording and counts what is not as it was recorded.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/camera.h"
+#include "record/recording_file.h"
+
+namespace theatron::exporting {
+
+struct VerifiedPictures {
+    std::uint64_t pictures = 0;     // decoded
+    std::uint64_t damaged = 0;      // in the file, and not what was recorded
+    std::uint64_t undecodable = 0;  // whole, but refer to what is damaged or missing
+    std::uint64_t missing = 0;      // made, as their numbers say, and not in the file
+    std::uint64_t gaps = 0;         // pauses of more than one and a half periods
+};
+
+struct VerifiedMinute {
+    VerifiedPictures depth, color;
+};
+
+struct Verification {
+    // By minute since the recording's beginning, in the order of its cameras.
+    std::vector<std::map<int, VerifiedMinute>> cameras;
+    bool damaged = false;  // anything, files included
+};
+
+// Throws Error if this build cannot decode the recording.
+Verification verify(const std::shared_ptr<const record::RecordingFile>& recording,
+                    const std::string& file, const capture::Progress& progress);
+
+// How many frames were made between two of a stream and are not there. In another segment the
+// numbers may have begun anew.
+std::uint64_t frames_between(const record::RecordedFrame& before,
+                             const record::RecordedFrame& frame);
+
+}  // namespace theatron::exporting

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON as text, whatever names of files and people it holds.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace theatron::files {
+
+// Bytes that are no UTF-8 become U+FFFD. `indent` as in nlohmann::json::dump().
+inline std::string json_text(const nlohmann::json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace theatron::files

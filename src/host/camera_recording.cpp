@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/camera_recording.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "base/error.h"
+#include "send/camera_lane.h"
+
+namespace theatron::host {
+namespace {
+
+// A camera that gives no picture for so long keeps the others waiting no more.
+constexpr Duration first_frame_patience = std::chrono::seconds(5);
+// An encoder may still have the last frame of a camera that has ended.
+constexpr Duration encoding_patience = std::chrono::milliseconds(500);
+
+// A recording wants every frame: half a second of them may wait for the encoder.
+constexpr std::size_t waiting_frames = 15;
+
+constexpr SettingId depth_setting{1}, color_setting{2};
+
+record::RecordedCamera describe(CameraId id, const capture::CameraInfo& info,
+                                const record::RecordCodecs& codecs) {
+    record::RecordedCamera camera;
+    camera.id = id;
+    camera.name = info.name;
+    camera.frames_per_second = info.frames_per_second;
+    camera.calibration = encode_calibration(info.calibration);
+    const auto [depth, color] = std::pair(info.calibration.depth.size, info.calibration.color.size);
+    camera.depth = {codecs.depth, depth.width, depth.height};
+    if (color != Size{})
+        camera.color = record::RecordedStream{codecs.color, color.width, color.height};
+    return camera;
+}
+
+class CameraRecording final : public record::RecordSource {
+public:
+    CameraRecording(const std::vector<std::string>& specifications, const std::string& file,
+                    const record::RecordCodecs& codecs, const record::Recorder::Options& recorder,
+                    const capture::Progress& progress)
+        : codecs_(codecs), intake_(file, recorder) {
+        std::vector<std::unique_ptr<capture::Camera>> cameras;
+        double fps = 1;
+        for (const std::string& specification : specifications) {
+            cameras.push_back(capture::open_camera(specification, progress));
+            fps = std::max(fps, cameras.back()->info().frames_per_second);
+            names_.push_back(cameras.back()->info().name);
+        }
+        opened_ = steady_now();
+        const auto moments = std::make_shared<send::SharedMoments>(fps);
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            send::CameraLane::Events events;
+            events.media = [this](send::EncodedMedia media) { on_media(std::move(media)); };
+            events.state = [this](wire::CameraState state) { on_state(state); };
+            send::CameraLane::Options options;
+            options.waiting_frames = waiting_frames;
+            options.moments = moments;
+            options.open_again = [specification = specifications[i]] {
+                return capture::open_camera(specification);
+            };
+            lanes_.push_back(std::make_unique<send::CameraLane>(
+                CameraId(i), std::move(cameras[i]), events, workers_, std::move(options)));
+        }
+        not_encoded_before_.resize(lanes_.size());
+    }
+
+    ~CameraRecording() override { lanes_.clear(); }
+
+    void tick() override {
+        if (begun_)
+            return;
+        const bool all_there = std::all_of(lanes_.begin(), lanes_.end(), [](const auto& lane) {
+            return lane->figures().frames > 0;
+        });
+        if (!all_there && steady_now() - opened_ < first_frame_patience)
+            return;
+        begun_ = true;
+        std::vector<record::RecordedCamera> cameras;
+        std::map<StreamId, SettingId> settings;
+        for (const auto& lane : lanes_) {
+            cameras.push_back(describe(lane->id(), lane->info(), codecs_));
+            settings[depth_stream(lane->id())] = depth_setting;
+            settings[color_stream(lane->id())] = color_setting;
+        }
+        intake_.describe(std::move(cameras), std::move(settings), true, steady_now());
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            not_encoded_before_[i] = lanes_[i]->figures().dropped_newest;
+            lanes_[i]->set_settings({{depth_setting, codecs_.depth}},
+                                    {{color_setting, codecs_.color}});
+        }
+        const std::lock_guard lock(mutex_);
+        for (const CameraId camera : ended_)
+            intake_.on_end(camera);
+    }
+
+    record::Intake& intake() override { return intake_; }
+    record::Intake::Now now() const override {
+        return {steady_now(), {steady_now(), record::utc_now()}};
+    }
+
+    std::optional<End> ended() override {
+        const std::lock_guard lock(mutex_);
+        if (ended_.size() + failed_.size() < lanes_.size() ||
+            steady_now() - over_since_ < encoding_patience)
+            return std::nullopt;
+        return End{"", !failed_.empty()};
+    }
+
+    std::uint64_t not_encoded(CameraId camera) const override {
+        const auto i = std::size_t(camera);
+        return begun_ ? lanes_[i]->figures().dropped_newest - not_encoded_before_[i] : 0;
+    }
+
+    bool was_gone(CameraId camera) const override {
+        const std::lock_guard lock(mutex_);
+        return failed_.contains(camera) ||
+               lanes_[std::size_t(camera)]
+                       ->figures()
+                       .camera.figures.troubles[int(capture::Trouble::gone)] > 0;
+    }
+
+    void stop() override {
+        for (const auto& lane : lanes_)
+            lane->set_settings({}, {});
+    }
+
+private:
+    // On working threads.
+    void on_media(send::EncodedMedia media) {
+        const wire::MediaHeader header = media.header;
+        if (intake_.take(header, std::move(media.message), "", now()))
+            lanes_[std::size_t(camera_of(header.stream))]->request_key(header.stream,
+                                                                       header.setting);
+    }
+
+    // On the workers' looking thread.
+    void on_state(const wire::CameraState& state) {
+        using Condition = wire::CameraCondition;
+        const std::lock_guard lock(mutex_);
+        const std::string camera = "Camera " + names_[std::size_t(state.camera)];
+        Condition& before = conditions_[state.camera];
+        if (state.condition == before)
+            return;
+        before = state.condition;
+        if (state.condition == Condition::stale) {
+            std::fprintf(stderr, "%s stands still. %s\n", camera.c_str(), state.problem.c_str());
+        } else if (state.condition == Condition::live) {
+            std::fprintf(stderr, "%s is live again.\n", camera.c_str());
+        } else if (state.condition == Condition::failed) {
+            std::fprintf(stderr, "%s has failed: %s\n", camera.c_str(), state.problem.c_str());
+            failed_.insert(state.camera);
+            over_since_ = steady_now();
+        } else {
+            ended_.insert(state.camera);
+            over_since_ = steady_now();
+            intake_.on_end(state.camera);
+        }
+    }
+
+    const record::RecordCodecs codecs_;
+    record::Intake intake_;
+    std::vector<std::string> names_;
+    TimePoint opened_;
+    std::atomic<bool> begun_ = false;
+    std::vector<std::uint64_t> not_encoded_before_;
+
+    mutable std::mutex mutex_;  // guards all up to the workers
+    std::map<CameraId, wire::CameraCondition> conditions_;
+    std::set<CameraId> ended_, failed_;
+    TimePoint over_since_;
+
+    send::Workers workers_;
+    // Last: their threads use all of the above.
+    std::vector<std::unique_ptr<send::CameraLane>> lanes_;
+};
+
+}  // namespace
+
+std::unique_ptr<record::RecordSource> record_cameras(const std::vector<std::string>& specifications,
+                                                     const std::string& file,
+                                                     const record::RecordCodecs& codecs,
+                                                     const record::Recorder::Options& options,
+                                                     const capture::Progress& progress) {
+    return std::make_unique<CameraRecording>(specifications, file, codecs, options, progress);
+}
+
+}  // namespace theatron::host

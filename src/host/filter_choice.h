@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// --filter of the host: which filters run on which camera, from presets, lines or
+// small files that may change while it runs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "filter/background.h"
+#include "filter/chain_settings.h"
+
+namespace theatron::host {
+
+// Settings that can be used at once.
+struct LoadedFilter {
+    filter::ChainSettings settings;
+    std::shared_ptr<const filter::Background> background;  // empty where none is needed
+};
+
+// For people: the name of the preset that has this spelling, or else the spelling;
+// "unfiltered" where there is none.
+std::string shown_filter(const std::string& spelling);
+
+// A preset, a line as in docs/filters.md, or the name of a JSON file.
+class FilterSource {
+public:
+    explicit FilterSource(std::string text) : text_(std::move(text)) {}
+
+    // Throws Error with one sentence.
+    LoadedFilter load();
+
+    // What the file says now, if it has changed since the last call of load() or
+    // changed(). Throws Error if it says something wrong; then once.
+    std::optional<LoadedFilter> changed();
+
+private:
+    std::string text_;
+    std::filesystem::path file_;  // empty: text_ says it all
+    std::filesystem::file_time_type written_{};
+};
+
+// The sources of cameras with these names, from arguments "WHAT" (all cameras) and
+// "CAMERA=WHAT" (one, by its number from 0 or its name). Throws Error.
+std::vector<FilterSource> filter_sources(const std::vector<std::string>& arguments,
+                                         const std::vector<std::string>& cameras,
+                                         const std::string& usual);
+
+}  // namespace theatron::host

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/log.h"
+#include "base/thread_name.h"
+#include "host/codec_steps.h"
+#include "host/host_identity.h"
+#include "host/host_impl.h"
+#include "session/viewer_session.h"
+#include "video/color_codec.h"
+#include "video/depth_codecs.h"
+
+namespace theatron::host {
+namespace {
+
+// Of cameras that are given none.
+constexpr const char* usual_filter = "default";
+
+// Cameras whose place in the room nobody knows stand side by side, so far apart
+// that none stands in another's picture.
+constexpr double unregistered_distance_m = 12;
+
+session::HostSession::CheckedCodec check_depth(const std::string& text) {
+    const auto parsed = video::parse_depth_setting(text);
+    return {parsed.setting.text,
+            parsed.problem.empty() ? video::missing_depth_encoder(parsed.setting) : parsed.problem};
+}
+
+session::HostSession::CheckedCodec check_color(const std::string& text) {
+    const auto parsed = video::parse_color_setting(text);
+    return {parsed.setting.text,
+            parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem};
+}
+
+}  // namespace
+
+void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
+    if (options.cameras.empty())
+        throw Error(
+            "A host needs a camera; give one with --camera, for example --camera folder:DIR.");
+    std::vector<std::unique_ptr<capture::Camera>> cameras;
+    for (const std::string& specification : options.cameras)
+        cameras.push_back(capture::open_camera(specification, progress));
+
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera->info().name);
+    filters = filter_sources(options.filters, names, usual_filter);
+    std::vector<LoadedFilter> loaded;
+    for (FilterSource& source : filters)
+        loaded.push_back(source.load());
+
+    const auto state = options.state.empty() ? default_state_folder() : options.state;
+    certificate = net::load_or_make_certificate(state);
+    session::HostSession::Config config;
+    if (!options.token.empty())
+        check_token(options.token);
+    config.token = options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
+    // Monitoring systems need not be able to join.
+    http_tokens = {config.token, load_or_make_token(state, "metrics.token")};
+    config.name = name = options.name;
+    config.check_depth = check_depth;
+    config.check_color = check_color;
+    config.equal_secrets = net::equal_secrets;
+    config.steps = codec_steps();
+    const session::ViewerSession::Wishes usual;
+    config.usual_depth = check_depth(usual.depth_codec).codec;
+    config.usual_color = check_color(usual.color_codec).codec;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        config.cameras.push_back(describe(CameraId(i), cameras[i]->info()));
+
+    link = {options.link_host, 0, config.token, certificate.fingerprint};
+    session = std::make_unique<session::HostSession>(std::move(config));
+    server = std::make_unique<net::Server>(options.listen, certificate, handler());
+    link.port = server->port();
+    const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
+    if (link.host.empty())
+        link.host = everywhere ? outside_address() : options.listen.address;
+
+    // The lanes never change once the server's thread runs.
+    start_lanes(options.cameras, std::move(cameras));
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
+    thread = std::thread([this] {
+        name_this_thread("net");
+        (void)contain("net", [this] { server->run(); });
+    });
+}
+
+wire::Camera Host::Impl::describe(CameraId id, const capture::CameraInfo& info) const {
+    Calibration calibration = info.calibration;
+    if (!calibration.registered)
+        calibration.room_from_camera.translation.x += int(id) * unregistered_distance_m;
+    wire::Camera camera;
+    camera.id = id;
+    camera.name = info.name;
+    camera.depth_stream = depth_stream(id);
+    camera.color_stream = color_stream(id);
+    camera.has_color = calibration.color.size != Size{};
+    camera.frames_per_second = info.frames_per_second;
+    camera.calibration = encode_calibration(calibration);
+    return camera;
+}
+
+void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
+                             std::vector<std::unique_ptr<capture::Camera>> cameras) {
+    double fps = 1;
+    for (const auto& camera : cameras)
+        fps = std::max(fps, camera->info().frames_per_second);
+    const auto moments = std::make_shared<send::SharedMoments>(fps);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        send::CameraLane::Events events;
+        events.media = [this](send::EncodedMedia encoded) { take_media(std::move(encoded)); };
+        events.state = [this](wire::CameraState state) { take_state(std::move(state)); };
+        events.keeps_up = [this, camera = CameraId(i)](SettingId setting, bool keeps_up,
+                                                       Duration cpu) {
+            server->post([this, camera, setting, keeps_up, cpu] {
+                session->on_encoding(camera, setting, keeps_up, to_ms(cpu));
+                carry_out();
+            });
+        };
+        send::CameraLane::Options lane;
+        lane.cameras = cameras.size();
+        lane.open_again = [specification = specifications[i]] {
+            return capture::open_camera(specification);
+        };
+        lane.moments = moments;
+        lane.one_per_moment = true;
+        lanes.push_back(std::make_unique<send::CameraLane>(
+            CameraId(i), std::move(cameras[i]), std::move(events), workers, std::move(lane)));
+    }
+}
+
+Host::Host(const HostOptions& options, const capture::Progress& progress)
+    : impl_(std::make_unique<Impl>(participants_)) {
+    impl_->open(options, progress);
+}
+
+Host::~Host() = default;
+
+std::string Host::link() const {
+    return net::format_link(impl_->link);
+}
+
+std::uint16_t Host::port() const {
+    return impl_->link.port;
+}
+
+std::vector<std::string> Host::camera_names() const {
+    std::vector<std::string> names;
+    for (const auto& lane : impl_->lanes)
+        names.push_back(lane->info().name);
+    return names;
+}
+
+void Host::set_region(std::size_t camera, codec::strata::Region region) {
+    namespace strata = codec::strata;
+    const auto& lane = impl_->lanes.at(camera);
+    if (!strata::is_valid(region))
+        throw Error("A region has at most " + std::to_string(strata::max_polygons) + " parts.");
+    const Size size = lane->info().calibration.depth.size;
+    for (const strata::Polygon& polygon : region)
+        if (std::none_of(polygon.begin(), polygon.end(), [&](const strata::Corner& c) {
+                return c.x < size.width && c.y < size.height;
+            }))
+            throw Error("The region lies outside the depth image of camera '" + lane->info().name +
+                        "', which has " + std::to_string(size.width) + "x" +
+                        std::to_string(size.height) + " pixels.");
+    const bool is_drawn = !region.empty();
+    lane->set_region(std::move(region));
+    impl_->server->post([impl = impl_.get(), camera, is_drawn] {
+        if (is_drawn)
+            impl->with_region.insert(camera);
+        else
+            impl->with_region.erase(camera);
+        impl->session->on_region(!impl->with_region.empty());
+        impl->carry_out();
+    });
+}
+
+void Host::set_renderer(const std::string& who, const wire::SetRenderer& word) {
+    std::optional<ParticipantId> id;
+    bool named = false;
+    std::string present;
+    for (const auto& participant : impl_->figures().participants) {
+        const std::string number = std::to_string(int(participant.id));
+        if (who == number)
+            id = participant.id;
+        named = named || who == participant.name;
+        present += (present.empty() ? "" : ", ") + number + " " + participant.name;
+    }
+    if (!who.empty() && !id && !named)
+        throw Error("There is no participant '" + who + "'; " +
+                    (present.empty() ? "nobody has joined." : "here are " + present + "."));
+    impl_->server->post([impl = impl_.get(), who, id, word] {
+        if (id)
+            impl->session->set_renderer(*id, word);
+        else if (who.empty())
+            impl->session->set_renderer(word);
+        else
+            impl->session->set_renderer(who, word);
+        impl->carry_out();
+    });
+}
+
+void Host::follow_filter_files() {
+    for (std::size_t i = 0; i < impl_->filters.size(); ++i) {
+        try {
+            const auto changed = impl_->filters[i].changed();
+            if (!changed)
+                continue;
+            impl_->lanes[i]->set_filter(changed->settings, changed->background);
+            log::info("host", "filter changed",
+                      {{"camera", int(i)}, {"filter", changed->settings.spelling()}});
+        } catch (const Error& e) {
+            log::warning("host", "filter stays as it was",
+                         {{"camera", int(i)}, {"problem", e.what()}});
+        }
+    }
+}
+
+HostFigures Host::figures() const {
+    return impl_->figures();
+}
+
+std::string Host::status_line() const {
+    std::string line = std::to_string(participants()) + " participant(s)";
+    for (const auto& lane : impl_->lanes) {
+        const send::LaneFigures f = lane->figures();
+        char text[160];
+        std::snprintf(text, sizeof(text), "  %s %.1f fps", f.name.c_str(), f.frames_per_second);
+        line += text;
+    }
+    return line;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host_figures.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "host/filter_choice.h"
+#include "wire/condition_text.h"
+
+namespace theatron::host {
+namespace {
+
+using send::DropReason;
+
+// Every reason with its count, the receivers' one included.
+std::vector<std::pair<const char*, std::uint64_t>> drops(const HostFigures::Camera& camera) {
+    std::vector<std::pair<const char*, std::uint64_t>> result;
+    for (int i = 0; i < send::drop_reasons; ++i)
+        result.push_back({text_of(DropReason(i)), camera.lane.dropped[std::size_t(i)]});
+    result.push_back({"slow_receiver", camera.dropped_slow});
+    return result;
+}
+
+// Frames of depth and colour alike: the older one counts.
+double age_ms(const HostFigures::Participant& participant) {
+    Duration age{};
+    for (const wire::StreamReport& stream : participant.streams)
+        age = std::max(age, stream.age);
+    return to_ms(age);
+}
+
+nlohmann::json camera_json(const HostFigures::Camera& camera) {
+    const send::LaneFigures& f = camera.lane;
+    nlohmann::json stages = nlohmann::json::array();
+    for (const auto& stage : f.stages)
+        stages.push_back(
+            {{"name", stage.name},
+             {"p50_ms", stage.p50_ms},
+             {"p99_ms", stage.p99_ms},
+             {"mean_ms", 1000 * stage.seconds.sum() /
+                             double(std::max<std::uint64_t>(stage.seconds.count(), 1))}});
+    nlohmann::json encoders = nlohmann::json::array();
+    for (const auto& encoder : f.encoders)
+        encoders.push_back({{"codec", encoder.codec},
+                            {"stream", is_depth(encoder.stream) ? "depth" : "color"},
+                            {"cpu_ms", encoder.cpu_ms},
+                            {"behind", encoder.behind},
+                            {"left_out", encoder.left_out}});
+    nlohmann::json dropped;
+    for (const auto& [reason, count] : drops(camera))
+        dropped[reason] = count;
+    nlohmann::json troubles;
+    for (int i = 1; i < capture::trouble_kinds; ++i)
+        troubles[capture::text_of(capture::Trouble(i))] = f.camera.figures.troubles[std::size_t(i)];
+    return {{"name", f.name},
+            {"state", text_of(f.camera.condition)},
+            {"problem", f.camera.problem},
+            {"trouble", capture::text_of(f.camera.trouble)},
+            {"fps", f.frames_per_second},
+            {"frames", f.frames},
+            {"age_ms", f.age_seconds * 1000},
+            {"sync_offset_ms", f.sync_offset_seconds * 1000},
+            {"filter", f.filter},
+            {"encoders", encoders},
+            {"dropped_newest", f.dropped_newest},
+            {"dropped_slow_receiver", camera.dropped_slow},
+            {"dropped", dropped},
+            {"troubles", troubles},
+            {"reopens", f.camera.figures.reopens},
+            {"bytes", f.bytes},
+            {"stages", stages}};
+}
+
+// Backslash, quote and line end are the only characters that a label must escape.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '\\' || c == '"')
+            result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result + '"';
+}
+
+// Writes families of metrics, each with its help and type once.
+class PrometheusText {
+public:
+    void family(const char* name, const char* type, const char* help) {
+        name_ = std::string("theatron_") + name;
+        text_ += "# HELP " + name_ + " " + help + "\n# TYPE " + name_ + " " + type + "\n";
+    }
+    void value(const std::string& labels, double value, const char* suffix = "") {
+        char number[40];
+        std::snprintf(number, sizeof(number), "%.10g", value);
+        text_ += name_ + suffix + "{" + labels + "} " + number + "\n";
+    }
+    void histogram(const std::string& labels, const Histogram& h) {
+        for (std::size_t i = 0; i < Histogram::bound_count; ++i) {
+            char bound[40];
+            std::snprintf(bound, sizeof(bound), ",le=\"%g\"", Histogram::bounds[i]);
+            value(labels + bound, double(h.at_most(i)), "_bucket");
+        }
+        value(labels + ",le=\"+Inf\"", double(h.count()), "_bucket");
+        value(labels, h.sum(), "_sum");
+        value(labels, double(h.count()), "_count");
+    }
+    std::string take() { return std::move(text_); }
+
+private:
+    std::string name_, text_;
+};
+
+}  // namespace
+
+nlohmann::json to_json(const HostFigures& figures) {
+    nlohmann::json cameras = nlohmann::json::array(), participants = nlohmann::json::array();
+    for (const auto& camera : figures.cameras)
+        cameras.push_back(camera_json(camera));
+    for (const auto& participant : figures.participants)
+        participants.push_back({{"id", int(participant.id)},
+                                {"name", participant.name},
+                                {"sent", participant.sent},
+                                {"renderer", participant.renderer},
+                                {"age_ms", age_ms(participant)}});
+    return {{"name", figures.name},
+            {"seconds", figures.seconds},
+            {"cameras", cameras},
+            {"participants", participants}};
+}
+
+std::string to_prometheus(const HostFigures& figures) {
+    PrometheusText out;
+    // Two cameras may have the same name; the number tells them apart.
+    const auto labels = [&](std::size_t i) {
+        return "camera=\"" + std::to_string(i) + "\",name=" + quoted(figures.cameras[i].lane.name);
+    };
+    const auto per_camera = [&](const char* name, const char* type, const char* help,
+                                const std::function<double(const HostFigures::Camera&)>& value) {
+        out.family(name, type, help);
+        for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+            out.value(labels(i), value(figures.cameras[i]));
+    };
+    using Camera = HostFigures::Camera;
+    per_camera("frames_per_second", "gauge", "Good frames from the camera in the last second.",
+               [](const Camera& c) { return c.lane.frames_per_second; });
+    per_camera("frames_total", "counter", "Good frames from the camera.",
+               [](const Camera& c) { return double(c.lane.frames); });
+    out.family("frames_dropped_total", "counter", "Frames that were left out, by reason.");
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+        for (const auto& [reason, count] : drops(figures.cameras[i]))
+            out.value(labels(i) + ",reason=\"" + reason + "\"", double(count));
+    out.family("stage_seconds", "histogram", "Time that a frame spent in a stage of the host.");
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+        for (const auto& stage : figures.cameras[i].lane.stages)
+            out.histogram(labels(i) + ",stage=\"" + stage.name + "\"", stage.seconds);
+    per_camera("age_seconds", "gauge", "Since the camera's newest good frame was captured.",
+               [](const Camera& c) { return c.lane.age_seconds; });
+    out.family("bits_total", "counter", "Encoded bits, all settings together, by kind of image.");
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i) {
+        out.value(labels(i) + ",kind=\"depth\"", 8.0 * double(figures.cameras[i].lane.depth_bytes));
+        out.value(labels(i) + ",kind=\"color\"", 8.0 * double(figures.cameras[i].lane.color_bytes));
+    }
+    per_camera("sync_offset_seconds", "gauge",
+               "From the moment that the newest frame belongs to, to its capture.",
+               [](const Camera& c) { return c.lane.sync_offset_seconds; });
+    per_camera("camera_stale", "gauge", "1 while the camera gives no good pictures.",
+               [](const Camera& c) {
+                   return c.lane.camera.condition == wire::CameraCondition::live ? 0.0 : 1.0;
+               });
+    out.family("camera_troubles_total", "counter", "How often a camera became stale, by kind.");
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+        for (int kind = 1; kind < capture::trouble_kinds; ++kind)
+            out.value(labels(i) + ",kind=\"" + capture::text_of(capture::Trouble(kind)) + "\"",
+                      double(figures.cameras[i].lane.camera.figures.troubles[std::size_t(kind)]));
+    per_camera("reopens_total", "counter", "How often the camera was opened again.",
+               [](const Camera& c) { return double(c.lane.camera.figures.reopens); });
+
+    out.family("participants", "gauge", "Participants that have joined.");
+    out.value("", double(figures.participants.size()));
+    out.family("participant_age_seconds", "gauge",
+               "Age of the oldest of a participant's newest frames when they were decoded.");
+    for (const auto& participant : figures.participants)
+        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
+                  age_ms(participant) / 1000);
+    out.family("uptime_seconds", "counter", "Since the host began.");
+    out.value("", figures.seconds);
+    return out.take();
+}
+
+std::string to_table(const nlohmann::json& figures) {
+    const auto number = [](const nlohmann::json& from, const char* field) {
+        return from.contains(field) && from[field].is_number() ? from[field].get<double>() : 0.0;
+    };
+    const auto text = [](const nlohmann::json& from, const char* field) {
+        return from.contains(field) && from[field].is_string() ? from[field].get<std::string>()
+                                                               : std::string();
+    };
+    const auto list = [](const nlohmann::json& from, const char* field) {
+        return from.contains(field) && from[field].is_array() ? from[field]
+                                                              : nlohmann::json::array();
+    };
+    const auto cameras = list(figures, "cameras"), participants = list(figures, "participants");
+    char line[400];
+    std::snprintf(line, sizeof(line), "%s: %zu camera(s), %zu participant(s), %.0f s\n",
+                  text(figures, "name").c_str(), cameras.size(), participants.size(),
+                  number(figures, "seconds"));
+    std::string table = line;
+    std::snprintf(line, sizeof(line), "%-24s %-7s %6s %8s %8s %8s %8s %8s  %s\n", "camera", "state",
+                  "fps", "age ms", "lane ms", "p99 ms", "dropped", "reopens", "filter");
+    table += line;
+    for (const auto& camera : cameras) {
+        double p50 = 0, p99 = 0;
+        for (const auto& stage : list(camera, "stages"))
+            if (text(stage, "name") == "lane") {
+                p50 = number(stage, "p50_ms");
+                p99 = number(stage, "p99_ms");
+            }
+        const std::string filter = text(camera, "filter");
+        std::snprintf(
+            line, sizeof(line), "%-24.24s %-7.7s %6.1f %8.0f %8.2f %8.2f %8.0f %8.0f  %s\n",
+            text(camera, "name").c_str(), text(camera, "state").c_str(), number(camera, "fps"),
+            number(camera, "age_ms"), p50, p99, number(camera, "dropped_newest"),
+            number(camera, "reopens"), shown_filter(filter).c_str());
+        table += line;
+        if (const std::string problem = text(camera, "problem"); !problem.empty())
+            table += "    " + problem + "\n";
+    }
+    for (const auto& participant : participants) {
+        const std::string renderer = text(participant, "renderer");
+        std::snprintf(line, sizeof(line),
+                      "participant %.0f %.100s: newest picture %.0f ms old%s%.40s\n",
+                      number(participant, "id"), text(participant, "name").c_str(),
+                      number(participant, "age_ms"), renderer.empty() ? "" : ", drawn with ",
+                      renderer.c_str());
+        table += line;
+    }
+    return table;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host_http.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "files/json_text.h"
+#include "net/certificate.h"
+#include "net/https_get.h"
+
+namespace theatron::host {
+namespace {
+
+constexpr const char* plain_answer = "This is a Theatron host. Join it with: theatron join LINK\n";
+
+}  // namespace
+
+net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<std::string>& tokens,
+                            const std::function<HostFigures()>& figures) {
+    const std::string_view path = net::path_of(request.target);
+    if (path != "/status" && path != "/metrics")
+        return {.body = plain_answer};
+    const std::string shown = net::shown_token(request);
+    bool known = false;
+    for (const std::string& token : tokens)
+        known = net::equal_secrets(shown, token) || known;
+    if (!known)
+        return {.status = 401, .body = "Show the token: docs/metrics.md\n"};
+    if (path == "/status")
+        return {.type = "application/json", .body = files::json_text(to_json(figures())) + "\n"};
+    return {.type = "text/plain; version=0.0.4; charset=utf-8", .body = to_prometheus(figures())};
+}
+
+namespace {
+
+// The same with every text fit to be shown. `figures` is not nested deeply.
+nlohmann::json cleaned(const nlohmann::json& figures) {
+    if (figures.is_string())
+        return clean_text(figures.get_ref<const std::string&>(), max_status_text);
+    if (!figures.is_structured())
+        return figures;
+    nlohmann::json result =
+        figures.is_object() ? nlohmann::json::object() : nlohmann::json::array();
+    for (const auto& [key, value] : figures.items()) {
+        if (figures.is_object())
+            result[clean_text(key, max_status_text)] = cleaned(value);
+        else
+            result.push_back(cleaned(value));
+    }
+    return result;
+}
+
+}  // namespace
+
+nlohmann::json status_of_host(const net::Link& link) {
+    const net::HttpsAnswer answer = net::https_get(link, "/status");
+    if (answer.status == 401)
+        throw Error("The host does not know the link's token; ask for its current link.");
+    bool too_deep = false;
+    const auto figures = nlohmann::json::parse(
+        answer.body,
+        [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+            too_deep = too_deep || depth > max_status_depth;
+            return !too_deep;
+        },
+        false);
+    if (answer.status != 200 || too_deep || !figures.is_object())
+        throw Error("The host does not tell its status; it may be of an older version.");
+    return cleaned(figures);
+}
+
+}  // namespace theatron::host

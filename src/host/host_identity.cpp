@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host_identity.h"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "base/error.h"
+#include "files/private_file.h"
+#include "net/certificate.h"
+
+namespace theatron::host {
+
+std::filesystem::path default_state_folder() {
+    const auto folder_in = [](const char* variable) {
+        const char* set = std::getenv(variable);
+        const std::filesystem::path folder = set ? set : "";
+        return folder.is_absolute() ? folder : std::filesystem::path();
+    };
+    if (const auto state = folder_in("XDG_STATE_HOME"); !state.empty())
+        return state / "theatron";
+    if (const auto home = folder_in("HOME"); !home.empty())
+        return home / ".local/state/theatron";
+    // A folder that everybody may write to, such as /tmp, is none: another user could put keys
+    // there.
+    throw Error(
+        "Neither XDG_STATE_HOME nor HOME names a folder for the host's key and tokens; name one "
+        "with --state.");
+}
+
+void check_token(const std::string& token) {
+    if (token.size() < least_token_characters)
+        throw Error("The join token has " + std::to_string(token.size()) +
+                    " characters and could be guessed; give at least " +
+                    std::to_string(least_token_characters) +
+                    ", or leave it out, and the host makes one.");
+    if (!std::ranges::all_of(token, [](char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                   std::string_view("-._~").find(c) != std::string_view::npos;
+        }))
+        throw Error(
+            "A join token is part of a link, so it may hold letters, digits and -._~ only.");
+}
+
+std::string read_token(const std::filesystem::path& path) {
+    const auto text = files::read_private_file(path, files::Privacy::secret);
+    if (!text)
+        throw Error("There is no file '" + path.string() + "' with a join token.");
+    std::string token;
+    std::istringstream(*text) >> token;
+    check_token(token);
+    return token;
+}
+
+std::string load_or_make_token(const std::filesystem::path& folder, const char* name) {
+    const auto path = folder / name;
+    const auto text = files::read_private_file(path, files::Privacy::secret);
+    std::string token;
+    std::istringstream(text.value_or("")) >> token;
+    if (!token.empty()) {
+        try {
+            check_token(token);
+        } catch (const Error& error) {
+            throw Error("In '" + path.string() + "': " + error.what());
+        }
+        return token;
+    }
+    token = net::random_token();
+    files::write_private_file(path, token + "\n");
+    return token;
+}
+
+std::string outside_address() {
+    ifaddrs* all = nullptr;
+    if (getifaddrs(&all) != 0)
+        return "127.0.0.1";
+    std::string found = "127.0.0.1";
+    for (const ifaddrs* i = all; i; i = i->ifa_next) {
+        if (!i->ifa_addr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_LOOPBACK) ||
+            !(i->ifa_flags & IFF_UP))
+            continue;
+        char text[INET_ADDRSTRLEN];
+        const auto* address = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
+        if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text)))
+            found = text;
+        break;
+    }
+    freeifaddrs(all);
+    return found;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens on the server's thread.
+#include "host/host_impl.h"
+
+#include "base/fault.h"
+#include "base/log.h"
+#include "host/host_http.h"
+
+namespace theatron::host {
+namespace {
+
+// For participants who do not take the word that the session is over.
+constexpr Duration goodbye_patience = std::chrono::seconds(1);
+
+}  // namespace
+
+net::Server::Handler Host::Impl::handler() {
+    net::Server::Handler h;
+    h.invited = [this](ByteView first) { return is_invited(first); };
+    h.turned_away = [this](const std::string& address, const std::string& why) {
+        if (const auto left_out = strangers.take(address, steady_now()))
+            log::info("host", "stranger turned away",
+                      {{"address", address}, {"why", why}, {"left_out", *left_out}});
+    };
+    h.connected = [this](net::PeerId peer, const std::string& address, bool) {
+        addresses[peer] = address;
+        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
+        carry_out();
+    };
+    h.control = [this](net::PeerId peer, ByteView bytes) {
+        session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
+        carry_out();
+    };
+    h.closed = [this](net::PeerId peer, const std::string& why) {
+        const std::string address = addresses[peer];
+        addresses.erase(peer);
+        if (const auto left_out = joins.take("left " + address, steady_now()))
+            log::info("host", "participant left",
+                      {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
+        session->on_closed(ParticipantId(std::uint32_t(peer)));
+        carry_out();
+        note_left(peer);
+    };
+    h.now = steady_now;
+    h.tick = [this] {
+        measure_links();
+        hold_lanes();
+        session->on_tick(steady_now());
+        carry_out();
+        note_participants();
+    };
+    h.http = [this](const net::HttpRequest& request) {
+        return answer_http(request, http_tokens, [this] { return figures(); });
+    };
+    return h;
+}
+
+// A fault in one action costs only the participant that the action is for.
+void Host::Impl::carry_out() {
+    for (const auto& action : session->take_actions())
+        if (!contain("host", [&] { carry_out(action); }))
+            server->close(net::PeerId(std::uint32_t(action.participant)), "it met a fault here");
+}
+
+void Host::Impl::carry_out(const session::HostSession::Action& action) {
+    const net::PeerId peer{std::uint32_t(action.participant)};
+    using Kind = session::HostSession::Action::Kind;
+    switch (action.kind) {
+        case Kind::send:
+            server->send_control(peer, wire::encode_control(action.message));
+            break;
+        case Kind::close:
+            if (const auto left_out = joins.take("refused " + addresses[peer], steady_now()))
+                log::warning("host", "participant refused",
+                             {{"id", int(peer)},
+                              {"address", addresses[peer]},
+                              log::outside("why", action.why),
+                              {"left_out", *left_out}});
+            server->close(peer, action.why);
+            break;
+        case Kind::goodbye:
+            leaving.insert(peer);
+            server->send_control(peer, wire::encode_control(action.message));
+            server->close(peer, action.why);
+            break;
+        case Kind::joined:
+            if (const auto left_out = joins.take(addresses[peer] + " " + action.why, steady_now()))
+                log::info("host", "participant joined",
+                          {{"id", int(peer)},
+                           {"address", addresses[peer]},
+                           log::outside("name", action.why),
+                           {"left_out", *left_out}});
+            break;
+        case Kind::request_key: {
+            const auto camera = std::size_t(camera_of(action.key.stream));
+            if (camera < lanes.size())
+                lanes[camera]->request_key(action.key.stream, action.key.setting);
+            break;
+        }
+        case Kind::change_settings:
+            change_settings();
+            break;
+        case Kind::acknowledged:
+            server->acknowledge(peer, action.bytes);
+            release_lanes();
+            break;
+        case Kind::keep_everything:
+            server->keep_everything(peer);
+            break;
+        case Kind::set_ceiling:
+            server->set_ceiling(peer, double(action.bytes));
+            break;
+        case Kind::stepped:
+            if (changes.take(std::to_string(int(peer)), steady_now()))
+                log::info("host", "sending changed",
+                          {{"id", int(peer)}, log::outside("to", action.why)});
+            break;
+        case Kind::drawing:
+            log::info("host", "participant draws",
+                      {{"id", int(peer)}, log::outside("renderer", action.why)});
+            break;
+    }
+}
+
+void Host::Impl::note_left(net::PeerId peer) {
+    if (leaving.erase(peer) > 0 && leaving.empty()) {
+        const std::lock_guard lock(goodbye_mutex);
+        all_left = true;
+        goodbye_changed.notify_all();
+    }
+}
+
+void Host::Impl::say_goodbye() {
+    server->post([this] {
+        // Nobody at all counts as one who has left; closing may tell of others at once.
+        constexpr net::PeerId nobody{};
+        leaving.insert(nobody);
+        session->end();
+        carry_out();
+        note_left(nobody);
+    });
+    std::unique_lock lock(goodbye_mutex);
+    goodbye_changed.wait_for(lock, goodbye_patience, [this] { return all_left; });
+}
+
+void Host::Impl::change_settings() {
+    const auto convert = [](const std::vector<session::ActiveSetting>& settings) {
+        std::vector<send::LaneSetting> result;
+        for (const auto& s : settings)
+            result.push_back({s.id, s.codec});
+        return result;
+    };
+    for (const auto& lane : lanes)
+        lane->set_settings(convert(session->depth_settings()), convert(session->color_settings()));
+    hold_lanes();
+}
+
+// While every receiver of a camera still waits for its last frame, the next is not even
+// begun: dropped after encoding, it would be missing as a reference.
+void Host::Impl::hold_lane(std::size_t camera) {
+    const bool hold = session->all_wait([&](ParticipantId id) {
+        const net::PeerId peer{std::uint32_t(id)};
+        return server->is_behind(peer, depth_stream(CameraId(camera))) ||
+               server->is_behind(peer, color_stream(CameraId(camera)));
+    });
+    if (hold == held.contains(camera))
+        return;
+    if (hold)
+        held.insert(camera);
+    else
+        held.erase(camera);
+    lanes[camera]->hold(hold);
+}
+
+void Host::Impl::hold_lanes() {
+    for (std::size_t camera = 0; camera < lanes.size(); ++camera)
+        hold_lane(camera);
+}
+
+// An acknowledgement can only end a wait.
+void Host::Impl::release_lanes() {
+    for (const std::size_t camera : std::vector(held.begin(), held.end()))
+        hold_lane(camera);
+}
+
+bool Host::Impl::is_invited(ByteView first) const {
+    const auto message = wire::decode_control(first);
+    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
+    return join && net::equal_secrets(join->token, http_tokens.front());
+}
+
+void Host::Impl::take_media(send::EncodedMedia encoded) {
+    if (media.put(std::move(encoded)))
+        server->post([this] { distribute_media(); });
+}
+
+void Host::Impl::take_state(wire::CameraState state) {
+    bool first;
+    {
+        const std::lock_guard lock(states_mutex);
+        first = new_states.empty();
+        new_states[state.camera] = std::move(state);
+    }
+    if (first)
+        server->post([this] { on_camera_states(); });
+}
+
+void Host::Impl::on_camera_states() {
+    std::map<CameraId, wire::CameraState> states;
+    {
+        const std::lock_guard lock(states_mutex);
+        states.swap(new_states);
+    }
+    for (const auto& [camera, state] : states) {
+        using Condition = wire::CameraCondition;
+        if (state.condition == Condition::failed)
+            log::error("host", "camera failed",
+                       {{"camera", int(camera)}, {"problem", state.problem}});
+        else if (state.condition == Condition::stale)
+            log::warning("host", "camera is stale",
+                         {{"camera", int(camera)}, {"problem", state.problem}});
+        else if (state.condition == Condition::live)
+            log::info("host", "camera is live", {{"camera", int(camera)}});
+        session->on_camera(state);
+    }
+    carry_out();
+}
+
+void Host::Impl::distribute_media() {
+    const auto taken = media.take();
+    for (const auto& [stream, setting] : taken.broken)
+        session->on_broken_stream(stream, setting);
+    for (const auto& [stream, dropped] : taken.dropped)
+        dropped_slow[camera_of(stream)] += dropped;
+    for (const send::EncodedMedia& encoded : taken.media)
+        distribute(encoded);
+}
+
+void Host::Impl::distribute(const send::EncodedMedia& encoded) {
+    const wire::MediaHeader& header = encoded.header;
+    net::Media message{encoded.message,  header.stream,         header.setting, header.frame,
+                       header.reference, header.temporal_layer, header.key,     {}};
+    for (const ParticipantId receiver :
+         session->on_media(header, encoded.message->size(), steady_now())) {
+        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), message);
+        dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
+        if (pushed.needs_key)
+            session->on_broken_stream(header.stream, header.setting);
+    }
+    hold_lane(std::size_t(camera_of(header.stream)));
+}
+
+void Host::Impl::measure_links() {
+    for (const auto& [id, participant] : session->participants()) {
+        const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
+        session->on_link(id, {f.bytes_per_second, f.round_trip, f.delay, f.dropped}, steady_now());
+    }
+}
+
+void Host::Impl::note_participants() {
+    std::vector<HostFigures::Participant> list;
+    for (const auto& [id, participant] : session->participants())
+        if (participant.joined)
+            list.push_back({id, participant.name, participant.delivery.step().what,
+                            participant.report, participant.renderer});
+    participants = list.size();
+    const std::lock_guard lock(figures_mutex);
+    participant_figures = std::move(list);
+    dropped_slow_figures = dropped_slow;
+}
+
+HostFigures Host::Impl::figures() const {
+    const std::lock_guard lock(figures_mutex);
+    HostFigures figures;
+    figures.name = name;
+    figures.seconds = to_seconds(steady_now() - begun);
+    for (const auto& lane : lanes) {
+        const auto dropped = dropped_slow_figures.find(lane->id());
+        figures.cameras.push_back(
+            {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
+    }
+    figures.participants = participant_figures;
+    return figures;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inside of a Host: what its threads share.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "base/line_limit.h"
+#include "base/steady_clock.h"
+#include "host/filter_choice.h"
+#include "host/host.h"
+#include "net/certificate.h"
+#include "net/server.h"
+#include "send/media_queue.h"
+#include "session/host_session.h"
+
+namespace theatron::host {
+
+struct Host::Impl {
+    std::atomic<std::size_t>& participants;
+    net::Certificate certificate;
+    net::Link link;
+    std::unique_ptr<session::HostSession> session;
+    std::unique_ptr<net::Server> server;
+    send::Workers workers;
+    std::vector<std::unique_ptr<send::CameraLane>> lanes;
+    std::vector<FilterSource> filters;  // by camera; used by who owns the host
+    std::thread thread;
+    send::MediaQueue media;  // from the lanes to the server's thread
+    std::mutex states_mutex;
+    std::map<CameraId, wire::CameraState> new_states;  // the same way; the newest of each
+    // Where peers come from; server's thread.
+    std::map<net::PeerId, std::string> addresses;
+    LineLimit joins, changes;  // of log lines; server's thread
+    LineLimit strangers;       // the door's thread
+    // Which cameras have a region of interest; server's thread.
+    std::set<std::size_t> with_region;
+    std::set<std::size_t> held;  // lanes; server's thread
+    // Frames given up per camera because a receiver was too slow; server's thread.
+    std::map<CameraId, std::uint64_t> dropped_slow;
+    mutable std::mutex figures_mutex;
+    std::vector<HostFigures::Participant> participant_figures;
+    std::map<CameraId, std::uint64_t> dropped_slow_figures;
+    std::string name;
+    std::vector<std::string> http_tokens;
+    const TimePoint begun = steady_now();
+
+    std::set<net::PeerId> leaving;  // told that the session is over; server's thread
+    std::mutex goodbye_mutex;
+    std::condition_variable goodbye_changed;
+    bool all_left = false;  // guarded by goodbye_mutex
+
+    explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
+    ~Impl() {
+        if (thread.joinable())
+            say_goodbye();
+        // The server's thread uses the lanes: it ends first.
+        if (server)
+            server->stop();
+        if (thread.joinable())
+            thread.join();
+        lanes.clear();
+    }
+
+    void open(const HostOptions& options, const capture::Progress& progress);
+    wire::Camera describe(CameraId id, const capture::CameraInfo& info) const;
+    net::Server::Handler handler();
+    void start_lanes(const std::vector<std::string>& specifications,
+                     std::vector<std::unique_ptr<capture::Camera>> cameras);
+
+    // All below on the server's thread.
+    void carry_out();
+    void carry_out(const session::HostSession::Action& action);
+    void change_settings();
+    void hold_lane(std::size_t camera);
+    void hold_lanes();
+    void release_lanes();
+    void distribute_media();
+    void distribute(const send::EncodedMedia& media);
+    void on_camera_states();
+    void measure_links();
+    void note_participants();
+
+    void note_left(net::PeerId peer);
+
+    // Tells everybody that the session is over, and waits a little for them to be gone.
+    void say_goodbye();
+
+    // From any thread.
+    void take_media(send::EncodedMedia encoded);
+    void take_state(wire::CameraState state);
+    bool is_invited(ByteView first) const;
+    HostFigures figures() const;
+};
+
+}  // namespace theatron::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a recording is made of: a session that was joined, or cameras of one's own.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/steady_clock.h"
+#include "record/intake.h"
+
+namespace theatron::record {
+
+// Read at the same instant as the session's clock, it tells when a recording was made.
+inline UtcTime utc_now() {
+    return std::chrono::floor<std::chrono::microseconds>(std::chrono::system_clock::now());
+}
+
+class RecordSource {
+public:
+    virtual ~RecordSource() = default;
+
+    // Does what is to be done between frames. Throws Error if there will be no
+    // recording. From one thread.
+    virtual void tick() = 0;
+    virtual Intake& intake() = 0;
+    virtual Intake::Now now() const = 0;
+
+    // Nothing more will come.
+    struct End {
+        std::string remark;  // why, if that is of interest
+        bool fault = false;  // more was to be expected
+    };
+    virtual std::optional<End> ended() = 0;
+
+    // Frames that a camera gave but that were never encoded.
+    virtual std::uint64_t not_encoded(CameraId camera) const = 0;
+    // A camera was gone for a while.
+    virtual bool was_gone(CameraId camera) const = 0;
+    // No more frames from now on.
+    virtual void stop() = 0;
+};
+
+struct RecordCodecs {
+    std::string depth, color;  // checked, in their one spelling
+};
+
+}  // namespace theatron::record

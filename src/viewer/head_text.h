@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// --person and --myself: who is seen by a camera, so that the room behind them or what blocks one's
+// own view is cut off. "1=0.2:1.65:-0.4,yaw=90" is a person seen by camera 1 whose head is 1.65 m
+// above the floor and who looks along -x.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/vec.h"
+#include "render/cloud_cut.h"
+
+namespace theatron::viewer {
+
+enum class Seen { other, oneself };
+
+struct SeenPerson {
+    std::string camera;  // its number or name
+    Seen who = Seen::other;
+    // Between the eyes: x right, y down, z forward.
+    Pose room_from_head;
+    double reach_m = 0;
+
+    render::CloudCut cut() const;
+};
+
+// CAMERA=X:Y:Z with yaw=, pitch= (degrees) and reach= (metres) behind commas. Throws Error with one
+// sentence if it is not understood.
+SeenPerson parse_seen_person(const std::string& text, Seen who);
+
+// All of the two options. Throws Error also if there are two people for one camera.
+std::vector<SeenPerson> parse_seen_people(const std::vector<std::string>& others,
+                                          const std::vector<std::string>& oneself);
+
+}  // namespace theatron::viewer

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/live_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/camera_names.h"
+#include "base/error.h"
+#include "wire/condition_text.h"
+#include "xr/font_native.h"
+
+namespace theatron::viewer {
+namespace {
+
+// How much a camera that stands still is seen, and how long it takes to get there.
+constexpr double stale_presence = 0.3;
+constexpr double fading_seconds = 0.5;
+
+}  // namespace
+
+std::vector<CameraId> LiveScene::take(client::Participant& participant) {
+    std::uint64_t generation = 0;
+    const auto cameras = participant.cameras(generation);
+    if (generation != generation_) {
+        for (const auto& [id, calibration] : calibrations_)
+            clouds_.remove_camera(id);
+        calibrations_.clear();
+        presence_.clear();
+        newest_.clear();
+        for (const auto& camera : cameras) {
+            clouds_.set_camera(camera.description.id, camera.calibration);
+            calibrations_[camera.description.id] = camera.calibration;
+        }
+        cut_people(cameras);
+        generation_ = generation;
+    }
+    update_room(cameras);
+    std::vector<CameraId> updated;
+    for (const auto& frame : participant.take_frames())
+        // A frame of a size that the calibration does not know cannot be shown.
+        if (upload(*frame) == Status::ok) {
+            newest_[frame->camera] = frame;
+            updated.push_back(frame->camera);
+        }
+    return updated;
+}
+
+Status LiveScene::upload(const receive::CameraFrame& frame) {
+    return clouds_.upload(frame.camera, frame.depth.view(),
+                          frame.color ? frame.color->view() : ColorView{});
+}
+
+void LiveScene::set_depth_step(int step) {
+    if (!clouds_.set_depth_step(step))
+        return;
+    for (const auto& [camera, frame] : newest_)
+        (void)upload(*frame);
+}
+
+// Heads stay where the options say. A host that comes back with other cameras is no error.
+void LiveScene::cut_people(const std::vector<client::Participant::Camera>& cameras) {
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera.description.name);
+    for (const SeenPerson& person : people_) {
+        try {
+            const std::size_t number = find_camera(person.camera, names);
+            clouds_.set_cut(cameras[number].description.id, person.cut());
+        } catch (const Error&) {
+            if (generation_ == 0)
+                throw;
+        }
+    }
+}
+
+void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {
+    std::vector<room::RoomCamera> marks;
+    for (const auto& camera : cameras) {
+        std::string label = camera.description.name;
+        if (camera.state.condition != wire::CameraCondition::live)
+            label += std::string(" (") + text_of(camera.state.condition) + ")";
+        marks.push_back({std::move(label), camera.calibration});
+    }
+    room_.set_cameras(marks);
+}
+
+const render::SceneFrame* LiveScene::room_for(const render::CameraView& view) {
+    const render::SceneFrame* frame = choice_.shown ? room_.frame_for(view) : nullptr;
+    if (frame && !passes_) {
+        const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
+        passes_ = std::make_unique<render::ScenePasses>(&atlas);
+        room_.set_quality(choice_.quality.value_or(render::usual_quality()));
+    }
+    return frame;
+}
+
+void LiveScene::draw(const render::CameraView& view, const render::DrawTarget& target,
+                     const std::string& renderer) {
+    const render::SceneFrame* room = room_for(view);
+    if (room)
+        render::draw({room, renderer, {{view, target}}}, clouds_, passes_.get());
+    else
+        clouds_.draw(view, target, renderer);
+}
+
+render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, Size size,
+                                  const std::string& renderer, bool with_room) {
+    const render::SceneFrame* room = with_room ? room_for(eyes.front()) : nullptr;
+    return render::draw_and_read(room, renderer, eyes, size, clouds_, passes_.get());
+}
+
+bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
+    const double step = to_seconds(now - faded_at_) / fading_seconds;
+    faded_at_ = now;
+    std::uint64_t generation = 0;
+    bool changed = false;
+    for (const auto& camera : participant.cameras(generation)) {
+        const CameraId id = camera.description.id;
+        if (calibrations_.count(id) == 0)
+            continue;
+        const bool live = camera.state.condition == wire::CameraCondition::live;
+        const double wanted = live ? 1 : stale_presence;
+        double& presence = presence_.emplace(id, 1).first->second;
+        if (presence == wanted)
+            continue;
+        presence = live ? std::min(wanted, presence + step) : std::max(wanted, presence - step);
+        clouds_.set_presence(id, presence);
+        changed = true;
+    }
+    return changed;
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clouds of all cameras of a session, kept up to date, and the room around them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "client/participant.h"
+#include "render/room_picture.h"
+#include "room/virtual_room.h"
+#include "viewer/head_text.h"
+
+namespace theatron::viewer {
+
+// What is drawn around the clouds.
+struct RoomChoice {
+    bool shown = true;
+    std::optional<render::SceneQuality> quality;  // none: as the driver's speed suggests
+};
+
+// Use from one thread, with the same GL context current.
+class LiveScene {
+public:
+    explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})
+        : choice_(choice), people_(std::move(people)) {}
+
+    // Takes over what is new: cameras and frames. Returns the cameras whose picture
+    // is new. Throws Error if somebody is to be seen by a camera that the host never had.
+    std::vector<CameraId> take(client::Participant& participant);
+
+    // See render::CloudScene; what the cameras show stays.
+    void set_depth_step(int step);
+
+    // Lets cameras that stand still fade, and others come back. True while it changes
+    // what is seen.
+    bool fade(const client::Participant& participant, TimePoint now);
+
+    bool has_picture() const { return !newest_.empty(); }
+    const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
+    // The last frame of each camera that sent one.
+    const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
+
+    // Draws clouds and room into a cleared target. Throws Error if the driver cannot do it.
+    void draw(const render::CameraView& view, const render::DrawTarget& target,
+              const std::string& renderer);
+    // The pictures of these eyes beside each other, read back.
+    render::Picture render(const std::vector<render::CameraView>& eyes, Size size,
+                           const std::string& renderer, bool with_room);
+
+private:
+    Status upload(const receive::CameraFrame& frame);
+    void cut_people(const std::vector<client::Participant::Camera>& cameras);
+    void update_room(const std::vector<client::Participant::Camera>& cameras);
+    const render::SceneFrame* room_for(const render::CameraView& view);
+
+    RoomChoice choice_;
+    std::vector<SeenPerson> people_;
+    render::CloudScene clouds_;
+    room::VirtualRoom room_;
+    std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
+    std::uint64_t generation_ = 0;
+    std::map<CameraId, double> presence_;
+    TimePoint faded_at_;
+    std::map<CameraId, Calibration> calibrations_;
+    std::map<CameraId, receive::CameraFramePtr> newest_;
+};
+
+}  // namespace theatron::viewer

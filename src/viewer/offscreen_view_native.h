@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a participant sees, drawn offscreen: the newest frames of all cameras.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/offscreen_context_native.h"
+#include "viewer/live_scene.h"
+#include "viewer/view_choice.h"
+
+namespace theatron::viewer {
+
+// Use from one thread.
+class OffscreenView {
+public:
+    explicit OffscreenView(RoomChoice room = {}, std::vector<SeenPerson> people = {})
+        : scene_(room, std::move(people)) {}
+
+    // Takes over what is new: cameras and frames. Throws as LiveScene does.
+    void take(client::Participant& participant) { (void)scene_.take(participant); }
+
+    bool has_picture() const { return scene_.has_picture(); }
+    std::size_t cameras() const { return scene_.calibrations().size(); }
+
+    struct Wish {
+        ViewChoice view;
+        Size size;
+        std::string renderer;
+        // If given, the picture is twice as wide: what the left and the right eye see.
+        std::optional<double> eye_distance_m;
+    };
+    // Both throw Error if that camera gave nothing, or if the driver reported an error.
+    ColorImage picture(const Wish& wish) { return render(wish, true).color; }
+    DepthImage distances(const Wish& wish) { return render(wish, false).depth_mm; }  // of clouds
+
+private:
+    render::Picture render(const Wish& wish, bool with_room);
+
+    render::OffscreenContext context_;
+    LiveScene scene_;
+};
+
+}  // namespace theatron::viewer

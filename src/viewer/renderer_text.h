@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ways of drawing in words: on the command line, and in what a host says about them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "session/renderer_choice.h"
+#include "wire/control.h"
+
+namespace theatron::viewer {
+
+// "blend" for two cameras and more, "mesh" for one; in a window simpler where that is too slow.
+inline constexpr const char* automatic = "auto";
+
+// All that may be chosen: render::renderer_names() and "auto".
+std::vector<std::string> renderer_choices();
+// Throws Error that names the choices if this is none of them.
+void check_renderer_choice(const std::string& name);
+// The renderer that a choice means for so many cameras, where time does not matter.
+std::string renderer_for(const std::string& choice, std::size_t cameras);
+
+// Follows what the host said if there is such a renderer. If not nothing changes, and a sentence
+// for the person is returned.
+std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word);
+
+// What a host says: "blend", "2 mesh", "Dr. A mesh lock", "all auto", "all free".
+struct RendererText {
+    std::string who;  // number or name of a participant; empty: all
+    wire::SetRenderer word;
+};
+// Throws Error with one sentence if it is not understood.
+RendererText parse_renderer(const std::string& text);
+
+}  // namespace theatron::viewer
