@@ -68,6 +68,13 @@ Seen look(const Pose& room_from_eye, Vec2 direction) {
     return {*t * 1000, color_of(room_from_eye.translation + along * *t)};
 }
 
+void show(CloudScene& scene, int id, const Calibration& camera) {
+    const BallSceneImages images = ball_scene_images(camera, 0, 0);
+    scene.set_camera(CameraId(id), camera);
+    if (scene.upload(CameraId(id), images.depth.view(), images.color.view()) != Status::ok)
+        throw Error("The golden scene's images do not have the size of its calibration.");
+}
+
 }  // namespace
 
 Calibration ball_scene_camera(int i, int count, double spread_degrees, Size depth, Size color) {
@@ -122,13 +129,22 @@ CameraView golden_view() {
 }
 
 void show_golden_scene(CloudScene& scene) {
-    for (int i = 0; i < 2; ++i) {
-        const Calibration camera = ball_scene_camera(i, 2, 80, {160, 144}, {320, 180});
-        const BallSceneImages images = ball_scene_images(camera, 0, 0);
-        scene.set_camera(CameraId(i), camera);
-        if (scene.upload(CameraId(i), images.depth.view(), images.color.view()) != Status::ok)
-            throw Error("The golden scene's images do not have the size of its calibration.");
-    }
+    for (int i = 0; i < 2; ++i)
+        show(scene, i, ball_scene_camera(i, 2, 80, {160, 144}, {320, 180}));
+}
+
+void show_mixed_golden_scene(CloudScene& scene) {
+    Calibration wide = ball_scene_camera(0, 3, 100, {192, 90}, {200, 150});
+    wide.depth.k = {0.15, -0.05, 0.01, 0.05, 0.01, 0};
+    wide.depth_unit_mm = 0.25;
+    Calibration registered = ball_scene_camera(1, 3, 100, {110, 130}, {});
+    registered.color = registered.depth;
+    registered.color_from_depth = {};
+    Calibration colorless = ball_scene_camera(2, 3, 100, {161, 67}, {});
+    colorless.color = {};
+    int i = 0;
+    for (const Calibration& camera : {wide, registered, colorless})
+        show(scene, i++, camera);
 }
 
 }  // namespace theatron::render

@@ -36,5 +36,8 @@ inline constexpr Vec3 ball_scene_middle{0, 0.9, 0};
 inline constexpr Size golden_picture_size{80, 60};
 CameraView golden_view();
 void show_golden_scene(CloudScene& scene);
+// The same view of three cameras of different sensors: sizes, lenses, units of depth, and colour
+// beside the depth camera, registered to it, or none.
+void show_mixed_golden_scene(CloudScene& scene);
 
 }  // namespace theatron::render

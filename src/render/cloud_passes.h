@@ -1,35 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes that draw clouds: one object per way of drawing, which holds its
-// programs, and a draw call over a description of the frame.
+// programs, and a draw call over a description of the frame. Nothing of any camera is kept in them,
+// so that all sets of clouds share them.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <string_view>
+#include <optional>
+#include <vector>
 
+#include "render/cloud_camera.h"
 #include "render/cloud_scene.h"
-#include "render/cloud_textures.h"
 #include "render/gl.h"
-#include "render/grid_mesh.h"
-#include "render/surface_maps.h"
 
 namespace theatron::render {
 
-// One look at the clouds.
+// A picture of the size of the target for each camera of a set, to be blended.
+struct BlendLayers {
+    std::optional<Texture> colors, depths;
+    Size size;
+    int count = 0;
+};
+
+// A set of clouds as seen from one eye.
 struct CloudFrame {
-    const CloudTextures& textures;
+    const std::vector<CloudCamera*>& cameras;
     const CameraView& view;
     DrawTarget target;
-    GridMesh& grid;
+    BlendLayers& layers;
 };
 
 class CloudPass {
 public:
     virtual ~CloudPass() = default;
-    // Draws maps that do not depend on the view and are out of date. Changes framebuffer,
-    // viewport and tests.
-    virtual void prepare(const CloudFrame&) {}
-    // Target, depth test and masks are set; draws over what is there.
+    // Draws maps of a camera that do not depend on the view and are out of date. The camera is
+    // bound. Changes framebuffer, viewport and tests.
+    virtual void prepare(CloudCamera&) {}
+    // Target, depth test and masks are set, every camera's view is; draws over what is there.
     virtual void draw(const CloudFrame& frame) = 0;
 };
 
@@ -39,21 +45,11 @@ std::unique_ptr<CloudPass> make_mesh_pass();
 std::unique_ptr<CloudPass> make_blend_pass();
 std::unique_ptr<CloudPass> make_bare_grid_pass();
 
-// The calibrations of a frame's cameras as the shaders read them (cloud.glsl).
-class CameraBlock {
-public:
-    static constexpr unsigned binding = 0;
-    // Uploads and binds the block, and the textures. The cameras are in the order of
-    // textures.sources().
-    void bind(const CloudFrame& frame) const;
+// Where the block of cloud.glsl is bound.
+inline constexpr unsigned camera_block_binding = 0;
 
-private:
-    Buffer buffer_;
-};
-
-// A program with cloud.glsl and its companions in it: samplers and block are bound as
-// CloudTextures::bind, ColorVisibility::update, SurfaceMaps::update and
-// CameraBlock::bind do.
+// A program with cloud.glsl and its companions in it: block and samplers read what
+// CloudCamera::bind and the maps' classes bind (texture_units.h).
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
 // Sets the current program's uniform depth_from_w, with which shaders turn distance

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_scene.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "render/cloud_camera.h"
 #include "render/cloud_passes.h"
-#include "render/cloud_textures.h"
 #include "render/color_balance.h"
 #include "render/color_visibility.h"
 #include "render/depth_offsets.h"
 #include "render/fewer_points.h"
+#include "render/grid_mesh.h"
 #include "render/render_target.h"
 
 namespace theatron::render {
@@ -57,14 +59,18 @@ void check_renderer_name(std::string_view name) {
 }
 
 struct CloudScene::Parts {
-    std::map<CameraId, Calibration> calibrations;  // of the images as they come
+    struct Camera {
+        Calibration calibration;  // of the images as they come
+        CloudCamera drawn;
+    };
+    std::map<CameraId, Camera> cameras;
     int depth_step = 1;
-    CloudTextures textures;
     ColorBalance balance;
     DepthOffsets offsets;
-    CameraBlock cameras;
     ColorVisibility visibility;
-    GridMesh grid;
+    GridMeshes grids;
+    BlendLayers layers;
+    Buffer staging;
     // Core profiles draw nothing without one, though no attributes are used.
     VertexArray no_attributes;
     std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
@@ -79,6 +85,33 @@ struct CloudScene::Parts {
                     known = passes.emplace(name, candidate.make()).first;
         return *known->second;
     }
+
+    Calibration of_drawn(Calibration calibration) const {
+        calibration.depth = every_nth(calibration.depth, depth_step);
+        return calibration;
+    }
+    CloudCamera make_camera(const Calibration& calibration) {
+        const Calibration drawn = of_drawn(calibration);
+        return {drawn, grids.of(drawn.depth.size)};
+    }
+    // With other images the camera starts anew, but for how it is to be shown.
+    void replace(Camera& camera) {
+        CloudCamera drawn = make_camera(camera.calibration);
+        drawn.take_settings(camera.drawn);
+        camera.drawn = std::move(drawn);
+    }
+    CloudCamera* find(CameraId id) {
+        const auto known = cameras.find(id);
+        return known == cameras.end() ? nullptr : &known->second.drawn;
+    }
+    void take_estimates() {
+        if (balance.update())
+            for (auto& [id, camera] : cameras)
+                camera.drawn.color_gain = balance.gain(id);
+        if (offsets.update())
+            for (auto& [id, camera] : cameras)
+                camera.drawn.depth_offset_m = offsets.offset_m(id);
+    }
 };
 
 CloudScene::CloudScene() : parts_(std::make_unique<Parts>()) {}
@@ -86,65 +119,70 @@ CloudScene::~CloudScene() = default;
 CloudScene::CloudScene(CloudScene&&) noexcept = default;
 CloudScene& CloudScene::operator=(CloudScene&&) noexcept = default;
 
-void CloudScene::set_camera(CameraId camera, const Calibration& calibration) {
-    Calibration drawn = calibration;
-    drawn.depth = every_nth(calibration.depth, parts_->depth_step);
-    parts_->textures.set_camera(camera, drawn);
-    parts_->calibrations[camera] = calibration;
+void CloudScene::set_camera(CameraId id, const Calibration& calibration) {
+    Parts& p = *parts_;
+    const auto known = p.cameras.find(id);
+    if (known == p.cameras.end()) {
+        if (p.cameras.size() == std::size_t(max_cameras))
+            throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
+        p.cameras.emplace(id, Parts::Camera{calibration, p.make_camera(calibration)});
+        return;
+    }
+    Parts::Camera& camera = known->second;
+    const bool same_lens = camera.calibration.depth == calibration.depth;
+    camera.calibration = calibration;
+    if (same_lens)
+        camera.drawn.set_calibration(p.of_drawn(calibration));
+    else
+        p.replace(camera);
 }
 
-void CloudScene::set_presence(CameraId camera, double presence) {
-    parts_->textures.set_presence(camera, presence);
+void CloudScene::set_presence(CameraId id, double presence) {
+    if (CloudCamera* camera = parts_->find(id))
+        camera->presence = std::clamp(presence, 0.0, 1.0);
 }
 
-void CloudScene::set_cut(CameraId camera, const CloudCut& cut) {
-    parts_->textures.set_cut(camera, cut);
+void CloudScene::set_cut(CameraId id, const CloudCut& cut) {
+    if (CloudCamera* camera = parts_->find(id))
+        camera->cut = cut;
 }
 
 bool CloudScene::set_depth_step(int step) {
     if (step == parts_->depth_step)
         return false;
-    // All else as it was when new: textures and maps have another size now.
-    const auto before = std::exchange(parts_, std::make_unique<Parts>());
     parts_->depth_step = step;
-    parts_->balance = std::move(before->balance);
-    parts_->offsets = std::move(before->offsets);
-    for (const auto& [camera, calibration] : before->calibrations) {
-        const CloudSource& source = before->textures.sources().at(camera);
-        set_camera(camera, calibration);
-        set_presence(camera, source.presence);
-        set_cut(camera, source.cut);
-        parts_->textures.set_color_gain(camera, source.color_gain);
-        parts_->textures.set_depth_offset(camera, source.depth_offset_m);
-    }
+    for (auto& [id, camera] : parts_->cameras)
+        parts_->replace(camera);
     return true;
 }
 
-void CloudScene::remove_camera(CameraId camera) {
-    parts_->calibrations.erase(camera);
-    parts_->textures.remove_camera(camera);
-    parts_->balance.remove(camera);
-    parts_->offsets.remove(camera);
+void CloudScene::remove_camera(CameraId id) {
+    parts_->cameras.erase(id);
+    parts_->balance.remove(id);
+    parts_->offsets.remove(id);
 }
 
-Status CloudScene::upload(CameraId camera, DepthView depth, ColorView color) {
-    const auto known = parts_->calibrations.find(camera);
-    if (known == parts_->calibrations.end() || depth.size != known->second.depth.size)
+Status CloudScene::upload(CameraId id, DepthView depth, ColorView color) {
+    Parts& p = *parts_;
+    const auto known = p.cameras.find(id);
+    if (known == p.cameras.end() || depth.size != known->second.calibration.depth.size)
         return Status::size_mismatch;
+    Parts::Camera& camera = known->second;
     const Status status =
-        parts_->depth_step == 1
-            ? parts_->textures.upload(camera, depth, color)
-            : parts_->textures.upload(camera, every_nth(depth, parts_->depth_step).view(), color);
+        p.depth_step == 1
+            ? camera.drawn.upload(depth, color, p.staging)
+            : camera.drawn.upload(every_nth(depth, p.depth_step).view(), color, p.staging);
     if (status == Status::ok) {
-        parts_->balance.add(camera, known->second, depth, color);
-        parts_->offsets.add(camera, known->second, depth, color);
+        p.balance.add(id, camera.calibration, depth, color);
+        p.offsets.add(id, camera.calibration, depth, color);
     }
     return status;
 }
 
 void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::string_view renderer) {
-    CloudPass& pass = parts_->pass(renderer);
-    if (parts_->textures.sources().empty())
+    Parts& p = *parts_;
+    CloudPass& pass = p.pass(renderer);
+    if (p.cameras.empty())
         return;
 #ifndef __EMSCRIPTEN__
     if (epoxy_is_desktop_gl())
@@ -152,17 +190,16 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
 #endif
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
-    glBindVertexArray(parts_->no_attributes.name());
-    if (parts_->balance.update())
-        for (const auto& [id, source] : parts_->textures.sources())
-            parts_->textures.set_color_gain(id, parts_->balance.gain(id));
-    if (parts_->offsets.update())
-        for (const auto& [id, source] : parts_->textures.sources())
-            parts_->textures.set_depth_offset(id, parts_->offsets.offset_m(id));
-    const CloudFrame frame{parts_->textures, view, target, parts_->grid};
-    parts_->cameras.bind(frame);
-    parts_->visibility.update(parts_->textures);
-    pass.prepare(frame);
+    glBindVertexArray(p.no_attributes.name());
+    p.take_estimates();
+    std::vector<CloudCamera*> cameras;
+    for (auto& [id, camera] : p.cameras) {
+        cameras.push_back(&camera.drawn);
+        camera.drawn.set_view(view);
+        camera.drawn.bind();
+        p.visibility.update(camera.drawn);
+        pass.prepare(camera.drawn);
+    }
 
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(target.x, target.y, target.size.width, target.size.height);
@@ -170,8 +207,9 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    pass.draw(frame);
+    pass.draw({cameras, view, target, p.layers});
     glBindVertexArray(0);
+    glActiveTexture(GL_TEXTURE0);
 }
 
 Picture CloudScene::render(const CameraView& view, Size size, std::string_view renderer) {

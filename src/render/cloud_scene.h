@@ -62,9 +62,9 @@ public:
     CloudScene(CloudScene&&) noexcept;
     CloudScene& operator=(CloudScene&&) noexcept;
 
-    // Adds a camera or changes its calibration. Changing only where it stands
-    // is cheap; a new lens costs some tens of milliseconds, and another image size
-    // also the camera's picture. Throws Error beyond max_cameras and beyond max_layer_depth_pixels.
+    // Adds a camera or changes its calibration. Changing only where it stands is cheap, and
+    // changes nothing else. A new depth lens costs some tens of milliseconds and the camera's
+    // picture. No other camera's picture changes. Throws Error beyond max_cameras.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
     // How much a camera shows, from 0 to 1, so that new ones fade in and stale ones fade

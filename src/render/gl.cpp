@@ -28,7 +28,7 @@ constexpr std::string_view es_preamble =
     "precision highp sampler2D;\n"
     "precision highp sampler2DShadow;\n"
     "precision highp sampler2DArray;\n"
-    "precision highp usampler2DArray;\n"
+    "precision highp usampler2D;\n"
     "precision highp samplerCube;\n";
 constexpr std::string_view desktop_preamble = "#version 420 core\n";
 
@@ -145,6 +145,19 @@ void Program::bind_block(const char* block_name, unsigned binding) const {
     const GLuint index = glGetUniformBlockIndex(name(), block_name);
     if (index != GL_INVALID_INDEX)
         glUniformBlockBinding(name(), index, binding);
+}
+
+Texture make_texture(GLenum format, Size size, GLint filter) {
+    Texture texture;
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, size.width, size.height);
+    set_sampling(GL_TEXTURE_2D, filter);
+    return texture;
+}
+
+void bind_texture(int unit, const Texture* texture) {
+    glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    glBindTexture(GL_TEXTURE_2D, texture ? texture->name() : 0);
 }
 
 Texture make_texture_array(GLenum format, Size size, int layers, GLint filter) {

@@ -117,6 +117,10 @@ struct ShaderPart {
 };
 GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts);
 
+// A picture, left bound to the active texture unit; what is in it is undefined.
+Texture make_texture(GLenum format, Size size, GLint filter);
+// None: the unit reads black.
+void bind_texture(int unit, const Texture* texture);
 // An array of equal pictures, left bound to the active texture unit.
 Texture make_texture_array(GLenum format, Size size, int layers, GLint filter);
 // Sets how the bound texture is sampled: at its edge the last pixel goes on.

@@ -6,6 +6,8 @@ namespace {
 
 std::vector<GLuint> grid_indices(Size size) {
     std::vector<GLuint> indices;
+    if (size.width < 2 || size.height < 2)
+        return indices;
     indices.reserve(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
     const auto at = [&](int x, int y) { return GLuint(y * size.width + x); };
     // In upright strips, so that a row's vertices are still at hand for the next row.
@@ -22,16 +24,27 @@ std::vector<GLuint> grid_indices(Size size) {
 
 }  // namespace
 
-void GridMesh::draw(Size size, int instances) {
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-    if (size != size_) {
-        const std::vector<GLuint> indices = grid_indices(size);
+void GridMesh::draw() {
+    if (indices_) {
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_->name());
+    } else {
+        const std::vector<GLuint> indices = grid_indices(size_);
+        indices_.emplace();
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_->name());
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLuint)),
                      indices.data(), GL_STATIC_DRAW);
-        size_ = size;
         count_ = GLsizei(indices.size());
     }
-    glDrawElementsInstanced(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr, instances);
+    glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
+}
+
+std::shared_ptr<GridMesh> GridMeshes::of(Size size) {
+    std::weak_ptr<GridMesh>& known = grids_[{size.width, size.height}];
+    std::shared_ptr<GridMesh> grid = known.lock();
+    if (!grid)
+        known = grid = std::make_shared<GridMesh>(size);
+    std::erase_if(grids_, [](const auto& entry) { return entry.second.expired(); });
+    return grid;
 }
 
 }  // namespace theatron::render

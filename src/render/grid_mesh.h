@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles between the pixels of a depth image, made once for each size.
+// The triangles between the pixels of a depth image.
 #pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "image/view.h"
 #include "render/gl.h"
@@ -9,15 +14,26 @@ namespace theatron::render {
 
 class GridMesh {
 public:
-    // Draws `instances` grids of this size with the current program and vertex array.
-    // gl_VertexID counts the pixels row by row; the last corner of each triangle is
-    // the upper left one of its cell.
-    void draw(Size size, int instances);
+    explicit GridMesh(Size size) : size_(size) {}
+
+    // Draws with the current program and vertex array. gl_VertexID counts the pixels row by
+    // row; the last corner of each triangle is the upper left one of its cell.
+    void draw();
 
 private:
-    Buffer indices_;
     Size size_;
+    std::optional<Buffer> indices_;  // made when first drawn
     GLsizei count_ = 0;
+};
+
+// One grid for all cameras of one size.
+class GridMeshes {
+public:
+    // Lives as long as somebody keeps it.
+    std::shared_ptr<GridMesh> of(Size size);
+
+private:
+    std::map<std::pair<int, int>, std::weak_ptr<GridMesh>> grids_;
 };
 
 }  // namespace theatron::render

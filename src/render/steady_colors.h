@@ -7,44 +7,26 @@
 // could be seen.
 #pragma once
 
-#include <array>
-#include <optional>
-
-#include "render/cloud_scene.h"
-#include "render/cloud_textures.h"
+#include "render/cloud_camera.h"
 #include "render/gl.h"
 
 namespace theatron::render {
 
 class SteadyColors {
 public:
-    static constexpr int texture_unit = 10, before_unit = 11;
-
     SteadyColors();
 
-    // Draws the pictures that are out of date. Changes framebuffer, viewport and tests.
-    void update(const CloudTextures& textures);
+    // Draws the camera's picture if it is out of date. The camera must be bound. Changes
+    // framebuffer, viewport and tests.
+    void update(CloudCamera& camera);
 
-    // Binds the array that has a camera's newest picture, in the layer that it has in
-    // color_images, to its unit.
-    void bind(const CloudSource& source) const;
+    // Binds the newest picture to its unit.
+    void bind(const CloudCamera& camera) const;
 
 private:
-    struct State {
-        unsigned revision = 0;  // CloudSource::revision of what was drawn
-        Size size;              // of the picture
-        unsigned newest = 0;    // in which array it is
-    };
-    void make_pictures(const CloudTextures& textures);
-    void draw(const CloudSource& source);
-
     Program program_;
-    GLint layer_, has_before_;
+    GLint has_before_;
     Framebuffer framebuffer_;
-    std::optional<Texture> pictures_[2];
-    Size size_;
-    int layers_ = 0;
-    std::array<State, max_cameras> drawn_{};  // by layer
 };
 
 }  // namespace theatron::render

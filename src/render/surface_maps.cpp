@@ -2,6 +2,7 @@
 #include "render/surface_maps.h"
 
 #include "render/cloud_passes.h"
+#include "render/texture_units.h"
 
 namespace theatron::render {
 namespace {
@@ -18,79 +19,65 @@ Program surface_program(SurfaceMaps::Kind kind) {
 
 }  // namespace
 
-SurfaceMaps::SurfaceMaps(Kind kind)
-    : kind_(kind), find_surface_(surface_program(kind)), camera_(find_surface_.uniform("camera")) {
+SurfaceMaps::SurfaceMaps(Kind kind) : kind_(kind), find_surface_(surface_program(kind)) {
     if (kind == Kind::measured)
         return;
     refine_ = make_cloud_program(
         {"full_picture.vert"}, {"cloud.glsl", "corrected.glsl", "neighbours.glsl", "refine.frag"});
-    refine_->set_sampler("refined_before", refined_before_unit);
+    refine_->set_sampler("refined_before", texture_unit::refined_before);
+    has_before_ = refine_->uniform("has_before");
     edges_.emplace();
 }
 
-void SurfaceMaps::make_maps(const CloudTextures& textures) {
-    if (maps_ && textures.depth_size() == size_ && textures.layers() == layers_)
+void SurfaceMaps::update(CloudCamera& camera) {
+    SurfaceMap& map = camera.surfaces[int(kind_)];
+    if (map.content == camera.content())
         return;
-    size_ = textures.depth_size();
-    layers_ = textures.layers();
-    drawn_ = {};
-    glActiveTexture(GL_TEXTURE0 + texture_unit);
-    maps_ = make_texture_array(GL_RGBA32UI, size_, layers_, GL_NEAREST);
-    if (kind_ == Kind::refined) {
-        glActiveTexture(GL_TEXTURE0 + refined_unit);
-        for (auto& refined : refined_)
-            refined = make_texture_array(GL_R32UI, size_, layers_, GL_NEAREST);
-    }
-}
-
-void SurfaceMaps::update(const CloudTextures& textures) {
-    make_maps(textures);
+    map.content = camera.content();
+    const Size size = camera.depth_size();
+    glActiveTexture(GL_TEXTURE0 + texture_unit::surfaces);
+    if (!map.map)
+        map.map = make_texture(GL_RGBA32UI, size, GL_NEAREST);
     glDisable(GL_DEPTH_TEST);
-    int camera = 0;
-    for (const auto& [id, source] : textures.sources()) {
-        unsigned& drawn = drawn_[std::size_t(source.layer)];
-        if (drawn != source.revision) {
-            if (kind_ == Kind::refined)
-                refine(camera, source.layer, drawn != 0);
-            glActiveTexture(GL_TEXTURE0 + texture_unit);
-            glBindTexture(GL_TEXTURE_2D_ARRAY, 0);  // nobody may read what is being drawn
-            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-            glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, maps_->name(), 0,
-                                      source.layer);
-            glViewport(0, 0, size_.width, size_.height);
-            find_surface_.use();
-            glUniform1i(camera_, camera);
-            glDrawArrays(GL_TRIANGLES, 0, 3);
-            drawn = source.revision;
-        }
-        ++camera;
+    // Another colour lens changes the map, but is no frame for the filters over time.
+    if (kind_ == Kind::refined) {
+        if (map.images != camera.images() || !map.refined[0])
+            refine(map, size);
+        map.images = camera.images();
+        bind_texture(texture_unit::refined_depth, &*map.refined[map.newest]);
+        bind_texture(texture_unit::edge_distances, &*map.edges.distances[map.edges.newest]);
     }
-    glActiveTexture(GL_TEXTURE0 + texture_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, maps_->name());
-    glActiveTexture(GL_TEXTURE0);
+    bind_texture(texture_unit::surfaces, nullptr);  // nobody may read what is being drawn
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map.map->name(), 0);
+    glViewport(0, 0, size.width, size.height);
+    find_surface_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Leaves refined depth and the distances to edges bound.
-void SurfaceMaps::refine(int camera, int layer, bool has_before) {
-    unsigned& newest = newest_[std::size_t(layer)];
-    const Texture &before = *refined_[newest], &after = *refined_[1 - newest];
-    newest = 1 - newest;
-    glActiveTexture(GL_TEXTURE0 + refined_before_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, before.name());
-    glActiveTexture(GL_TEXTURE0 + refined_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+void SurfaceMaps::refine(SurfaceMap& map, Size size) {
+    const bool has_before = map.refined[0].has_value();
+    glActiveTexture(GL_TEXTURE0 + texture_unit::refined_before);
+    if (!has_before)
+        for (auto& refined : map.refined)
+            refined = make_texture(GL_R32UI, size, GL_NEAREST);
+    const Texture &before = *map.refined[map.newest], &after = *map.refined[1 - map.newest];
+    map.newest = 1 - map.newest;
+    bind_texture(texture_unit::refined_before, &before);
+    bind_texture(texture_unit::refined_depth, nullptr);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, after.name(), 0, layer);
-    glViewport(0, 0, size_.width, size_.height);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, after.name(), 0);
+    glViewport(0, 0, size.width, size.height);
     refine_->use();
-    glUniform1i(refine_->uniform("camera"), camera);
-    glUniform1i(refine_->uniform("has_before"), has_before);
+    glUniform1i(has_before_, has_before);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glActiveTexture(GL_TEXTURE0 + refined_before_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-    glActiveTexture(GL_TEXTURE0 + refined_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, after.name());
-    edges_->draw(camera, layer, size_, layers_, has_before);
+    bind_texture(texture_unit::refined_before, nullptr);
+    bind_texture(texture_unit::refined_depth, &after);
+    edges_->draw(map.edges, size, has_before);
+}
+
+void SurfaceMaps::bind(const CloudCamera& camera) const {
+    bind_texture(texture_unit::surfaces, &*camera.surfaces[int(kind_)].map);
 }
 
 }  // namespace theatron::render

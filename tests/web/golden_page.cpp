@@ -38,6 +38,30 @@ void report_errors(const std::string& what) {
         std::printf("problem %s raises GL error 0x%x\n", what.c_str(), error);
 }
 
+// Prints the picture of a golden scene, as hexadecimal digits.
+void draw_golden(const std::string& name, const std::string& renderer, void (*show)(CloudScene&)) {
+    try {
+        CloudScene scene;
+        show(scene);
+        const ColorImage drawn = scene.render(golden_view(), golden_picture_size, renderer).color;
+        std::string line = "picture " + name + " " + std::to_string(drawn.size.width) + " " +
+                           std::to_string(drawn.size.height) + " ";
+        const auto put = [&line](unsigned value) {
+            line += "0123456789abcdef"[value / 16];
+            line += "0123456789abcdef"[value % 16];
+        };
+        for (const Rgb p : drawn.pixels) {
+            put(p.r);
+            put(p.g);
+            put(p.b);
+        }
+        std::puts(line.c_str());
+    } catch (const Error& e) {
+        std::printf("problem %s\n", e.what());
+    }
+    report_errors(name);
+}
+
 int main() {
     EmscriptenWebGLContextAttributes attributes;
     emscripten_webgl_init_context_attributes(&attributes);
@@ -50,27 +74,8 @@ int main() {
     }
     std::printf("driver %s\n", reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
     for (const std::string& renderer : renderer_names()) {
-        try {
-            CloudScene scene;
-            show_golden_scene(scene);
-            const ColorImage drawn =
-                scene.render(golden_view(), golden_picture_size, renderer).color;
-            std::string line = "picture " + renderer + " " + std::to_string(drawn.size.width) +
-                               " " + std::to_string(drawn.size.height) + " ";
-            const auto put = [&line](unsigned value) {
-                line += "0123456789abcdef"[value / 16];
-                line += "0123456789abcdef"[value % 16];
-            };
-            for (const Rgb p : drawn.pixels) {
-                put(p.r);
-                put(p.g);
-                put(p.b);
-            }
-            std::puts(line.c_str());
-        } catch (const Error& e) {
-            std::printf("problem %s\n", e.what());
-        }
-        report_errors(renderer);
+        draw_golden(renderer, renderer, show_golden_scene);
+        draw_golden("mixed_" + renderer, renderer, show_mixed_golden_scene);
     }
     try {
         draw_lit_scene();

@@ -3,8 +3,8 @@
 
 // The camera that looks from where the viewer looks has the
 // right colours.
-float alignment(int camera, vec3 point) {
-    vec3 from_viewer = point - cameras[camera].viewer.xyz;
+float alignment(vec3 point) {
+    vec3 from_viewer = point - camera.viewer.xyz;
     float aligned = max(dot(normalize(point), normalize(from_viewer)), 0.1);
     return aligned * aligned;
 }

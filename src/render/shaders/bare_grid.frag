@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-in vec3 v_place;
+in vec2 v_place;
 
 void main() {
-    write_surface(color_at(int(v_place.z + 0.5), v_place.xy), 1.0 / gl_FragCoord.w);
+    write_surface(color_at(v_place), 1.0 / gl_FragCoord.w);
 }

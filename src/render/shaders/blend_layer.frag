@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // One camera's mesh into a layer of its own: its colour, and how good it is there.
 
-uniform int first_camera;  // the only one of this layer
 
 in vec4 v_place;
 in float v_support;
 in float v_share;
 in float v_quality;
-flat in ivec4 v_cell;
+flat in ivec3 v_cell;
 
 layout(location = 0) out vec4 out_color;
 
@@ -15,7 +14,7 @@ layout(location = 0) out vec4 out_color;
 // colour picture the colours at its border go on, the more blurred the further away. Four
 // samples either way: software drivers pay for all branches.
 vec3 color_of_pixel(vec2 pixel) {
-    vec2 size = cameras[first_camera].color_image.xy;
+    vec2 size = camera.color_image.xy;
     vec2 place = pixel + 0.5;
     vec2 a = 0.25 * dFdx(pixel), b = 0.25 * dFdy(pixel);
     vec2 outside = max(max(-place, place - size), vec2(0.0));
@@ -25,14 +24,10 @@ vec3 color_of_pixel(vec2 pixel) {
         a = 0.4 * along;
         b = 0.15 * along;
     }
-    // The picture may fill only a part of its layer: do not blend with what lies beside it.
-    vec2 scale = 1.0 / vec2(textureSize(color_images, 0).xy);
-    vec2 least = vec2(0.5) * scale, most = (size - 0.5) * scale;
-    float layer = float(layer_of(first_camera));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         vec2 corner = place + ((i & 1) == 0 ? a : -a) + ((i & 2) == 0 ? b : -b);
-        sum += texture(color_images, vec3(clamp(corner * scale, least, most), layer)).rgb;
+        sum += texture(color_picture, corner / size).rgb;
     }
     return size.x == 0.0 ? color_of_unseen : 0.25 * sum;
 }
@@ -43,5 +38,5 @@ void main() {
     // The square root keeps small weights apart in 8 bits. 0 means nothing is here, 1 that
     // it is seen from behind: the grid's triangles run clockwise for their own camera.
     float weight = gl_FrontFacing ? 1.0 / 255.0 : clamp(sqrt(v_quality), 2.0 / 255.0, 1.0);
-    out_color = vec4(color_of_pixel(v_place.xy) * cameras[first_camera].color_gain.rgb, weight);
+    out_color = vec4(color_of_pixel(v_place.xy) * camera.color_gain.rgb, weight);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every cloud shader knows of the cameras: their images and calibrations.
-// One entry of `cameras` for each camera of a draw call, in its own order.
+// What every cloud shader knows of the camera that is drawn: its images and its calibration.
 
-struct Camera {
+layout(std140) uniform Camera {
     mat4 clip_from_camera;   // its w is the distance along the view's axis
     mat4 color_from_camera;  // depth camera's frame to colour camera's frame
     vec4 color_pinhole;      // fx, fy, cx, cy in pixels of the newest colour picture
@@ -10,36 +9,29 @@ struct Camera {
     vec4 color_more;         // k5, k6, p1, p2
     vec4 color_image;        // width, height, largest radius (0: no limit), 1 if it needs
                              // the map of color_place.glsl
-    vec4 depth_image;        // metres per unit, texture layer, tangent per pixel, metres
-                             // that are measured too much (corrected.glsl)
+    vec4 depth;              // metres per unit, tangent per pixel, metres that are measured too
+                             // much (corrected.glsl)
     vec4 viewer;             // the eye in the depth camera's frame
     vec4 color_gain;         // red, green, blue: balances the cameras' exposures; presence
     vec4 keep;               // shown.glsl: middle of a ball, radius (0: no such cut)
     vec4 remove_from;        // beginning of a capsule, radius (0: no such cut)
     vec4 remove_to;          // its end; width of the borders
-};
-
-layout(std140) uniform Cameras {
-    Camera cameras[16];
-};
-
-uniform usampler2DArray depth_images;
-uniform sampler2DArray ray_tables;
-uniform sampler2DArray color_images;
-
-int layer_of(int camera) {
-    return int(cameras[camera].depth_image.y);
 }
+camera;
+
+uniform usampler2D depth_image;
+uniform sampler2D rays;
+uniform sampler2D color_picture;
 
 // The depth of a pixel, 0 where nothing was measured.
-float depth_m(int camera, ivec2 pixel) {
-    uint units = texelFetch(depth_images, ivec3(pixel, layer_of(camera)), 0).r;
-    return float(units) * cameras[camera].depth_image.x;
+float depth_m(ivec2 pixel) {
+    uint units = texelFetch(depth_image, pixel, 0).r;
+    return float(units) * camera.depth.x;
 }
 
 // The point that `pixel` sees at distance `z`, in the depth camera's frame.
-vec3 point_at(int camera, ivec2 pixel, float z) {
-    vec2 ray = texelFetch(ray_tables, ivec3(pixel, layer_of(camera)), 0).rg;
+vec3 point_at(ivec2 pixel, float z) {
+    vec2 ray = texelFetch(rays, pixel, 0).rg;
     return vec3(ray * z, z);
 }
 
@@ -48,12 +40,12 @@ const float farthest_m = 20.0;
 
 // Where the colour camera sees a point of the depth camera's frame: the pixel, far
 // outside its picture where it cannot, and the distance along its axis.
-vec3 color_pixel(int camera, vec3 point) {
-    vec3 p = (cameras[camera].color_from_camera * vec4(point, 1.0)).xyz;
-    vec4 k = cameras[camera].color_radial;
-    vec4 more = cameras[camera].color_more;
-    vec4 pinhole = cameras[camera].color_pinhole;
-    float limit = cameras[camera].color_image.z;
+vec3 color_pixel(vec3 point) {
+    vec3 p = (camera.color_from_camera * vec4(point, 1.0)).xyz;
+    vec4 k = camera.color_radial;
+    vec4 more = camera.color_more;
+    vec4 pinhole = camera.color_pinhole;
+    float limit = camera.color_image.z;
 
     vec2 d = p.xy / p.z;
     float r2 = dot(d, d);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which place of the colour picture shows a point. Needs cloud.glsl.
 
-// For each camera the distance of the nearest surface that its colour camera sees, along
-// that camera's axis, as a fraction of farthest_m. Filled by color_depth.vert.
-uniform sampler2DArray nearest_in_color;
+// The distance of the nearest surface that the colour camera sees, along that camera's axis,
+// as a fraction of farthest_m. Filled by color_depth.vert.
+uniform sampler2D nearest_in_color;
 
 // How far away is what the colour camera has at `pixel`; farthest_m: nothing known.
-float nearest_at(int camera, vec2 pixel) {
-    vec2 place = (pixel + 0.5) / cameras[camera].color_image.xy;
-    return texture(nearest_in_color, vec3(place, float(layer_of(camera)))).r * farthest_m;
+float nearest_at(vec2 pixel) {
+    vec2 place = (pixel + 0.5) / camera.color_image.xy;
+    return texture(nearest_in_color, place).r * farthest_m;
 }
 
-bool shows_background(int camera, vec2 pixel, float background) {
-    float nearest = nearest_at(camera, pixel);
+bool shows_background(vec2 pixel, float background) {
+    float nearest = nearest_at(pixel);
     return nearest > background && nearest < 0.99 * farthest_m;
 }
 
@@ -26,34 +26,34 @@ float inside_picture(vec2 pixel, vec2 size) {
 // sees the point: 1, less towards the border of its picture, 0 where it does not. From its place beside the depth camera it
 // cannot see all that has depth: there the pixel is that of the nearest part of the
 // background that it does see, so that silhouettes are not painted on what is behind.
-vec3 color_place(int camera, vec3 point) {
-    vec3 seen_at = color_pixel(camera, point);
-    vec2 size = cameras[camera].color_image.xy;
+vec3 color_place(vec3 point) {
+    vec3 seen_at = color_pixel(point);
+    vec2 size = camera.color_image.xy;
     vec2 pixel = seen_at.xy;
     float inside = inside_picture(pixel, size);
     if (inside == 0.0)
         return vec3(pixel, 0.0);
     // The map is coarse: a slanted surface must not hide itself.
     float behind = seen_at.z - (0.03 + 0.03 * seen_at.z);
-    if (cameras[camera].color_image.w == 0.0)
+    if (camera.color_image.w == 0.0)
         return vec3(pixel, inside);
-    float hiding = nearest_at(camera, pixel);
+    float hiding = nearest_at(pixel);
     if (hiding > behind)
         return vec3(pixel, inside);
     // What hides the point lies, for the depth camera, on the side of the colour camera
     // from it; away from there the background comes into the colour camera's view.
     // Beside the line between the two, only the map's coarseness can hide anything.
     float background = 0.5 * (hiding + seen_at.z);
-    vec2 away = normalize(cameras[camera].color_from_camera[3].xy) * size.x / 320.0;
+    vec2 away = normalize(camera.color_from_camera[3].xy) * size.x / 320.0;
     vec2 beside = vec2(-away.y, away.x);
     for (float distance = 1.0; distance < 40.0; distance *= 1.3) {
         vec2 candidate = pixel + away * distance;
-        if (shows_background(camera, candidate, background))
+        if (shows_background(candidate, background))
             return vec3(candidate, 0.0);
         if (distance < 6.0) {
-            if (shows_background(camera, pixel + beside * distance, background))
+            if (shows_background(pixel + beside * distance, background))
                 return vec3(pixel + beside * distance, 0.0);
-            if (shows_background(camera, pixel - beside * distance, background))
+            if (shows_background(pixel - beside * distance, background))
                 return vec3(pixel - beside * distance, 0.0);
         }
     }

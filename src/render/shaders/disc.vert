@@ -4,26 +4,25 @@
 // geometry, not by which point comes first.
 
 flat out float v_share;
-flat out vec4 v_place;    // colour pixel, camera, diameter
+flat out vec3 v_place;    // colour pixel, diameter
 flat out vec3 v_ellipse;  // a, b, c of a x^2 + b x y + c y^2 <= 1, in picture pixels
 flat out vec4 v_plane;    // distance at the centre, its change to the right, upwards; how much
                           // further back it is tested
 
 void main() {
-    int camera = gl_InstanceID;
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
-    float z = depth_m(camera, pixel);
-    vec3 point = point_at(camera, pixel, z);
-    mat4 m = cameras[camera].clip_from_camera;
+    float z = depth_m(pixel);
+    vec3 point = point_at(pixel, z);
+    mat4 m = camera.clip_from_camera;
     vec4 clip = m * vec4(point, 1.0);
-    v_share = share_shown(camera, point);
+    v_share = share_shown(point);
     if (z == 0.0 || point.x > 1e6 || clip.w <= 0.0 || v_share == 0.0) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the picture
         gl_PointSize = 1.0;
         return;
     }
-    mat2x3 steps = surface_steps(camera, pixel, point);
-    mat2 j = picture_steps(camera, steps, clip);
+    mat2x3 steps = surface_steps(pixel, point);
+    mat2 j = picture_steps(steps, clip);
 
     // The image of a circle in the grid of pixels, widened so that it always meets a
     // pixel's centre.
@@ -38,8 +37,8 @@ void main() {
     float determinant_j = determinant(j);
     // Seen edge on, a disc has no slope that means anything.
     vec2 slope = abs(determinant_j) > 0.1 ? inverse(transpose(j)) * change : vec2(0.0);
-    vec3 color = color_place(camera, point);
+    vec3 color = color_place(point);
     v_plane = vec4(clip.w, slope, set_back_m(color.z));
     gl_Position = clip;
-    v_place = vec4(color.xy, float(camera), gl_PointSize);
+    v_place = vec3(color.xy, gl_PointSize);
 }

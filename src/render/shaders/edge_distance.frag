@@ -3,8 +3,7 @@
 // depth pixels on. What edges.frag drew is the input.
 
 uniform sampler2D whole;
-uniform sampler2DArray distances_before;  // what this shader drew for the frame before
-uniform int layer;
+uniform sampler2D distances_before;  // what this shader drew for the frame before
 uniform bool has_before;
 
 layout(location = 0) out vec4 out_distance;
@@ -24,6 +23,6 @@ void main() {
     float distance = nearest / reach;
     // Gaps that come and go would make the cameras' weights flicker.
     if (has_before)
-        distance = mix(texelFetch(distances_before, ivec3(here, layer), 0).r, distance, 0.25);
+        distance = mix(texelFetch(distances_before, here, 0).r, distance, 0.25);
     out_distance = vec4(distance);
 }

@@ -2,8 +2,8 @@
 // The surface as it was measured. Needs cloud.glsl.
 
 // Metres, 0 where there is none.
-float surface_m(int camera, ivec2 pixel) {
-    return depth_m(camera, pixel);
+float surface_m(ivec2 pixel) {
+    return depth_m(pixel);
 }
 
 // See refined.glsl.

@@ -7,28 +7,26 @@
 // fragment shader throws the torn ones away. GLES 3.0 has no other place for
 // it: vertices are shared, and there are no geometry shaders.
 
-uniform int columns;       // of the depth images
-uniform int first_camera;  // of those drawn by this call
-uniform bool sets_back;    // whether set_back.glsl is asked, and cameras fade by themselves
+uniform int columns;    // of the depth image
+uniform bool sets_back; // whether set_back.glsl is asked, and cameras fade by themselves
 
 out vec4 v_place;       // colour pixel, place in the depth image
 out float v_support;    // how many neighbours are connected, 1: all
 out float v_quality;    // for blending; see quality.glsl
 out float v_share;      // how much is to be seen
-flat out ivec4 v_cell;  // corner of the cell, camera, kept triangles: 1 upper, 2 lower
+flat out ivec3 v_cell;  // corner of the cell, kept triangles: 1 upper, 2 lower
 
 void main() {
-    int camera = first_camera + gl_InstanceID;
     ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
-    Surface s = surface_at(camera, pixel);
-    vec3 point = point_at(camera, pixel, s.z);
-    point.xy += s.shift * (cameras[camera].depth_image.z * s.z);
-    gl_Position = cameras[camera].clip_from_camera * vec4(point, 1.0);
+    Surface s = surface_at(pixel);
+    vec3 point = point_at(pixel, s.z);
+    point.xy += s.shift * (camera.depth.y * s.z);
+    gl_Position = camera.clip_from_camera * vec4(point, 1.0);
     if (sets_back)
         gl_Position = set_back(gl_Position, s.seen);
-    v_share = sets_back ? share_shown(camera, point) : share_within_cut(camera, point);
+    v_share = sets_back ? share_shown(point) : share_within_cut(point);
     v_place = vec4(s.color, vec2(pixel));
     v_support = s.support;
-    v_quality = s.quality * alignment(camera, point);
-    v_cell = ivec4(pixel, camera, s.kept);
+    v_quality = s.quality * alignment(point);
+    v_cell = ivec3(pixel, s.kept);
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much a camera's view of a point is worth beside other cameras'. Needs cloud.glsl.
 
-// Distance to the next edge of the surface for each camera, from 0 to 1.
-uniform sampler2DArray edge_distances;
+// Distance to the next edge of the surface, from 0 to 1.
+uniform sampler2D edge_distances;
 
 // `steepness`: change of depth per footprint, to the right and downwards. `seen`: how well
 // the colour camera sees the point, see color_place.glsl. What depends on the view is in
 // alignment.glsl.
-float quality_at(int camera, ivec2 pixel, vec3 point, vec2 steepness, float seen) {
+float quality_at(ivec2 pixel, vec3 point, vec2 steepness, float seen) {
     // Noise and the size of a pixel grow with the distance; one metre is as good as it gets.
     float near = min(1.0, 1.0 / (point.z * point.z));
     // The cosine at which the camera sees the surface.
     float facing = inversesqrt(1.0 + dot(steepness, steepness));
     // Nothing of a camera may begin or end suddenly.
-    vec2 place = (vec2(pixel) + 0.5) / (4.0 * vec2(textureSize(edge_distances, 0).xy));
-    float inner = texture(edge_distances, vec3(place, float(layer_of(camera)))).r;
+    vec2 place = (vec2(pixel) + 0.5) / (4.0 * vec2(textureSize(edge_distances, 0)));
+    float inner = texture(edge_distances, place).r;
     return near * facing * facing * inner * max(seen, 0.002);
 }

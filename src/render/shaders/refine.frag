@@ -2,8 +2,7 @@
 // Depth for blending: less noise, also over time, and small gaps closed where both sides of a gap lie on one
 // surface. Nothing is continued beyond what was measured.
 
-uniform int camera;
-uniform usampler2DArray refined_before;  // what this shader drew for the frame before
+uniform usampler2D refined_before;  // what this shader drew for the frame before
 uniform bool has_before;
 
 layout(location = 0) out uint out_depth;
@@ -15,7 +14,7 @@ const float widest_gap = 9.0;  // pixels, from side to side
 // The nearest depth that was measured along `direction`, and how many pixels away; 0, 0: none.
 vec2 nearest_along(ivec2 pixel, ivec2 direction) {
     for (int i = 1; i <= reach; ++i) {
-        float z = surface_near(camera, pixel, i * direction);
+        float z = surface_near(pixel, i * direction);
         if (z > 0.0)
             return vec2(z, float(i));
     }
@@ -33,7 +32,7 @@ vec2 across(ivec2 pixel, ivec2 axis) {
     if (before.x == 0.0 || steps > widest_gap + 1.0)
         return none;
     float width = steps * length(vec2(axis));
-    float limit = largest_step(footprint_m(camera, max(after.x, before.x)));
+    float limit = largest_step(footprint_m(max(after.x, before.x)));
     if (abs(after.x - before.x) > limit * (1.0 + 0.25 * width))
         return none;
     return vec2(mix(before.x, after.x, before.y / steps), width);
@@ -52,15 +51,15 @@ float filled(ivec2 pixel) {
 // Light of two surfaces in one pixel pulls the rim of the nearer one back: there the surface is
 // continued as it was before.
 float straightened(ivec2 pixel, float z) {
-    float footprint = footprint_m(camera, z);
+    float footprint = footprint_m(z);
     float limit = largest_step(footprint);
     for (int i = 0; i < 4; ++i) {
         ivec2 outwards = ivec2[4](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1))[i];
-        float beyond = surface_near(camera, pixel, outwards);
+        float beyond = surface_near(pixel, outwards);
         if (beyond > 0.0 && beyond < z + limit)
             continue;
-        float inner = surface_near(camera, pixel, -outwards);
-        float further = surface_near(camera, pixel, -2 * outwards);
+        float inner = surface_near(pixel, -outwards);
+        float further = surface_near(pixel, -2 * outwards);
         float continued = 2.0 * inner - further;
         if (inner > 0.0 && further > 0.0 && abs(inner - further) < limit &&
             abs(z - inner) < limit && z > continued + 0.004 + 2.0 * footprint)
@@ -76,16 +75,15 @@ float noise_m(float z) {
 
 // Refined depth of the frame before, 0 where there was none. The lowest bits count frames; see steadied().
 float depth_before(ivec2 pixel) {
-    ivec2 last = textureSize(depth_images, 0).xy - 1;
-    ivec3 place = ivec3(clamp(pixel, ivec2(0), last), layer_of(camera));
-    return uintBitsToFloat(texelFetch(refined_before, place, 0).r & ~age_bits);
+    ivec2 last = textureSize(depth_image, 0) - 1;
+    return uintBitsToFloat(texelFetch(refined_before, clamp(pixel, ivec2(0), last), 0).r & ~age_bits);
 }
 
 // A mean of the neighbours on the same surface. Pairs of opposite neighbours, so that slopes and rims stay
 // where they are. A pair whose middle is not here has a step in between, which is no noise; where nothing
 // moved, the frame before tells, so that noise does not decide anew each time.
 float smoothed(ivec2 pixel, float z) {
-    float limit = largest_step(footprint_m(camera, z));
+    float limit = largest_step(footprint_m(z));
     float noise = noise_m(z);
     float before = has_before ? depth_before(pixel) : 0.0;
     bool stayed = abs(before - z) < 2.0 * noise;
@@ -93,7 +91,7 @@ float smoothed(ivec2 pixel, float z) {
     for (int i = 0; i < 6; ++i) {
         ivec2 offset = ivec2[6](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0),
                                 ivec2(0, 2))[i];
-        float a = surface_near(camera, pixel, offset), b = surface_near(camera, pixel, -offset);
+        float a = surface_near(pixel, offset), b = surface_near(pixel, -offset);
         float w = abs(a - z) < limit && abs(b - z) < limit ? (i < 2 ? 1.5 : i < 4 ? 1.0 : 0.6) : 0.0;
         float step = abs(a + b - 2.0 * z);
         if (stayed)
@@ -107,7 +105,7 @@ float smoothed(ivec2 pixel, float z) {
 
 // How many of the eight neighbours measure this surface now.
 int support(float around[8], float z) {
-    float limit = largest_step(footprint_m(camera, z));
+    float limit = largest_step(footprint_m(z));
     int count = 0;
     for (int i = 0; i < 8; ++i)
         count += int(abs(around[i] - z) < limit);
@@ -123,7 +121,7 @@ float widened(float around[8]) {
             nearest = min(nearest, around[i]);
     if (nearest == 1e6)
         return 0.0;
-    float limit = largest_step(footprint_m(camera, nearest));
+    float limit = largest_step(footprint_m(nearest));
     float sum = 0.0, count = 0.0;
     for (int i = 0; i < 8; ++i)
         if (abs(around[i] - nearest) < limit) {
@@ -147,7 +145,7 @@ uint remembered(float z, uint happened) {
 uint steadied(float around[8], float measured, float z) {
     if (!has_before)
         return remembered(z, 0u);
-    uint bits = texelFetch(refined_before, ivec3(gl_FragCoord.xy, layer_of(camera)), 0).r;
+    uint bits = texelFetch(refined_before, ivec2(gl_FragCoord.xy), 0).r;
     float before = uintBitsToFloat(bits & ~age_bits);
     uint happened = bits & age_bits;
     if (before == 0.0)
@@ -173,10 +171,10 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float around[8];
     for (int i = 0; i < 8; ++i)
-        around[i] = surface_near(camera, pixel,
+        around[i] = surface_near(pixel,
                                  ivec2[8](ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0),
                                           ivec2(1, 0), ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1))[i]);
-    float measured = surface_m(camera, pixel);
+    float measured = surface_m(pixel);
     float z = measured;
     if (measured > 0.0)
         z = smoothed(pixel, straightened(pixel, measured));

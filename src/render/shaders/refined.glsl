@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface as refine.frag made it from what was measured. Needs cloud.glsl.
 
-uniform usampler2DArray refined_depth;
+uniform usampler2D refined_depth;
 
 // Metres, 0 where there is none.
-float surface_m(int camera, ivec2 pixel) {
-    return uintBitsToFloat(texelFetch(refined_depth, ivec3(pixel, layer_of(camera)), 0).r);
+float surface_m(ivec2 pixel) {
+    return uintBitsToFloat(texelFetch(refined_depth, pixel, 0).r);
 }
 
 // How far a surface is drawn behind what hides it from its camera, in pixels.

@@ -3,9 +3,9 @@
 // come or go. Needs cloud.glsl.
 
 // 0 to 1. `point` is in the depth camera's frame.
-float share_within_cut(int camera, vec3 point) {
-    vec4 keep = cameras[camera].keep, from = cameras[camera].remove_from;
-    vec4 to = cameras[camera].remove_to;
+float share_within_cut(vec3 point) {
+    vec4 keep = camera.keep, from = camera.remove_from;
+    vec4 to = camera.remove_to;
     float border = max(to.w, 1e-3), share = 1.0;
     if (keep.w > 0.0)
         share = 1.0 - smoothstep(keep.w - border, keep.w, distance(point, keep.xyz));
@@ -17,6 +17,6 @@ float share_within_cut(int camera, vec3 point) {
     return share;
 }
 
-float share_shown(int camera, vec3 point) {
-    return share_within_cut(camera, point) * cameras[camera].color_gain.w;
+float share_shown(vec3 point) {
+    return share_within_cut(point) * camera.color_gain.w;
 }

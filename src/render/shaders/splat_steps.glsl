@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the neighbours of a point appear in the picture. Needs neighbours.glsl.
 
-uniform int columns;        // of the depth images
+uniform int columns;        // of the depth image
 uniform vec2 half_picture;  // half of its size in pixels
 
 // Columns: from the point to its right and lower neighbour on the surface, in
 // picture pixels; `clip` is the point's own place.
-mat2 picture_steps(int camera, mat2x3 steps, vec4 clip) {
-    mat4 m = cameras[camera].clip_from_camera;
+mat2 picture_steps(mat2x3 steps, vec4 clip) {
+    mat4 m = camera.clip_from_camera;
     vec4 right = clip + m * vec4(steps[0], 0.0);
     vec4 below = clip + m * vec4(steps[1], 0.0);
     vec2 here = clip.xy / clip.w;

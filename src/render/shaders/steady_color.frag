@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A colour picture that follows its noise slowly.
+// A colour picture that follows its noise slowly. Needs cloud.glsl.
 
-uniform int layer;
 uniform bool has_before;
-uniform sampler2DArray colors_before;  // what this shader drew for the frame before
+uniform sampler2D colors_before;  // what this shader drew for the frame before
 
 layout(location = 0) out vec4 out_color;
 
 void main() {
-    ivec3 place = ivec3(gl_FragCoord.xy, layer);
-    vec3 color = texelFetch(color_images, place, 0).rgb;
+    ivec2 place = ivec2(gl_FragCoord.xy);
+    vec3 color = texelFetch(color_picture, place, 0).rgb;
     vec3 before = texelFetch(colors_before, place, 0).rgb;
     vec3 change = abs(color - before);
     // The noise of sensor and compression has a deviation of two to four steps of 255.

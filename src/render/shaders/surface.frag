@@ -2,7 +2,6 @@
 // All that is to be known of a depth pixel whatever the view: drawn once for each new
 // image, so that the vertex shaders of every view only read it (surface_read.glsl).
 
-uniform int camera;
 
 layout(location = 0) out uvec4 out_surface;
 
@@ -24,7 +23,7 @@ float borrowed_depth(float neighbours[8]) {
 // next pixel with depth.
 bool hidden_beyond(ivec2 pixel, ivec2 direction, float z, float next, float limit) {
     if (next == 0.0)
-        next = surface_near(camera, pixel, 2 * direction);
+        next = surface_near(pixel, 2 * direction);
     return next > 0.0 && next < z - limit;
 }
 
@@ -37,21 +36,21 @@ float hidden_side(ivec2 pixel, ivec2 axis, float before, float z, float after, f
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float z = surface_m(camera, pixel);
-    float above = surface_near(camera, pixel, ivec2(0, -1));
-    float left = surface_near(camera, pixel, ivec2(-1, 0));
-    float right = surface_near(camera, pixel, ivec2(1, 0));
-    float below = surface_near(camera, pixel, ivec2(0, 1));
-    float diagonal = surface_near(camera, pixel, ivec2(1, 1));
-    float up_left = surface_near(camera, pixel, ivec2(-1, -1));
-    float up_right = surface_near(camera, pixel, ivec2(1, -1));
-    float down_left = surface_near(camera, pixel, ivec2(-1, 1));
+    float z = surface_m(pixel);
+    float above = surface_near(pixel, ivec2(0, -1));
+    float left = surface_near(pixel, ivec2(-1, 0));
+    float right = surface_near(pixel, ivec2(1, 0));
+    float below = surface_near(pixel, ivec2(0, 1));
+    float diagonal = surface_near(pixel, ivec2(1, 1));
+    float up_left = surface_near(pixel, ivec2(-1, -1));
+    float up_right = surface_near(pixel, ivec2(1, -1));
+    float down_left = surface_near(pixel, ivec2(-1, 1));
     uint kept = 0u;
     float support = 0.0;
     vec2 steepness = vec2(0.0);
     vec2 hidden = vec2(0.0);
     if (z > 0.0) {
-        float footprint = footprint_m(camera, z);
+        float footprint = footprint_m(z);
         float straight = largest_step(footprint);
         float oblique = 1.4142 * straight;
         bool to_right = connected(z, right, straight);
@@ -76,14 +75,14 @@ void main() {
         z = borrowed_depth(
             float[8](left, right, above, below, up_left, up_right, down_left, diagonal));
     }
-    vec3 point = point_at(camera, pixel, z);
-    vec3 color = color_place(camera, point);
-    float quality = quality_at(camera, pixel, point, steepness, color.z);
-    vec2 place = color.xy / max(cameras[camera].color_image.xy, vec2(1.0));
+    vec3 point = point_at(pixel, z);
+    vec3 color = color_place(point);
+    float quality = quality_at(pixel, point, steepness, color.z);
+    vec2 place = color.xy / max(camera.color_image.xy, vec2(1.0));
     // What is hidden is there all the same: the next camera's shadow may begin where this one's ends.
     // It may fall back as it did, but never rises in front of what other cameras measure.
     vec2 shift = goes_on_behind * hidden;
-    z += max(dot(shift, steepness), 0.0) * footprint_m(camera, z);
+    z += max(dot(shift, steepness), 0.0) * footprint_m(z);
     out_surface.x = floatBitsToUint(z);
     out_surface.y = packUnorm2x16((place + 0.5) / 2.0);
     uvec2 quarters = uvec2(4.0 * shift + 8.0);

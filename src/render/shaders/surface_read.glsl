@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What surface.frag found out about each depth pixel. Needs cloud.glsl.
 
-uniform usampler2DArray surfaces;
+uniform usampler2D surfaces;
 
 struct Surface {
     float z;        // metres; borrowed from a neighbour where nothing was measured
@@ -13,12 +13,12 @@ struct Surface {
     float quality;  // for blending, without what depends on the view
 };
 
-Surface surface_at(int camera, ivec2 pixel) {
-    uvec4 texel = texelFetch(surfaces, ivec3(pixel, layer_of(camera)), 0);
+Surface surface_at(ivec2 pixel) {
+    uvec4 texel = texelFetch(surfaces, pixel, 0);
     Surface s;
     s.z = uintBitsToFloat(texel.x);
     s.shift = vec2(float((texel.z >> 18) & 15u), float((texel.z >> 22) & 15u)) / 4.0 - 2.0;
-    s.color = (unpackUnorm2x16(texel.y) * 2.0 - 0.5) * cameras[camera].color_image.xy;
+    s.color = (unpackUnorm2x16(texel.y) * 2.0 - 0.5) * camera.color_image.xy;
     s.kept = int(texel.z & 3u);
     s.support = float((texel.z >> 2) & 255u) / 255.0;
     s.seen = float((texel.z >> 10) & 255u) / 255.0;
