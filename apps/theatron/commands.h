@@ -21,5 +21,6 @@ void add_demo_command(CLI::App& app);
 void add_cameras_command(CLI::App& app);
 void add_status_command(CLI::App& app);
 void add_background_command(CLI::App& app);
+void add_case_command(CLI::App& app);
 
 }  // namespace theatron::app

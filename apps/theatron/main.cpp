@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     theatron::app::add_cameras_command(app);
     theatron::app::add_status_command(app);
     theatron::app::add_background_command(app);
+    theatron::app::add_case_command(app);
 
     try {
         const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases as folders: case.json beside meshes and volumes of our own formats.
+//
+// Folders come from other people. Their manifests, meshes and volumes are read in this process: the
+// formats are our own, small and fuzzed. Links are not followed out of the folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/manifest.h"
+#include "medical/case.h"
+#include "medical/mesh.h"
+#include "medical/volume.h"
+
+namespace theatron::cases {
+
+// What identifies the patient, apart from the content: a file for the host alone.
+inline constexpr const char* identifiers_name = "identifiers.json";
+
+inline constexpr const char* mesh_extension = ".thmesh";
+inline constexpr const char* volume_extension = ".thvolume";
+
+// Each throws Error with one sentence that names the file.
+medical::Case read_manifest(const std::filesystem::path& folder);
+medical::Mesh read_mesh(const std::filesystem::path& file);
+medical::Volume read_volume(const std::filesystem::path& file);
+
+struct LoadedCase {
+    medical::Case manifest;
+    std::vector<medical::Mesh> meshes;     // one for each part
+    std::vector<medical::Volume> volumes;  // one for each series
+};
+// The whole case, in memory. Throws Error at the first thing that is wrong.
+LoadedCase read_case(const std::filesystem::path& folder);
+
+struct CheckReport {
+    std::vector<std::string> problems;  // sentences; without any the case can be shown
+    std::vector<std::string> remarks;   // sentences on what is unusual
+};
+// Everything that is wrong with a case, not only the first thing. Throws nothing.
+CheckReport check_case(const std::filesystem::path& folder);
+
+}  // namespace theatron::cases
