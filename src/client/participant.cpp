@@ -178,7 +178,7 @@ void Participant::on_media(ByteView message) {
 }
 
 void Participant::request_key(StreamId stream, SettingId setting) {
-    shared_->client->send_control(wire::encode_control(wire::RequestKey{stream, setting}));
+    shared_->client->send_control(wire::encode(wire::RequestKey{stream, setting}));
 }
 
 void Participant::on_control(ByteView message) {
@@ -299,7 +299,7 @@ void Participant::on_camera_states() {
 }
 
 void Participant::ping(TimePoint local) {
-    shared_->client->send_control(wire::encode_control(wire::Ping{local}));
+    shared_->client->send_control(wire::encode(wire::Ping{local}));
     // The offset is wanted soon; then it only has to follow the drift.
     next_ping_ = local + (++pings_ < 8 ? 100ms : 1000ms);
 }
@@ -346,7 +346,7 @@ void Participant::on_tick() {
         shared_->figures = figures;
         report.renderer = shared_->renderer;
     }
-    client.send_control(wire::encode_control(report));
+    client.send_control(wire::encode(report));
 }
 
 Participant::Status Participant::status() const {

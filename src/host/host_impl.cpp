@@ -12,6 +12,10 @@ namespace {
 // For participants who do not take the word that the session is over.
 constexpr Duration goodbye_patience = std::chrono::seconds(1);
 
+net::PeerId peer_of(ParticipantId participant) {
+    return net::PeerId(std::uint32_t(participant));
+}
+
 }  // namespace
 
 net::Server::Handler Host::Impl::handler() {
@@ -57,69 +61,81 @@ net::Server::Handler Host::Impl::handler() {
 
 // A fault in one action costs only the participant that the action is for.
 void Host::Impl::carry_out() {
-    for (const auto& action : session->take_actions())
-        if (!contain("host", [&] { carry_out(action); }))
-            server->close(net::PeerId(std::uint32_t(action.participant)), "it met a fault here");
+    for (const session::Action& next : session->take_actions())
+        std::visit(
+            [&](const auto& a) {
+                const bool done = contain("host", [&] { carry_out(a); });
+                if constexpr (requires { a.participant; })
+                    if (!done)
+                        server->close(peer_of(a.participant), "it met a fault here");
+            },
+            next);
 }
 
-void Host::Impl::carry_out(const session::HostSession::Action& action) {
-    const net::PeerId peer{std::uint32_t(action.participant)};
-    using Kind = session::HostSession::Action::Kind;
-    switch (action.kind) {
-        case Kind::send:
-            server->send_control(peer, wire::encode_control(action.message));
-            break;
-        case Kind::close:
-            if (const auto left_out = joins.take("refused " + addresses[peer], steady_now()))
-                log::warning("host", "participant refused",
-                             {{"id", int(peer)},
-                              {"address", addresses[peer]},
-                              log::outside("why", action.why),
-                              {"left_out", *left_out}});
-            server->close(peer, action.why);
-            break;
-        case Kind::goodbye:
-            leaving.insert(peer);
-            server->send_control(peer, wire::encode_control(action.message));
-            server->close(peer, action.why);
-            break;
-        case Kind::joined:
-            if (const auto left_out = joins.take(addresses[peer] + " " + action.why, steady_now()))
-                log::info("host", "participant joined",
-                          {{"id", int(peer)},
-                           {"address", addresses[peer]},
-                           log::outside("name", action.why),
-                           {"left_out", *left_out}});
-            break;
-        case Kind::request_key: {
-            const auto camera = std::size_t(camera_of(action.key.stream));
-            if (camera < lanes.size())
-                lanes[camera]->request_key(action.key.stream, action.key.setting);
-            break;
-        }
-        case Kind::change_settings:
-            change_settings();
-            break;
-        case Kind::acknowledged:
-            server->acknowledge(peer, action.bytes);
-            release_lanes();
-            break;
-        case Kind::keep_everything:
-            server->keep_everything(peer);
-            break;
-        case Kind::set_ceiling:
-            server->set_ceiling(peer, double(action.bytes));
-            break;
-        case Kind::stepped:
-            if (changes.take(std::to_string(int(peer)), steady_now()))
-                log::info("host", "sending changed",
-                          {{"id", int(peer)}, log::outside("to", action.why)});
-            break;
-        case Kind::drawing:
-            log::info("host", "participant draws",
-                      {{"id", int(peer)}, log::outside("renderer", action.why)});
-            break;
-    }
+void Host::Impl::carry_out(const session::action::Send& a) {
+    server->send_control(peer_of(a.participant), wire::encode(a.message));
+}
+
+void Host::Impl::carry_out(const session::action::Close& a) {
+    const net::PeerId peer = peer_of(a.participant);
+    if (const auto left_out = joins.take("refused " + addresses[peer], steady_now()))
+        log::warning("host", "participant refused",
+                     {{"id", int(peer)},
+                      {"address", addresses[peer]},
+                      log::outside("why", a.why),
+                      {"left_out", *left_out}});
+    server->close(peer, a.why);
+}
+
+void Host::Impl::carry_out(const session::action::End& a) {
+    const net::PeerId peer = peer_of(a.participant);
+    leaving.insert(peer);
+    server->send_control(peer, wire::encode(a.message));
+    server->close(peer, "the session has ended");
+}
+
+void Host::Impl::carry_out(const session::action::Joined& a) {
+    const std::string& address = addresses[peer_of(a.participant)];
+    if (const auto left_out = joins.take(address + " " + a.name, steady_now()))
+        log::info("host", "participant joined",
+                  {{"id", int(a.participant)},
+                   {"address", address},
+                   log::outside("name", a.name),
+                   {"left_out", *left_out}});
+}
+
+void Host::Impl::carry_out(const session::action::RequestKey& a) {
+    const auto camera = std::size_t(camera_of(a.key.stream));
+    if (camera < lanes.size())
+        lanes[camera]->request_key(a.key.stream, a.key.setting);
+}
+
+void Host::Impl::carry_out(const session::action::ChangeSettings&) {
+    change_settings();
+}
+
+void Host::Impl::carry_out(const session::action::Acknowledged& a) {
+    server->acknowledge(peer_of(a.participant), a.media_bytes);
+    release_lanes();
+}
+
+void Host::Impl::carry_out(const session::action::KeepEverything& a) {
+    server->keep_everything(peer_of(a.participant));
+}
+
+void Host::Impl::carry_out(const session::action::SetCeiling& a) {
+    server->set_ceiling(peer_of(a.participant), double(a.bytes_per_second));
+}
+
+void Host::Impl::carry_out(const session::action::Stepped& a) {
+    if (changes.take(std::to_string(int(a.participant)), steady_now()))
+        log::info("host", "sending changed",
+                  {{"id", int(a.participant)}, log::outside("to", a.to)});
+}
+
+void Host::Impl::carry_out(const session::action::Drawing& a) {
+    log::info("host", "participant draws",
+              {{"id", int(a.participant)}, log::outside("renderer", a.renderer)});
 }
 
 void Host::Impl::note_left(net::PeerId peer) {
@@ -184,7 +200,7 @@ void Host::Impl::release_lanes() {
 }
 
 bool Host::Impl::is_invited(ByteView first) const {
-    const auto message = wire::decode_control(first);
+    const auto message = wire::decode_to_host(first);
     const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
     return join && net::equal_secrets(join->token, http_tokens.front());
 }

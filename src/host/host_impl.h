@@ -72,7 +72,17 @@ struct Host::Impl {
 
     // All below on the server's thread.
     void carry_out();
-    void carry_out(const session::HostSession::Action& action);
+    void carry_out(const session::action::Send& a);
+    void carry_out(const session::action::Close& a);
+    void carry_out(const session::action::End& a);
+    void carry_out(const session::action::Joined& a);
+    void carry_out(const session::action::RequestKey& a);
+    void carry_out(const session::action::ChangeSettings&);
+    void carry_out(const session::action::Acknowledged& a);
+    void carry_out(const session::action::KeepEverything& a);
+    void carry_out(const session::action::SetCeiling& a);
+    void carry_out(const session::action::Stepped& a);
+    void carry_out(const session::action::Drawing& a);
     void change_settings();
     void hold_lane(std::size_t camera);
     void hold_lanes();

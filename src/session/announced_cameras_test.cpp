@@ -97,12 +97,12 @@ TEST(AnnouncedCameras, WideAndHighOnesDoNotComeTogether) {
 TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
     ViewerSession viewer({});
     wire::Welcome welcome{1, {}, "host", {camera(0), camera(0), camera(4)}};
-    ASSERT_EQ(viewer.on_control(wire::encode_control(welcome)), ViewerSession::Change::welcomed);
+    ASSERT_EQ(viewer.on_control(wire::encode(welcome)), ViewerSession::Change::welcomed);
     EXPECT_EQ(viewer.cameras().size(), 2u);
     EXPECT_EQ(viewer.left_out().size(), 1u);
 
     for (int id = 0; id < 4000; ++id)
-        (void)viewer.on_control(wire::encode_control(
+        (void)viewer.on_control(wire::encode(
             wire::CameraState{CameraId(id), wire::CameraCondition::failed, "gone", ""}));
     EXPECT_EQ(viewer.camera_states().size(), 2u);
     EXPECT_EQ(viewer.camera_states().at(CameraId{4}).problem, "gone");
@@ -110,7 +110,7 @@ TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
 
 TEST(ViewerSession, KeepsNoStateOfCamerasBeforeTheyAreAnnounced) {
     ViewerSession viewer({});
-    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::CameraState{CameraId{0}, {}, "", ""})),
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::CameraState{CameraId{0}, {}, "", ""})),
               ViewerSession::Change::nothing);
     EXPECT_TRUE(viewer.camera_states().empty());
 }

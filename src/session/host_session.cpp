@@ -10,7 +10,7 @@ namespace {
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
-RequestBudget::Kind kind_of(const wire::Control& message) {
+RequestBudget::Kind kind_of(const wire::ToHost& message) {
     using Kind = RequestBudget::Kind;
     if (std::holds_alternative<wire::ChooseCodecs>(message))
         return Kind::codecs;
@@ -49,7 +49,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         return;
     Participant& participant = found->second;
 
-    auto message = wire::decode_control(bytes);
+    auto message = wire::decode_to_host(bytes);
     // A newer participant may say things that this host need not understand.
     if (!message && message.error() != Status::unsupported)
         return refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
@@ -73,7 +73,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
 }
 
 // A request of a participant who has joined.
-void HostSession::carry_out(ParticipantId id, const wire::Control& message, TimePoint now) {
+void HostSession::carry_out(ParticipantId id, const wire::ToHost& message, TimePoint now) {
     const Participant& participant = participants_.at(id);
     if (const auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
         choose(id, wish->depth_codec, wish->color_codec);
@@ -94,7 +94,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Control& message, Time
 }
 
 // Of wishes the last counts, of word of media the newest; all else is asked for or said again.
-void HostSession::keep_for_later(Participant& participant, wire::Control message) {
+void HostSession::keep_for_later(Participant& participant, wire::ToHost message) {
     if (auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
         wire::ChooseCodecs& late =
             participant.late_codecs ? *participant.late_codecs : participant.late_codecs.emplace();
@@ -123,7 +123,7 @@ void HostSession::carry_out_late(ParticipantId id, Participant& participant, Tim
 }
 
 void HostSession::acknowledge(ParticipantId id, const wire::Received& word) {
-    actions_.push_back({Action::Kind::acknowledged, id, {}, {}, {}, word.media_bytes});
+    actions_.push_back(action::Acknowledged{id, word.media_bytes});
 }
 
 void HostSession::end() {
@@ -131,12 +131,7 @@ void HostSession::end() {
         if (!participant.takes_part())
             continue;
         participant.closing = true;
-        actions_.push_back({Action::Kind::goodbye,
-                            id,
-                            wire::Goodbye{"The host has ended the session."},
-                            "the session has ended",
-                            {},
-                            0});
+        actions_.push_back(action::End{id, {"The host has ended the session."}});
     }
 }
 
@@ -168,13 +163,13 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
     participant.joined = true;
     participant.records = hello.records;
     participant.name = shown_name(hello.name);
-    actions_.push_back({Action::Kind::joined, id, {}, participant.name, {}, 0});
+    actions_.push_back(action::Joined{id, participant.name});
     send(id, wire::Welcome{std::min(hello.protocol_max, wire::protocol_max), id, config_.name,
                            config_.cameras});
     for (const auto& [camera, state] : camera_states_)
         send(id, state);
     if (hello.records)
-        actions_.push_back({Action::Kind::keep_everything, id, {}, {}, {}, 0});
+        actions_.push_back(action::KeepEverything{id});
     wish(id, depth, color);
     set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     tell_renderer(id);
@@ -190,7 +185,7 @@ void HostSession::note_report(ParticipantId id, const wire::Report& report, Time
         return;
     participant.renderer_noted = now;
     participant.renderer = renderer;
-    actions_.push_back({Action::Kind::drawing, id, {}, std::move(renderer), {}, 0});
+    actions_.push_back(action::Drawing{id, std::move(renderer)});
 }
 
 // Says what holds for this one, if anything was ever said.
@@ -234,7 +229,7 @@ void HostSession::set_renderer(const std::string& name, const wire::SetRenderer&
 
 void HostSession::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
     participants_.at(id).delivery.set_goal(goal);
-    actions_.push_back({Action::Kind::set_ceiling, id, {}, {}, {}, goal.max_kbit_per_s * 125ull});
+    actions_.push_back(action::SetCeiling{id, goal.max_kbit_per_s * 125ull});
 }
 
 void HostSession::choose(ParticipantId id, const std::string& depth, const std::string& color) {
@@ -308,7 +303,7 @@ std::string HostSession::check(const CheckCodec& check, const std::string& text,
 void HostSession::refuse(ParticipantId id, std::string reason) {
     send(id, wire::Refused{reason});
     participants_.at(id).closing = true;
-    actions_.push_back({Action::Kind::close, id, {}, std::move(reason), {}, 0});
+    actions_.push_back(action::Close{id, std::move(reason)});
 }
 
 // Brings encoders and participants in line with the tables.
@@ -332,7 +327,7 @@ void HostSession::apply_settings() {
     const bool depth_changed = changed(announced_depth_, depth_);
     const bool color_changed = changed(announced_color_, color_);
     if (depth_changed || color_changed)
-        actions_.push_back({Action::Kind::change_settings, {}, {}, {}, {}, 0});
+        actions_.push_back(action::ChangeSettings{});
 
     for (auto& [id, participant] : participants_) {
         if (!participant.joined)
@@ -448,8 +443,7 @@ void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint n
     if (!delivery.update(link, given, rates_, made_in(found->second), now))
         return;
     const wire::Delivery message = delivery.message(link.delay);
-    actions_.push_back(
-        {Action::Kind::stepped, id, {}, message.what + ": " + message.reason, {}, 0});
+    actions_.push_back(action::Stepped{id, message.what + ": " + message.reason});
     send(id, message);
     take_step(id);
 }
@@ -512,10 +506,10 @@ void HostSession::on_tick(TimePoint now) {
             carry_out_late(id, participant, now);
     }
     for (const KeyRequests::Key& key : key_requests_.take(now))
-        actions_.push_back({Action::Kind::request_key, {}, {}, {}, key, 0});
+        actions_.push_back(action::RequestKey{key});
 }
 
-std::vector<HostSession::Action> HostSession::take_actions() {
+std::vector<Action> HostSession::take_actions() {
     return std::exchange(actions_, {});
 }
 
@@ -540,8 +534,8 @@ std::vector<ParticipantId> HostSession::receivers(StreamId stream, SettingId set
     return result;
 }
 
-void HostSession::send(ParticipantId id, wire::Control message) {
-    actions_.push_back({Action::Kind::send, id, std::move(message), {}, {}, 0});
+void HostSession::send(ParticipantId id, wire::ToParticipant message) {
+    actions_.push_back(action::Send{id, std::move(message)});
 }
 
 }  // namespace theatron::session

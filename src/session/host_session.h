@@ -14,6 +14,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/delivery.h"
+#include "session/host_actions.h"
 #include "session/key_requests.h"
 #include "session/request_budget.h"
 #include "session/setting_table.h"
@@ -42,30 +43,6 @@ public:
         CodecSteps steps;  // how to send less
         // In their one spelling; others cannot take their places (SettingTable). Empty: none.
         std::string usual_depth, usual_color;
-    };
-
-    // What the session wants done, in order.
-    struct Action {
-        enum class Kind {
-            send,             // `message` to `participant`
-            close,            // `participant`, after what was sent; `why` for the log
-            goodbye,          // send `message` and close: the session is over
-            joined,           // `participant` is in; for the log
-            request_key,      // a key frame of `key`
-            change_settings,  // encode exactly depth_settings() and color_settings()
-            acknowledged,     // `participant` has taken `bytes` of media
-            keep_everything,  // `participant` records: send all of its frames in order, however
-                              // late
-            set_ceiling,      // send at most `bytes` a second to `participant`; 0: no ceiling
-            stepped,          // `participant` gets more or less; `why` for the log
-            drawing,          // `participant` draws with another renderer: `why`; for the log
-        };
-        Kind kind{};
-        ParticipantId participant{};
-        wire::Control message;
-        std::string why;
-        KeyRequests::Key key;
-        std::uint64_t bytes = 0;
     };
 
     explicit HostSession(Config config);
@@ -105,6 +82,7 @@ public:
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
                                         TimePoint now);
 
+    // What is to be done, in order.
     std::vector<Action> take_actions();
 
     const std::vector<ActiveSetting>& depth_settings() const { return depth_.active(); }
@@ -144,8 +122,8 @@ public:
 
 private:
     void join(ParticipantId id, const wire::Join& message);
-    void carry_out(ParticipantId id, const wire::Control& message, TimePoint now);
-    void keep_for_later(Participant& participant, wire::Control message);
+    void carry_out(ParticipantId id, const wire::ToHost& message, TimePoint now);
+    void keep_for_later(Participant& participant, wire::ToHost message);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     void acknowledge(ParticipantId id, const wire::Received& word);
     Duration made_in(const Participant& participant) const;
@@ -161,7 +139,7 @@ private:
     void tell_renderer(ParticipantId id);
     void refuse(ParticipantId id, std::string reason);
     void apply_settings();
-    void send(ParticipantId id, wire::Control message);
+    void send(ParticipantId id, wire::ToParticipant message);
     std::string check(const CheckCodec& check, const std::string& text, std::string& codec) const;
 
     Config config_;

@@ -149,9 +149,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         now += what < 128 ? 10ms : 200ms;
         host.on_tick(now);
-        for (const auto& action : host.take_actions())
-            if (action.kind == HostSession::Action::Kind::send)
-                (void)viewer.on_control(wire::encode_control(action.message));
+        for (const session::Action& action : host.take_actions())
+            if (const auto* send = std::get_if<session::action::Send>(&action))
+                (void)viewer.on_control(wire::encode(send->message));
         check(host);
     }
     return 0;

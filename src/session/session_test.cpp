@@ -141,36 +141,36 @@ protected:
     void join_to_record(ParticipantId id, const std::string& depth) {
         join(id, depth, "secret", true);
     }
-    void say(ParticipantId id, const wire::Control& message) {
-        session.on_control(id, wire::encode_control(message), now);
+    void say(ParticipantId id, const wire::ToHost& message) {
+        session.on_control(id, wire::encode(message), now);
     }
     // Everything of one type that is sent to a participant.
     template <class T>
-    std::vector<T> sent(ParticipantId id, const std::vector<HostSession::Action>& actions) {
+    std::vector<T> sent(ParticipantId id, const std::vector<Action>& actions) {
         std::vector<T> result;
-        for (const auto& a : actions)
-            if (a.kind == HostSession::Action::Kind::send && a.participant == id)
+        for (const auto& a : all<action::Send>(actions))
+            if (a.participant == id)
                 if (const auto* m = std::get_if<T>(&a.message))
                     result.push_back(*m);
         return result;
     }
-    static std::uint64_t bytes_of(HostSession::Action::Kind kind,
-                                  const std::vector<HostSession::Action>& actions) {
-        const auto found = std::find_if(actions.begin(), actions.end(),
-                                        [&](const auto& a) { return a.kind == kind; });
-        return found == actions.end() ? 0 : found->bytes;
+    // Everything of one type that is to be done.
+    template <class T>
+    static std::vector<T> all(const std::vector<Action>& actions) {
+        std::vector<T> result;
+        for (const Action& a : actions)
+            if (const auto* wanted = std::get_if<T>(&a))
+                result.push_back(*wanted);
+        return result;
     }
-    static int count(const std::vector<HostSession::Action>& actions,
-                     HostSession::Action::Kind kind) {
-        return int(std::count_if(actions.begin(), actions.end(),
-                                 [&](const auto& a) { return a.kind == kind; }));
+    template <class T>
+    static int count(const std::vector<Action>& actions) {
+        return int(all<T>(actions).size());
     }
 
     TimePoint now = from_us(1'000'000);
     HostSession session;
 };
-
-using Kind = HostSession::Action::Kind;
 
 TEST_F(Host, WelcomesAndStartsWithKeyFrames) {
     join(alice);
@@ -180,9 +180,9 @@ TEST_F(Host, WelcomesAndStartsWithKeyFrames) {
     ASSERT_EQ(settings.size(), 1u);
     ASSERT_EQ(settings[0].settings.size(), 2u);
     EXPECT_EQ(settings[0].settings[0].codec, "trvl");
-    EXPECT_EQ(count(actions, Kind::change_settings), 1);
+    EXPECT_EQ(count<action::ChangeSettings>(actions), 1);
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 2);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 2);
     EXPECT_EQ(session.receivers(StreamId{0}, settings[0].settings[0].setting), std::vector{alice});
 }
 
@@ -192,7 +192,7 @@ TEST_F(Host, RefusesAWrongTokenWithASentence) {
     ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
     EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("token"), std::string::npos);
     EXPECT_TRUE(sent<wire::Welcome>(alice, actions).empty());
-    EXPECT_EQ(count(actions, Kind::close), 1);
+    EXPECT_EQ(count<action::Close>(actions), 1);
     // Nothing that follows counts any more.
     join(alice);
     say(alice, wire::Ping{});
@@ -215,11 +215,11 @@ TEST_F(Host, RefusesAnUnknownCodecAndANewerProtocol) {
 TEST_F(Host, NothingIsDoneForWhoHasNotJoined) {
     session.on_connected(alice, now);
     say(alice, wire::ChooseCodecs{"rvl", ""});
-    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
     session.on_connected(bob, now);
     now += HostSession::join_deadline + 1s;
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
 }
 
 TEST_F(Host, ParticipantsShareAnEncoderAndChangeItAlone) {
@@ -270,10 +270,10 @@ TEST_F(Host, OnlyOwnStreamsMayBeAskedForKeyFrames) {
     say(alice, wire::RequestKey{StreamId{0}, SettingId{999}});
     say(alice, wire::RequestKey{StreamId{50}, session.depth_settings()[0].id});
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 0);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 0);
     say(alice, wire::RequestKey{StreamId{0}, session.depth_settings()[0].id});
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::request_key), 1);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 1);
 }
 
 TEST_F(Host, TellsJoinersAboutCameras) {
@@ -288,7 +288,7 @@ TEST_F(Host, DamagedMessagesEndTheConnection) {
     join(alice);
     session.take_actions();
     session.on_control(alice, Bytes(20, std::byte{0xff}), now);
-    EXPECT_EQ(count(session.take_actions(), Kind::close), 1);
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
 }
 
 TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
@@ -298,7 +298,7 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
     session.take_actions();
     join_to_record(dave, "strata");
     auto actions = session.take_actions();
-    EXPECT_EQ(count(actions, Kind::keep_everything), 1);
+    EXPECT_EQ(count<action::KeepEverything>(actions), 1);
     const auto given = sent<wire::Settings>(dave, actions);
     ASSERT_EQ(given.size(), 1u);
     EXPECT_EQ(given[0].settings[0].codec, "trvl");
@@ -386,9 +386,8 @@ TEST_F(Host, LogsHowSomebodyDrawsWhenThatChanges) {
     now += 1s;
     say(alice, wire::Report{{}, "splat"});
     std::vector<std::string> noted;
-    for (const auto& a : session.take_actions())
-        if (a.kind == Kind::drawing)
-            noted.push_back(a.why);
+    for (const auto& a : all<action::Drawing>(session.take_actions()))
+        noted.push_back(a.renderer);
     EXPECT_EQ(noted, (std::vector<std::string>{"mesh", "ble nd", "", "splat"}));
 }
 
@@ -425,10 +424,10 @@ TEST_F(Host, OfTooManyCodecChangesTheLastWishWins) {
     say(alice, wire::ChooseCodecs{"ans", ""});
     say(alice, wire::ChooseCodecs{"", "raw"});
     auto actions = session.take_actions();
-    EXPECT_EQ(count(actions, Kind::change_settings), limit.at_once);
-    EXPECT_EQ(count(actions, Kind::close), 0);
+    EXPECT_EQ(count<action::ChangeSettings>(actions), limit.at_once);
+    EXPECT_EQ(count<action::Close>(actions), 0);
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::change_settings), 0) << "it is not yet time";
+    EXPECT_EQ(count<action::ChangeSettings>(session.take_actions()), 0) << "it is not yet time";
     now += 2s;
     session.on_tick(now);
     EXPECT_EQ(session.depth_settings()[0].codec, "ans");
@@ -436,7 +435,7 @@ TEST_F(Host, OfTooManyCodecChangesTheLastWishWins) {
     EXPECT_EQ(sent<wire::Settings>(alice, session.take_actions()).size(), 1u) << "none was queued";
     now += 60s;
     session.on_tick(now);
-    EXPECT_EQ(count(session.take_actions(), Kind::change_settings), 0);
+    EXPECT_EQ(count<action::ChangeSettings>(session.take_actions()), 0);
 }
 
 TEST_F(Host, AFloodOfRequestsEndsTheConnectionWithAReason) {
@@ -452,7 +451,7 @@ TEST_F(Host, AFloodOfRequestsEndsTheConnectionWithAReason) {
     const auto actions = session.take_actions();
     ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
     EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("requests"), std::string::npos);
-    EXPECT_EQ(count(actions, Kind::close), 1);
+    EXPECT_EQ(count<action::Close>(actions), 1);
     EXPECT_TRUE(session.participants().at(bob).takes_part());
     EXPECT_EQ(session.participants().at(alice).budget.refused(),
               std::uint64_t(RequestBudget::patience.at_once) + 1);
@@ -470,12 +469,13 @@ TEST_F(Host, PingsKeysReportsAndGoalsBeyondTheirLimitsAreNotAnswered) {
     EXPECT_EQ(int(sent<wire::Pong>(alice, session.take_actions()).size()), at_once(Asked::ping));
     for (int i = 0; i < 100; ++i)
         say(alice, wire::ChooseDelivery{0, std::uint32_t(1000 + i)});
-    EXPECT_EQ(count(session.take_actions(), Kind::set_ceiling), at_once(Asked::delivery));
+    EXPECT_EQ(count<action::SetCeiling>(session.take_actions()), at_once(Asked::delivery));
     now += 1s;
     session.on_tick(now);
     const auto actions = session.take_actions();
-    ASSERT_EQ(count(actions, Kind::set_ceiling), 1);
-    EXPECT_EQ(bytes_of(Kind::set_ceiling, actions), 1099u * 125) << "the last one counts";
+    ASSERT_EQ(count<action::SetCeiling>(actions), 1);
+    EXPECT_EQ(all<action::SetCeiling>(actions)[0].bytes_per_second, 1099u * 125)
+        << "the last one counts";
 }
 
 // Flow control waits for the newest word.
@@ -486,12 +486,12 @@ TEST_F(Host, WordOfMediaIsNeverLostHoweverOftenItComes) {
     const int words = int(limit.at_once) + 100;
     for (int i = 1; i <= words; ++i)
         say(alice, wire::Received{std::uint64_t(i)});
-    EXPECT_EQ(count(session.take_actions(), Kind::acknowledged), limit.at_once);
+    EXPECT_EQ(count<action::Acknowledged>(session.take_actions()), limit.at_once);
     now += 100ms;
     session.on_tick(now);
     const auto actions = session.take_actions();
-    ASSERT_EQ(count(actions, Kind::acknowledged), 1);
-    EXPECT_EQ(bytes_of(Kind::acknowledged, actions), std::uint64_t(words));
+    ASSERT_EQ(count<action::Acknowledged>(actions), 1);
+    EXPECT_EQ(all<action::Acknowledged>(actions)[0].media_bytes, std::uint64_t(words));
 }
 
 TEST_F(Host, ASettingThatCannotKeepUpIsToldToThoseWhoGetIt) {
@@ -531,8 +531,8 @@ TEST_F(Host, ASlowSettingMakesNobodyElsesFramesLate) {
             session.on_link(id, {1e7, 2ms, 20ms, 0}, now);
     }
     int alice_stepped = 0;
-    for (const auto& a : session.take_actions())
-        alice_stepped += a.kind == Kind::stepped && a.participant == alice;
+    for (const auto& a : all<action::Stepped>(session.take_actions()))
+        alice_stepped += a.participant == alice;
     EXPECT_EQ(alice_stepped, 0);
 }
 
@@ -558,9 +558,8 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     std::vector<ViewerSession::Change> changes;
     const auto deliver = [&] {
         changes.clear();
-        for (const auto& a : session.take_actions())
-            if (a.kind == Kind::send)
-                changes.push_back(viewer.on_control(wire::encode_control(a.message)));
+        for (const auto& a : all<action::Send>(session.take_actions()))
+            changes.push_back(viewer.on_control(wire::encode(a.message)));
     };
     deliver();
     using Change = ViewerSession::Change;
@@ -595,12 +594,12 @@ TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
     session.end();
     const auto actions = session.take_actions();
     ASSERT_EQ(actions.size(), 1u);
-    EXPECT_EQ(actions[0].kind, Kind::goodbye);
-    EXPECT_EQ(actions[0].participant, alice);
+    const auto* end = std::get_if<action::End>(&actions[0]);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->participant, alice);
 
     ViewerSession viewer({});
-    EXPECT_EQ(viewer.on_control(wire::encode_control(actions[0].message)),
-              ViewerSession::Change::goodbye);
+    EXPECT_EQ(viewer.on_control(wire::encode(end->message)), ViewerSession::Change::goodbye);
     EXPECT_EQ(viewer.goodbye(), "The host has ended the session.");
     (void)viewer.begin();
     EXPECT_EQ(viewer.goodbye(), "");
@@ -608,14 +607,13 @@ TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
 
 TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {
     ViewerSession viewer({});
-    ASSERT_EQ(viewer.on_control(wire::encode_control(wire::Welcome{})),
-              ViewerSession::Change::welcomed);
+    ASSERT_EQ(viewer.on_control(wire::encode(wire::Welcome{})), ViewerSession::Change::welcomed);
     // All at once, and no message ends: the host may wait for the word before it goes on.
     const TimePoint now = from_us(1'000'000);
     std::uint64_t told = 0;
     for (std::uint64_t bytes = 0; bytes < 1'000'000; bytes += 16 * 1024) {
         if (const auto message = viewer.on_received(bytes, false, now))
-            told = std::get<wire::Received>(*wire::decode_control(*message)).media_bytes;
+            told = std::get<wire::Received>(*wire::decode_to_host(*message)).media_bytes;
         EXPECT_LT(bytes - told, wire::max_unacknowledged);
     }
     EXPECT_TRUE(viewer.on_received(1'000'001, true, now));
@@ -624,10 +622,7 @@ TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {
 TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
     ViewerSession viewer({});
     EXPECT_EQ(viewer.on_control(Bytes(7)), ViewerSession::Change::nothing);
-    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::Ping{})),
-              ViewerSession::Change::nothing);
-    EXPECT_EQ(viewer.on_control(wire::encode_control(wire::Refused{""})),
-              ViewerSession::Change::refused);
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::Refused{""})), ViewerSession::Change::refused);
     EXPECT_FALSE(viewer.refusal().empty());
 }
 

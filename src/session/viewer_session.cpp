@@ -32,11 +32,11 @@ Bytes ViewerSession::begin() {
     join.target_latency_ms = wishes_.delivery.target_latency_ms;
     join.max_kbit_per_s = wishes_.delivery.max_kbit_per_s;
     join.records = wishes_.records;
-    return wire::encode_control(join);
+    return wire::encode(join);
 }
 
 ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
-    auto message = wire::decode_control(bytes);
+    auto message = wire::decode_to_participant(bytes);
     if (!message)
         return Change::nothing;
     if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
@@ -91,12 +91,12 @@ Bytes ViewerSession::choose(const std::string& depth_codec, const std::string& c
         wishes_.depth_codec = depth_codec;
     if (!color_codec.empty())
         wishes_.color_codec = color_codec;
-    return wire::encode_control(wire::ChooseCodecs{depth_codec, color_codec});
+    return wire::encode(wire::ChooseCodecs{depth_codec, color_codec});
 }
 
 Bytes ViewerSession::choose_delivery(const wire::ChooseDelivery& goal) {
     wishes_.delivery = goal;
-    return wire::encode_control(goal);
+    return wire::encode(goal);
 }
 
 std::optional<Bytes> ViewerSession::on_received(std::uint64_t media_bytes, bool message_complete,
@@ -107,7 +107,7 @@ std::optional<Bytes> ViewerSession::on_received(std::uint64_t media_bytes, bool 
         return std::nullopt;
     acknowledged_at_ = now;
     acknowledged_ = media_bytes;
-    return wire::encode_control(wire::Received{media_bytes});
+    return wire::encode(wire::Received{media_bytes});
 }
 
 }  // namespace theatron::session

@@ -167,9 +167,17 @@ TEST(Envelope, RefusesWhatDoesNotContinue) {
     EXPECT_EQ(any.take(Bytes{std::byte{9}}).error(), Status::malformed);
 }
 
+// Of the direction that the message belongs to.
+Result<ToHost> decoded_again(const ToHost& m) {
+    return decode_to_host(encode(m));
+}
+Result<ToParticipant> decoded_again(const ToParticipant& m) {
+    return decode_to_participant(encode(m));
+}
+
 template <class T>
 T round_trip(const T& m) {
-    const auto decoded = decode_control(encode_control(m));
+    const auto decoded = decoded_again(m);
     EXPECT_TRUE(decoded);
     EXPECT_TRUE(std::holds_alternative<T>(*decoded));
     return std::get<T>(*decoded);
@@ -220,21 +228,43 @@ TEST(Control, EveryMessageRoundTrips) {
 
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
-    Bytes bytes = encode_control(Goodbye{"over"});
-    const auto kind = std::byte(std::variant_size_v<Control>);
-    const auto at = std::find(bytes.begin(), bytes.end(), kind);
-    ASSERT_NE(at, bytes.end());
-    *at = std::byte(int(kind) + 1);
-    EXPECT_EQ(decode_control(bytes).error(), Status::unsupported);
+    const Bytes known = encode(Goodbye{"over"});
+    const auto kind = std::byte(std::variant_size_v<ToParticipant>);
+    int unknown = 0;
+    for (std::size_t at = 0; at < known.size(); ++at) {
+        if (known[at] != kind)
+            continue;  // it is the kind at one of the others
+        Bytes bytes = known;
+        bytes[at] = std::byte(int(kind) + 1);
+        unknown += decode_to_participant(bytes).error() == Status::unsupported;
+    }
+    EXPECT_EQ(unknown, 1);
+}
+
+// As a participant of protocol 1 said it: the token "t", the name "n", depth as raw.
+TEST(Control, AHostUnderstandsTheJoinOfProtocol1) {
+    const unsigned char said[] = {
+        0x0c, 0x00, 0x00, 0x00, 0x08, 0x00, 0x0e, 0x00, 0x07, 0x00, 0x08, 0x00, 0x08, 0x00,
+        0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x14, 0x00, 0x00, 0x00, 0x00, 0x00, 0x0e, 0x00,
+        0x14, 0x00, 0x04, 0x00, 0x06, 0x00, 0x08, 0x00, 0x0c, 0x00, 0x10, 0x00, 0x0e, 0x00,
+        0x00, 0x00, 0x01, 0x00, 0x01, 0x00, 0x1c, 0x00, 0x00, 0x00, 0x10, 0x00, 0x00, 0x00,
+        0x04, 0x00, 0x00, 0x00, 0x03, 0x00, 0x00, 0x00, 0x72, 0x61, 0x77, 0x00, 0x01, 0x00,
+        0x00, 0x00, 0x6e, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x74, 0x00, 0x00, 0x00,
+    };
+    const auto decoded = decode_to_host(std::as_bytes(std::span(said)));
+    ASSERT_TRUE(decoded);
+    const Join& join = std::get<Join>(*decoded);
+    EXPECT_EQ(join.protocol_max, 1);
+    EXPECT_EQ(join.token + join.name + join.depth_codec, "tnraw");
 }
 
 TEST(Control, RefusesDamage) {
-    const Bytes whole = encode_control(Join{1, 1, "t", "n", "trvl", "jpeg"});
+    const Bytes whole = encode(Join{1, 1, "t", "n", "trvl", "jpeg"});
     for (std::size_t n = 0; n < whole.size() / 2; ++n)
-        EXPECT_FALSE(decode_control(ByteView(whole).first(n)));
-    EXPECT_FALSE(decode_control(numbered(100)));
-    EXPECT_FALSE(
-        decode_control(encode_control(CameraState{CameraId{1}, CameraCondition(9), "", ""})));
+        EXPECT_FALSE(decode_to_host(ByteView(whole).first(n)));
+    EXPECT_FALSE(decode_to_host(numbered(100)));
+    EXPECT_FALSE(decode_to_participant(numbered(100)));
+    EXPECT_FALSE(decoded_again(CameraState{CameraId{1}, CameraCondition(9), "", ""}));
 }
 
 TEST(Control, TextsAreCleanAndCutToTheirLimits) {
@@ -271,7 +301,7 @@ TEST(Control, TextsAreCleanAndCutToTheirLimits) {
 }
 
 TEST(Control, RefusesMoreThanItsLimits) {
-    const auto accepted = [](const Control& m) { return bool(decode_control(encode_control(m))); };
+    const auto accepted = [](const auto& m) { return bool(decoded_again(m)); };
     EXPECT_TRUE(accepted(Report{std::vector<StreamReport>(max_streams), ""}));
     EXPECT_FALSE(accepted(Report{std::vector<StreamReport>(max_streams + 1), ""}));
     const StreamSetting setting{StreamId{0}, SettingId{1}, "rvl"};
@@ -293,8 +323,7 @@ TEST(Control, RefusesMoreThanItsLimits) {
 }
 
 TEST(Control, RefusesASettingWithoutANumber) {
-    EXPECT_FALSE(
-        decode_control(encode_control(Settings{{{StreamId{0}, SettingId{0}, "rvl"}}, ""})));
+    EXPECT_FALSE(decoded_again(Settings{{{StreamId{0}, SettingId{0}, "rvl"}}, ""}));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ class Guests(unittest.TestCase):
         with host(self.folder / "state", self.camera) as h, RawPeer(h.greeting["link"]) as peer:
             peer.join(depth_codec="rvl")
             peer.receive_control("Welcome")
-            changes = b"".join(peer.frame(bytes([CONTROL]) + control_message("ChooseCodecs", depth_codec=codec))
+            changes = b"".join(peer.frame(bytes([CONTROL]) + control_message("ToHost", "ChooseCodecs", depth_codec=codec))
                                for codec in ("lz4", "rvl"))
             with contextlib.suppress(OSError, EOFError):
                 # 65,534 in all, each of which may take a number of 16 bits; then the usual codec.
@@ -150,7 +150,7 @@ class HostileHosts(unittest.TestCase):
     def test_states_of_cameras_that_nobody_announced_are_not_kept(self):
         def script(guest):
             guest.welcome()
-            message = control_message("CameraState", camera=0x1234, state=1, problem="x" * 50_000)
+            message = control_message("ToParticipant", "CameraState", camera=0x1234, state=1, problem="x" * 50_000)
             for number in range(1, 2000):
                 guest.send(bytes([CONTROL]) + message.replace(b"\x34\x12", struct.pack("<H", number)))
 

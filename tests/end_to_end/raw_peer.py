@@ -30,6 +30,9 @@ import typing
 
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "src/wire/control.fbs"
 
+SPACE = "theatron.wire.fbs."
+PROTOCOL = 2
+
 CONTROL, CHUNK = 1, 2              # kinds of envelopes
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10  # kinds of WebSocket frames
 CHUNK_SIZE = 16 * 1024             # bytes of media that one envelope may carry
@@ -61,16 +64,16 @@ def _flatc(*arguments):
 
 
 @functools.lru_cache(maxsize=256)
-def _build(text):
+def _build(direction, text):
     with tempfile.TemporaryDirectory(prefix="theatron_flatc_") as folder:
         path = pathlib.Path(folder) / "message.json"
         path.write_text(text)
-        _flatc("--binary", "-o", folder, SCHEMA, path)
+        _flatc("--binary", "--root-type", SPACE + direction, "-o", folder, SCHEMA, path)
         return path.with_suffix(".bin").read_bytes()
 
 
-def control_message(kind, **fields):
-    """One message of the union `Body`. A field given as bytes becomes a string of just these bytes, UTF-8 or not."""
+def control_message(direction, kind, **fields):
+    """One message `direction`, "ToHost" or "ToParticipant". A field given as bytes becomes a string of just these bytes, UTF-8 or not."""
     stand_ins = {}
 
     def printable(value):
@@ -86,18 +89,18 @@ def control_message(kind, **fields):
             return mark
         return value
 
-    message = _build(json.dumps({"body_type": kind, "body": printable(fields)}, sort_keys=True))
+    message = _build(direction, json.dumps({"body_type": kind, "body": printable(fields)}, sort_keys=True))
     for mark, value in stand_ins.items():
         message = message.replace(mark, value)
     return message
 
 
-def read_control_message(message):
+def read_control_message(direction, message):
     """Returns its kind and its fields."""
     with tempfile.TemporaryDirectory(prefix="theatron_flatc_") as folder:
         path = pathlib.Path(folder) / "message.bin"
         path.write_bytes(message)
-        _flatc("--json", "--raw-binary", "--strict-json", "--allow-non-utf8", "-o", folder, SCHEMA, "--", path)
+        _flatc("--json", "--raw-binary", "--root-type", SPACE + direction, "--strict-json", "--allow-non-utf8", "-o", folder, SCHEMA, "--", path)
         content = json.loads(path.with_suffix(".json").read_text(errors="replace"), strict=False)
     return content.get("body_type"), content.get("body", {})
 
@@ -134,12 +137,14 @@ def calibration(width=640, height=360, color_width=640, color_height=360):
 # WebSocket.
 
 class WebSocket:
-    """Frames over a stream whose handshakes are done. One end masks its frames: with zeros, which change nothing."""
+    """Frames over a stream whose handshakes are done. The participant masks its frames: with zeros, which
+    change nothing."""
 
     def __init__(self, stream, received=b"", masks=True):
         self.stream = stream
         self.received = bytearray(received)
         self.masks = masks
+        self.says, self.hears = ("ToHost", "ToParticipant") if masks else ("ToParticipant", "ToHost")
         self.sending = threading.Lock()
 
     def frame(self, payload, kind=BINARY, last=True, size=None):
@@ -200,7 +205,7 @@ class WebSocket:
     # Envelopes.
 
     def send_control(self, kind, **fields):
-        self.send(bytes([CONTROL]) + control_message(kind, **fields))
+        self.send(bytes([CONTROL]) + control_message(self.says, kind, **fields))
 
     def send_media(self, message, chunk_size=CHUNK_SIZE):
         for offset in range(0, len(message), chunk_size):
@@ -211,7 +216,7 @@ class WebSocket:
         while True:
             envelope = self.receive()
             if envelope[0] == CONTROL:
-                kind, fields = read_control_message(envelope[1:])
+                kind, fields = read_control_message(self.hears, envelope[1:])
                 if not kinds or kind in kinds:
                     return kind, fields
 
@@ -297,7 +302,7 @@ class RawPeer(WebSocket):
 
     def join(self, **fields):
         """Says Join, by default with the link's token and the usual codecs."""
-        usual = {"protocol_min": 1, "protocol_max": 1, "token": self.link.token, "name": "raw peer",
+        usual = {"protocol_min": PROTOCOL, "protocol_max": PROTOCOL, "token": self.link.token, "name": "raw peer",
                  "depth_codec": "strata", "color_codec": "jpeg:quality=85"}
         self.send_control("Join", **(usual | fields))
 
@@ -325,7 +330,7 @@ class _Guest(WebSocket):
 
     def welcome(self, cameras=None, **fields):
         """Says Welcome: one camera, unless `cameras` names others (see camera())."""
-        usual = {"protocol": 1, "participant": 1, "host_name": "fake host",
+        usual = {"protocol": PROTOCOL, "participant": 1, "host_name": "fake host",
                  "cameras": [camera(0)] if cameras is None else cameras}
         self.send_control("Welcome", **(usual | fields))
 

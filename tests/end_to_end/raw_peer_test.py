@@ -29,6 +29,12 @@ class RawPeers(unittest.TestCase):
                 pass
             self.assertEqual(https_get(h.greeting["link"], "/status")[0], 401)
 
+    def test_a_participant_of_protocol_1_is_told_that_it_is_too_old(self):
+        recording = make_recording(self.folder / "box", frames=3)
+        with host(self.folder / "state", f"folder:{recording},loop=1") as h, RawPeer(h.greeting["link"]) as peer:
+            peer.join(protocol_min=1, protocol_max=1)
+            self.assertIn("too old", peer.receive_control("Refused")[1]["reason"])
+
     def test_a_viewer_joins_a_fake_host_and_notices_damage(self):
         asked, left = threading.Event(), threading.Event()
 

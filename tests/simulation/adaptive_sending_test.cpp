@@ -195,19 +195,18 @@ private:
     }
 
     void carry() {
-        for (const auto& action : host_.take_actions()) {
-            using Kind = HostSession::Action::Kind;
-            if (action.kind == Kind::send)
-                ASSERT_TRUE(
-                    outbox_.push_control(wire::wrap_control(wire::encode_control(action.message))));
-            else if (action.kind == Kind::acknowledged)
-                outbox_.acknowledge(action.bytes, now);
-            else if (action.kind == Kind::keep_everything)
+        namespace action = session::action;
+        for (const session::Action& next : host_.take_actions()) {
+            if (const auto* send = std::get_if<action::Send>(&next))
+                ASSERT_TRUE(outbox_.push_control(wire::wrap_control(wire::encode(send->message))));
+            else if (const auto* acknowledged = std::get_if<action::Acknowledged>(&next))
+                outbox_.acknowledge(acknowledged->media_bytes, now);
+            else if (std::holds_alternative<action::KeepEverything>(next))
                 outbox_.keep_everything();
-            else if (action.kind == Kind::set_ceiling)
-                outbox_.set_ceiling(double(action.bytes));
-            else if (action.kind == Kind::request_key)
-                keys_.insert({action.key.stream, action.key.setting});
+            else if (const auto* ceiling = std::get_if<action::SetCeiling>(&next))
+                outbox_.set_ceiling(double(ceiling->bytes_per_second));
+            else if (const auto* key = std::get_if<action::RequestKey>(&next))
+                keys_.insert({key->key.stream, key->key.setting});
         }
         Bytes envelope;
         while (outbox_.next(envelope, now))

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a HostSession wants done by the host that runs it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "base/ids.h"
+#include "session/key_requests.h"
+#include "wire/control.h"
+
+namespace theatron::session {
+
+namespace action {
+
+// Send `message` to `participant`.
+struct Send {
+    ParticipantId participant{};
+    wire::ToParticipant message;
+};
+// Close the connection after what was sent; `why` is for the log.
+struct Close {
+    ParticipantId participant{};
+    std::string why;
+};
+// Send `message` and close the connection: the session is over.
+struct End {
+    ParticipantId participant{};
+    wire::Goodbye message;
+};
+// The participant is in; for the log.
+struct Joined {
+    ParticipantId participant{};
+    std::string name;
+};
+// Have a key frame encoded.
+struct RequestKey {
+    KeyRequests::Key key;
+};
+// Encode exactly HostSession's depth_settings() and color_settings().
+struct ChangeSettings {};
+// The participant has taken `media_bytes` of media since its connection began.
+struct Acknowledged {
+    ParticipantId participant{};
+    std::uint64_t media_bytes = 0;
+};
+// The participant records: send all of its frames in order, however late.
+struct KeepEverything {
+    ParticipantId participant{};
+};
+// Send at most `bytes_per_second`; 0: no ceiling.
+struct SetCeiling {
+    ParticipantId participant{};
+    std::uint64_t bytes_per_second = 0;
+};
+// The participant gets more or less, `to`; for the log.
+struct Stepped {
+    ParticipantId participant{};
+    std::string to;
+};
+// The participant draws with another renderer; for the log.
+struct Drawing {
+    ParticipantId participant{};
+    std::string renderer;
+};
+
+}  // namespace action
+
+using Action =
+    std::variant<action::Send, action::Close, action::End, action::Joined, action::RequestKey,
+                 action::ChangeSettings, action::Acknowledged, action::KeepEverything,
+                 action::SetCeiling, action::Stepped, action::Drawing>;
+
+}  // namespace theatron::session
