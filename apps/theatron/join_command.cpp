@@ -26,7 +26,7 @@
 #include "viewer/head_text.h"
 #include "viewer/offscreen_view_native.h"
 #include "viewer/renderer_text.h"
-#include "window_viewer.h"
+#include "viewer_window.h"
 
 namespace theatron::app {
 namespace {
@@ -191,12 +191,14 @@ void run(const Flags& flags) {
 
     if (flags.window()) {
         viewer::check_renderer_choice(flags.renderer);
-        WindowViewer viewer({options, parse_size(flags.size), viewer::parse_view(flags.view),
-                             parse_room(flags),
-                             viewer::parse_seen_people(flags.people, flags.myself), flags.renderer,
-                             parse_render_scale(flags.render_scale), flags.seconds});
+        ViewerWindow window{options, {}, parse_size(flags.size), flags.seconds};
+        window.viewer.view = viewer::parse_view(flags.view);
+        window.viewer.room = parse_room(flags);
+        window.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
+        window.viewer.renderer = flags.renderer;
+        window.viewer.scale = parse_render_scale(flags.render_scale);
         cli::catch_stop_signals();
-        viewer.run();
+        show(std::move(window));
         return;
     }
 

@@ -390,8 +390,12 @@ void Participant::reset_figures() {
 }
 
 TimePoint Participant::now() const {
+    return session_time(steady_now());
+}
+
+TimePoint Participant::session_time(TimePoint steady) const {
     const std::lock_guard lock(shared_->mutex);
-    return steady_now() + shared_->clock.offset();
+    return steady + shared_->clock.offset();
 }
 
 void Participant::choose_codecs(const std::string& depth, const std::string& color) {

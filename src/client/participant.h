@@ -85,8 +85,9 @@ public:
     std::vector<receive::StreamFigures> figures() const;
     void reset_figures();
 
-    // Session time now, as well as it is known.
+    // Session time now, as well as it is known; of a moment on the steady clock.
     TimePoint now() const;
+    TimePoint session_time(TimePoint steady) const;
 
     // Other codecs from now on; an empty text keeps the codec.
     void choose_codecs(const std::string& depth, const std::string& color);

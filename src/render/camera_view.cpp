@@ -2,12 +2,16 @@
 #include "render/camera_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace theatron::render {
 namespace {
 
 constexpr Vec3 room_up{0, 1, 0};
+// A surface of interest reaches this far in depth and fills this share of the samples.
+constexpr double interest_depth_mm = 300;
+constexpr std::size_t interest_share = 10;
 
 }  // namespace
 
@@ -57,13 +61,18 @@ Vec3 point_of_interest(const Calibration& calibration, DepthView depth) {
         for (int x = depth.size.width / 3; x < depth.size.width * 2 / 3; x += 4)
             if (const std::uint16_t value = depth.row(y)[x])
                 values.push_back(value);
-    double distance_m = 1;
-    if (!values.empty()) {
-        const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        distance_m = *middle * calibration.depth_unit_mm / 1000;
-    }
-    return calibration.room_from_camera * Vec3{0, 0, distance_m};
+    if (values.empty())
+        return calibration.room_from_camera * Vec3{0, 0, 1};
+    std::sort(values.begin(), values.end());
+    const double reach = interest_depth_mm / calibration.depth_unit_mm;
+    const std::size_t enough = values.size() / interest_share;
+    double distance = values[values.size() / 2];
+    for (std::size_t first = 0; first + enough < values.size(); ++first)
+        if (values[first + enough] - values[first] <= reach) {
+            distance = values[first + enough / 2];
+            break;
+        }
+    return calibration.room_from_camera * Vec3{0, 0, distance * calibration.depth_unit_mm / 1000};
 }
 
 }  // namespace theatron::render

@@ -32,9 +32,9 @@ CameraView view_towards(Vec3 eye, Vec3 target, double vertical_fov_degrees, Size
 // over it, positive upwards.
 CameraView orbited(const CameraView& view, Vec3 pivot, double yaw_degrees, double pitch_degrees);
 
-// The point in the room that a viewer would turn around: straight ahead of the
-// camera, at the median distance of what it sees in the middle of `depth`. One
-// metre ahead if nothing is measured there.
+// The point in the room that a viewer would turn around: straight ahead of the camera, at the
+// distance of the nearest surface that fills a tenth of the middle of `depth`, so that a person
+// before a wall is found in every frame. One metre ahead if nothing is measured there.
 Vec3 point_of_interest(const Calibration& calibration, DepthView depth);
 
 }  // namespace theatron::render

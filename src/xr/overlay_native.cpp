@@ -6,6 +6,7 @@
 
 #include "xr/font_native.h"
 #include "xr/imgui_pass_native.h"
+#include "xr/window_input.h"
 
 namespace theatron::xr {
 namespace {

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texts over the picture: a line of facts at the bottom, a message in the
-// middle, what was just chosen, and the help.
+// Draws the texts over the picture.
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "image/view.h"
-#include "xr/window_input.h"
+#include "xr/overlay_content.h"
 
 namespace theatron::xr {
-
-// One field of the line at the bottom.
-struct Fact {
-    std::string label, value;
-    bool warning = false;
-    bool operator==(const Fact&) const = default;
-};
-
-struct OverlayContent {
-    std::vector<Fact> facts;
-    // Large in the middle, over a darkened picture, with a smaller line below.
-    std::string message, detail;
-    std::string warning;  // at the top, as long as it holds
-    std::string notice;   // below it, for what just happened
-    bool help = false;
-    bool operator==(const OverlayContent&) const = default;
-};
 
 // Needs the window's GL context current, also in the destructor.
 class Overlay {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/camera_names.h"
 #include "base/error.h"
 #include "region_text.h"
 #include "viewer/head_text.h"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer_window.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+#include "base/steady_clock.h"
+#include "cli/stop_signal.h"
+#include "host/filter_choice.h"
+#include "participant_json.h"
+#include "xr/desktop_window_native.h"
+#include "xr/overlay_native.h"
+#include "xr/scaled_picture_native.h"
+
+namespace theatron::app {
+namespace {
+
+constexpr Duration texts_every = 250ms;
+
+// Remarks of the participant's thread, on their way to the window's.
+class Remarks {
+public:
+    void add(const std::string& text) {
+        const std::lock_guard lock(mutex_);
+        texts_.push_back(text);
+    }
+    std::vector<std::string> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(texts_, {});
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::string> texts_;
+};
+
+bool has(const xr::WindowInput& input, xr::Action action) {
+    return std::any_of(input.keys.begin(), input.keys.end(),
+                       [&](const xr::KeyPress& key) { return key.action == action; });
+}
+
+std::string title_of(const viewer::Facts& facts, const std::string& address) {
+    const std::string& host = facts.received.status.host_name;
+    return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
+}
+
+void print_end(viewer::Viewer& viewer, const client::Participant& participant,
+               const xr::DesktopWindow& window) {
+    std::printf("%s\n", status_line(participant).c_str());
+    std::printf("drew %llu pictures, age on screen %.0f ms (half), %.0f ms (99 of 100)\n",
+                static_cast<unsigned long long>(viewer.pictures()),
+                viewer.ages_ms().percentile(0.5), viewer.ages_ms().percentile(0.99));
+    if (window.gl_errors() > 0)
+        std::fprintf(stderr, "The graphics driver reported %d errors, the first: %s\n",
+                     window.gl_errors(), window.first_gl_error().c_str());
+}
+
+}  // namespace
+
+void show(ViewerWindow options) {
+    xr::DesktopWindow window("Theatron", options.size);
+    xr::ScaledPicture picture;
+    xr::Overlay overlay;
+    Remarks remarks;
+    options.join.news = [&] { window.wake(); };
+    options.join.remark = [&, also = options.join.remark](const std::string& text) {
+        also(text);
+        remarks.add(text);
+        window.wake();
+    };
+    const std::string address =
+        options.join.link.host + ":" + std::to_string(options.join.link.port);
+    options.viewer.depth_codec = options.join.depth_codec;
+    options.viewer.color_codec = options.join.color_codec;
+    client::Participant participant(std::move(options.join));
+    viewer::Viewer viewer(std::move(options.viewer), participant);
+
+    xr::OverlayContent texts;
+    std::string title;
+    TimePoint next_picture{}, next_texts{};
+    while (!cli::stop_requested()) {
+        const TimePoint before = steady_now();
+        const bool picture_is_due = before < next_picture || viewer.is_fading();
+        window.wait((picture_is_due ? next_picture : next_texts) - before);
+
+        const xr::WindowInput input = window.poll();
+        const TimePoint now = steady_now();
+        if (input.close || has(input, xr::Action::leave))
+            break;
+        if (has(input, xr::Action::full_screen))
+            window.toggle_full_screen();
+        viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
+                        window.pixels(), now);
+        if (const TimePoint first = viewer.first_picture_at();
+            options.seconds > 0 && first != TimePoint{} &&
+            now - first >= seconds_to_duration(options.seconds))
+            break;
+        for (const std::string& text : remarks.take())
+            viewer.note(text, now);
+        if (now < next_picture)
+            continue;
+
+        const bool scene = viewer.step(window.pixels(), now);
+        bool texts_changed = false;
+        if (now >= next_texts || !input.keys.empty()) {
+            const viewer::Facts facts = viewer.facts(now);
+            xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
+            texts_changed = content != texts;
+            texts = std::move(content);
+            next_texts = now + texts_every;
+            if (std::string newest = title_of(facts, address); newest != title)
+                window.set_title(title = std::move(newest));
+        }
+        if ((!scene && !texts_changed && !input.redraw) || !window.is_visible())
+            continue;
+        next_picture = now + window.picture_time();
+        if (scene)
+            viewer.draw(window.pixels(), picture.begin(window.pixels(), viewer.way().scale), now);
+        picture.show(window.pixels());
+        overlay.draw(texts, window.pixels(), window.text_pixels());
+        window.present();
+        if (scene)
+            viewer.on_presented(now, steady_now());
+    }
+    print_end(viewer, participant, window);
+}
+
+}  // namespace theatron::app

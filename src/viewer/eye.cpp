@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/eye.h"
+
+#include <utility>
+
+namespace theatron::viewer {
+
+render::CameraView Eye::view(Size picture) const {
+    return render::view_of_camera(lens_, viewpoint_->room_from_eye, picture);
+}
+
+void Eye::go_home(const ViewChoice& choice, const ViewableCameras& cameras, Size picture) {
+    const auto own = choice.resolve(cameras.calibrations, cameras.newest, picture);
+    const Calibration& calibration = cameras.calibrations.at(choice.camera);
+    const DepthView depth = cameras.newest.at(choice.camera)->depth.view();
+    viewpoint_ = {own.room_from_eye, render::point_of_interest(calibration, depth)};
+    lens_ = calibration.depth;
+    home_ = choice;
+    moved_ = false;
+}
+
+bool Eye::follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now) {
+    if (cameras.newest.empty())
+        return false;
+    if (first_picture_at_ == TimePoint{})
+        first_picture_at_ = now;
+    if (viewpoint_ && moved_)
+        return false;
+    const CameraId wanted = home_.camera;
+    if (!viewpoint_ && must_exist && cameras.calibrations.count(wanted) == 0)
+        (void)home_.resolve(cameras.calibrations, cameras.newest, picture);  // throws the reason
+    if (cameras.newest.count(wanted) == 0) {
+        if (viewpoint_ || now - first_picture_at_ < camera_patience)
+            return false;
+        go_home({cameras.newest.begin()->first, 0, 0}, cameras, picture);
+        return true;
+    }
+    // The point of interest is found once; only a camera that was moved is followed.
+    const Pose& own = cameras.calibrations.at(wanted).room_from_camera;
+    if (viewpoint_ && home_pose_ == own)
+        return false;
+    go_home(home_, cameras, picture);
+    home_pose_ = own;
+    return true;
+}
+
+void Eye::grab(Vec2 place, double distance_m, Size picture) {
+    if (!viewpoint_)
+        return;
+    const render::CameraView v = view(picture);
+    const Vec2 on_picture{v.left + place.x * (v.right - v.left),
+                          v.top + place.y * (v.bottom - v.top)};
+    viewpoint_ = xr::around(*viewpoint_, on_picture, distance_m);
+}
+
+bool Eye::steer(const xr::Steering& steering, Size picture, TimePoint now) {
+    const bool flew = std::exchange(flying_, viewpoint_ && steering.fly != Vec3{});
+    const Duration elapsed = flew ? now - steered_at_ : Duration{};
+    steered_at_ = now;
+    if (!viewpoint_ || !steering.moves())
+        return false;
+    const render::CameraView before = view(picture);
+    viewpoint_ = xr::steered(*viewpoint_, steering, before.bottom - before.top, elapsed);
+    moved_ = true;
+    return true;
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewpoint of a person with mouse and keyboard: it starts at a camera's own view and goes
+// where it is steered.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "viewer/view_choice.h"
+#include "xr/navigation.h"
+
+namespace theatron::viewer {
+
+// What the eye can start from. Both maps outlive the call that they are given to.
+struct ViewableCameras {
+    const std::map<CameraId, Calibration>& calibrations;
+    const std::map<CameraId, receive::CameraFramePtr>& newest;  // of cameras that sent a picture
+};
+
+// Reads no clock; from one thread. `picture` is the size of the picture in pixels.
+class Eye {
+public:
+    // A camera that was chosen but sends nothing is waited for this long, then another one is
+    // taken.
+    static constexpr Duration camera_patience = std::chrono::seconds(2);
+
+    explicit Eye(const ViewChoice& home) : home_(home) {}
+
+    // False until some camera has sent a picture.
+    bool is_placed() const { return viewpoint_.has_value(); }
+    const ViewChoice& home() const { return home_; }
+    // Needs is_placed(). The eye has the lens of the camera whose view it started from.
+    render::CameraView view(Size picture) const;
+
+    // To what this camera sees, which becomes the home view. Throws Error if the camera does not
+    // exist or has sent nothing.
+    void go_home(const ViewChoice& choice, const ViewableCameras& cameras, Size picture);
+
+    // To be called with every new picture. Places the eye as soon as its camera has sent one, and
+    // follows that camera if it is moved, until the person has gone elsewhere. True if the view
+    // changed. With `must_exist`, throws Error if there is no camera of the chosen number.
+    bool follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now);
+
+    // A turn or a slide begins at this share of the picture's width and height, where a surface is
+    // seen in this distance (metres, along the view's axis): it stays under the mouse.
+    void grab(Vec2 place, double distance_m, Size picture);
+
+    // Moves as in xr/navigation.h; keys count from the last call. True if the view changed.
+    bool steer(const xr::Steering& steering, Size picture, TimePoint now);
+
+private:
+    ViewChoice home_;
+    std::optional<xr::Viewpoint> viewpoint_;
+    CameraModel lens_;
+    Pose home_pose_;      // of the camera when the view started from it
+    bool moved_ = false;  // away from the home view
+    bool flying_ = false;
+    TimePoint steered_at_, first_picture_at_;
+};
+
+}  // namespace theatron::viewer

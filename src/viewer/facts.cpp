@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wire/condition_text.h"
+
+namespace theatron::viewer {
+namespace {
+
+// What the eye does not notice in an operation, and what it does.
+constexpr double old_ms = 500;
+
+std::string rounded(double value, int digits, const char* unit) {
+    char text[40];
+    std::snprintf(text, sizeof(text), "%.*f %s", digits, value, unit);
+    return text;
+}
+
+std::string age_text(double ms) {
+    if (ms < 1000)
+        return rounded(ms, 0, "ms");
+    if (ms < 120'000)
+        return rounded(std::floor(ms / 1000), 0, "s");
+    return rounded(std::floor(ms / 60'000), 0, "min");
+}
+
+// "2 live", or "1 live, 1 stale".
+xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
+    using Condition = wire::CameraCondition;
+    std::string text;
+    bool trouble = false;
+    for (const Condition condition :
+         {Condition::live, Condition::stale, Condition::ended, Condition::failed}) {
+        const auto count = std::count_if(cameras.begin(), cameras.end(), [&](const auto& camera) {
+            return camera.camera.state.condition == condition;
+        });
+        if (count == 0)
+            continue;
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + wire::text_of(condition);
+        trouble = trouble || condition != Condition::live;
+    }
+    return {"Cameras", text.empty() ? "none" : text, trouble};
+}
+
+// The one text that all cameras have, "several" if they differ, "none" if there is none.
+template <class TextOf>
+std::string common(const std::vector<client::CameraFigures>& cameras, const TextOf& text_of) {
+    std::string text;
+    for (const auto& camera : cameras) {
+        const std::string value = text_of(camera);
+        if (value.empty() || value == text)
+            continue;
+        if (!text.empty())
+            return "several";
+        text = value;
+    }
+    return text.empty() ? "none" : text;
+}
+
+// "h264 (lossy)" where a camera's newest depth image is not exact everywhere.
+xr::Fact depth_fact(const std::vector<client::CameraFigures>& cameras) {
+    const std::string codec = common(cameras, [](const auto& c) { return c.depth.codec; });
+    const bool lossy = std::any_of(cameras.begin(), cameras.end(), [](const auto& c) {
+        return c.depth.frames > 0 && c.depth.exact == receive::Exactness::nowhere;
+    });
+    return {"Depth", codec + (lossy ? " (lossy)" : ""), lossy};
+}
+
+// "blend (auto)", "mesh, set by host, coarser".
+std::string drawing_text(const Facts& facts) {
+    std::string text = facts.way.renderer;
+    if (facts.renderer_chosen_by == Facts::ChosenBy::program)
+        text += " (auto)";
+    if (facts.renderer_chosen_by == Facts::ChosenBy::host)
+        text += ", set by host";
+    if (facts.way.scale < 1 || facts.way.depth_step > 1)
+        text += ", coarser";
+    return text;
+}
+
+// Frames come much faster than this machine draws them.
+bool drawing_is_slow(const Facts& facts) {
+    constexpr double slow_fps = 10;
+    return facts.has_picture && facts.drawn_per_second < slow_fps &&
+           facts.drawn_per_second < facts.received.live_frames_per_second() / 2;
+}
+
+std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
+                              const std::function<std::string(const std::string&)>& filter_name) {
+    using Phase = client::Participant::Phase;
+    const auto& [status, cameras] = facts.received;
+    std::vector<xr::Fact> line;
+    line.push_back({"Host", status.host_name.empty() ? address : status.host_name});
+    const xr::Fact age{"Age of picture", facts.age_ms ? age_text(*facts.age_ms) : "unknown",
+                       facts.age_ms && *facts.age_ms > old_ms};
+    if (status.phase == Phase::joined) {
+        line.push_back(cameras_fact(cameras));
+        if (facts.has_picture)
+            line.push_back(age);
+        line.push_back({"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
+        line.push_back(
+            {"Drawn", rounded(facts.drawn_per_second, 0, "fps"), drawing_is_slow(facts)});
+        line.push_back({"Data", rounded(facts.received.mbit_per_second(), 1, "Mbit/s")});
+        line.push_back({"Dropped", std::to_string(facts.received.dropped())});
+        if (status.delivery.level > 0)
+            line.push_back({"Sent", status.delivery.what, true});
+        line.push_back(depth_fact(cameras));
+        line.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
+        const std::string filter =
+            common(cameras, [](const auto& c) { return c.camera.state.filter; });
+        line.push_back({"Filter", filter_name(filter == "none" ? std::string() : filter)});
+    } else {
+        line.push_back({"Connection", status.phase == Phase::connecting ? "connecting" : "none",
+                        status.phase != Phase::connecting});
+        if (facts.has_picture)
+            line.push_back(age);
+    }
+    line.push_back({"Drawing", drawing_text(facts)});
+    line.push_back({"Help", "F1"});
+    return line;
+}
+
+// Conditions that a picture which seems all right hides.
+std::string warning_of(const Facts& facts) {
+    constexpr double repeated_ms = 2000;
+    // In other phases the message says it.
+    if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture)
+        return {};
+    if (facts.age_ms && *facts.age_ms >= repeated_ms)
+        return "This picture is " + age_text(*facts.age_ms) + " old";
+    if (drawing_is_slow(facts))
+        return facts.renderer_chosen_by == Facts::ChosenBy::person
+                   ? "This computer draws too slowly; press M until \"auto\" appears"
+                   : "This computer draws too slowly; the connection is not the cause";
+    return {};
+}
+
+struct Message {
+    std::string text, detail;
+};
+
+Message message_of(const Facts& facts, const std::string& address) {
+    const client::Participant::Status& status = facts.received.status;
+    const std::string old = facts.has_picture && facts.age_ms && *facts.age_ms >= 1000
+                                ? "This picture is " + age_text(*facts.age_ms) + " old. "
+                                : "";
+    switch (status.phase) {
+        case client::Participant::Phase::joined:
+            if (!facts.has_picture)
+                return {"Waiting for the first picture…", ""};
+            return {};
+        case client::Participant::Phase::connecting:
+            return {"Connecting…", address};
+        case client::Participant::Phase::lost:
+            return {status.joins > 0 ? "Connection lost, trying again…"
+                                     : "No connection yet, trying again…",
+                    old + status.problem};
+        case client::Participant::Phase::refused:
+            return {"The host does not let you in", status.problem + " Press Esc to leave."};
+        case client::Participant::Phase::ended:
+            return {"The session is over", old + status.problem + " Press Esc to leave."};
+    }
+    return {};
+}
+
+}  // namespace
+
+xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
+                              const std::function<std::string(const std::string&)>& filter_name) {
+    xr::OverlayContent content;
+    content.facts = line_of(facts, address, filter_name);
+    const Message message = message_of(facts, address);
+    content.message = message.text;
+    content.detail = message.detail;
+    content.warning = warning_of(facts);
+    if (message.text.empty())
+        content.notice = facts.notice;
+    content.help = facts.help;
+    return content;
+}
+
+}  // namespace theatron::viewer

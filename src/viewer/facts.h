@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts about what a person sees, and their texts for the desktop.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "client/participant_figures.h"
+#include "xr/drawing_pace.h"
+#include "xr/overlay_content.h"
+
+namespace theatron::viewer {
+
+struct Facts {
+    client::ParticipantFigures received;
+    bool has_picture = false;
+    std::optional<double> age_ms;  // of the picture that is shown, now
+    double drawn_per_second = 0;
+    xr::DrawingWay way;
+    enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
+    std::string notice;  // of what just happened; empty: nothing
+    bool help = false;
+};
+
+// `address` is shown until the host has told its name. `filter_name` turns a filter's spelling into
+// a text for people.
+xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
+                              const std::function<std::string(const std::string&)>& filter_name);
+
+}  // namespace theatron::viewer

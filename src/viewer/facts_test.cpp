@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/facts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace theatron::viewer {
+namespace {
+
+using ::testing::HasSubstr;
+using Phase = client::Participant::Phase;
+
+Facts healthy() {
+    Facts facts;
+    facts.received.status.phase = Phase::joined;
+    facts.received.status.host_name = "OR 3";
+    client::CameraFigures camera;
+    camera.depth.frames = 100;
+    camera.depth.frames_per_second = 30;
+    camera.depth.codec = "strata";
+    camera.depth.exact = receive::Exactness::everywhere;
+    facts.received.cameras.push_back(camera);
+    facts.has_picture = true;
+    facts.age_ms = 40;
+    facts.drawn_per_second = 30;
+    facts.way.renderer = "mesh";
+    return facts;
+}
+
+xr::OverlayContent overlay(const Facts& facts) {
+    return overlay_of(facts, "host:4400", [](const std::string& text) { return text; });
+}
+
+xr::Fact fact(const xr::OverlayContent& content, const std::string& label) {
+    const auto found = std::find_if(content.facts.begin(), content.facts.end(),
+                                    [&](const xr::Fact& f) { return f.label == label; });
+    return found == content.facts.end() ? xr::Fact{} : *found;
+}
+
+TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
+    const xr::OverlayContent content = overlay(healthy());
+    EXPECT_EQ(content.message + content.warning + content.notice, "");
+    EXPECT_EQ(fact(content, "Depth").value, "strata");
+    EXPECT_FALSE(fact(content, "Depth").warning);
+    EXPECT_EQ(fact(content, "Host").value, "OR 3");
+}
+
+TEST(Overlay, MarksDepthThatIsNotWhatTheCameraMeasured) {
+    Facts facts = healthy();
+    facts.received.cameras[0].depth.codec = "h264";
+    facts.received.cameras[0].depth.exact = receive::Exactness::nowhere;
+    EXPECT_EQ(fact(overlay(facts), "Depth").value, "h264 (lossy)");
+    EXPECT_TRUE(fact(overlay(facts), "Depth").warning);
+}
+
+TEST(Overlay, BlamesTheComputerThatDrawsTooSlowlyAndNotTheConnection) {
+    Facts facts = healthy();
+    facts.drawn_per_second = 2;
+    EXPECT_THAT(overlay(facts).warning, HasSubstr("draws too slowly; press M"));
+    EXPECT_TRUE(fact(overlay(facts), "Drawn").warning);
+    facts.renderer_chosen_by = Facts::ChosenBy::program;
+    EXPECT_THAT(overlay(facts).warning, HasSubstr("connection is not the cause"));
+    facts.received.cameras[0].depth.frames_per_second = 3;  // nothing more comes
+    EXPECT_EQ(overlay(facts).warning, "");
+}
+
+TEST(Overlay, WarnsOfAnOldPictureFirst) {
+    Facts facts = healthy();
+    facts.age_ms = 3500;
+    facts.drawn_per_second = 0;
+    EXPECT_EQ(overlay(facts).warning, "This picture is 3 s old");
+}
+
+TEST(Overlay, NamesEachCondition) {
+    Facts facts = healthy();
+    client::CameraFigures stale = facts.received.cameras[0];
+    stale.camera.state.condition = wire::CameraCondition::stale;
+    stale.depth.codec = "rvl";
+    facts.received.cameras.push_back(stale);
+    EXPECT_EQ(fact(overlay(facts), "Cameras").value, "1 live, 1 stale");
+    EXPECT_TRUE(fact(overlay(facts), "Cameras").warning);
+    EXPECT_EQ(fact(overlay(facts), "Depth").value, "several");
+}
+
+TEST(Overlay, TellsWhyThereIsNoConnection) {
+    Facts facts = healthy();
+    facts.received.status.phase = Phase::lost;
+    facts.received.status.joins = 1;
+    facts.received.status.problem = "The host closed the connection.";
+    facts.age_ms = 7000;
+    const xr::OverlayContent content = overlay(facts);
+    EXPECT_EQ(content.message, "Connection lost, trying again…");
+    EXPECT_EQ(content.detail, "This picture is 7 s old. The host closed the connection.");
+    EXPECT_EQ(content.warning, "");
+}
+
+}  // namespace
+}  // namespace theatron::viewer

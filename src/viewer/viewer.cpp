@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/viewer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "video/color_codec.h"
+#include "video/depth_codecs.h"
+
+namespace theatron::viewer {
+namespace {
+
+constexpr Duration notice_shown = std::chrono::seconds(5);
+// A picture that is shown for longer than this has an age that grows by the clock.
+constexpr double repeated_picture_ms = 500;
+
+// The name after `current` in `names`; `current` may have options behind a colon.
+std::string next_name(const std::vector<std::string>& names, const std::string& current) {
+    const auto found = std::find(names.begin(), names.end(), current.substr(0, current.find(':')));
+    const auto next = found == names.end() || found + 1 == names.end() ? names.begin() : found + 1;
+    return *next;
+}
+
+}  // namespace
+
+Viewer::Viewer(Options options, client::Participant& participant)
+    : options_(std::move(options)),
+      participant_(participant),
+      scene_(options_.room, options_.people),
+      eye_(options_.view),
+      choice_(options_.renderer),
+      pace_(xr::automatic_ways(1, options_.scale)) {}
+
+void Viewer::note(const std::string& text, TimePoint now) {
+    notice_ = text;
+    notice_until_ = now + notice_shown;
+}
+
+void Viewer::on_input(const xr::WindowInput& input, std::optional<double> grabbed_m, Size picture,
+                      TimePoint now) {
+    scene_changed_ = scene_changed_ || input.redraw;
+    for (const xr::KeyPress& key : input.keys)
+        on_key(key, picture, now);
+    if (input.grabbed && grabbed_m)
+        eye_.grab(*input.grabbed, *grabbed_m, picture);
+    if (eye_.steer(input.steering, picture, now))
+        scene_changed_ = true;
+}
+
+void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    switch (key.action) {
+        case xr::Action::help:
+            help_ = !help_;
+            break;
+        case xr::Action::next_renderer:
+            choose_next_renderer(now);
+            break;
+        case xr::Action::next_depth_codec:
+            choose_depth_codec();
+            note("Depth codec: " + options_.depth_codec +
+                     (video::make_depth_codec(
+                          video::parse_depth_setting(options_.depth_codec).setting)
+                              ->lossless()
+                          ? ", lossless"
+                          : ", LOSSY: depth is no longer what the camera measured"),
+                 now);
+            break;
+        case xr::Action::next_color_codec:
+            options_.color_codec = next_name(video::color_codec_names(), options_.color_codec);
+            participant_.choose_codecs("", options_.color_codec);
+            note("Colour codec: " + options_.color_codec, now);
+            break;
+        case xr::Action::own_view:
+        case xr::Action::view_camera: {
+            ViewChoice choice{eye_.home().camera, 0, 0};
+            if (key.action == xr::Action::view_camera)
+                choice.camera = CameraId(key.camera);
+            try {
+                eye_.go_home(choice, cameras(), picture);
+                scene_changed_ = true;
+                note("View of " + camera_text(choice.camera), now);
+            } catch (const Error& e) {
+                note(e.what(), now);
+            }
+            break;
+        }
+        case xr::Action::leave:
+        case xr::Action::full_screen:
+            break;  // of the window, not of the scene
+    }
+}
+
+void Viewer::choose_depth_codec() {
+    options_.depth_codec = next_name(video::depth_codec_names(), options_.depth_codec);
+    participant_.choose_codecs(options_.depth_codec, "");
+}
+
+void Viewer::choose_next_renderer(TimePoint now) {
+    if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
+        return note("The host has set this way of drawing: " + choice_.renderer(), now);
+    choose_pace();
+    const bool as_drawn = choice_.renderer() == way().renderer;
+    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer), now);
+}
+
+void Viewer::follow_host(TimePoint now) {
+    const auto word = participant_.take_renderer_word();
+    if (!word)
+        return;
+    const session::RendererChoice before = choice_;
+    if (const std::string problem = viewer::follow_host(choice_, *word); !problem.empty())
+        return note(problem, now);
+    if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
+        note(choice_.locked() || !before.locked()
+                 ? "The host has set the way of drawing: " + choice_.renderer()
+                 : "The way of drawing is yours again.",
+             now);
+    choose_pace();
+}
+
+// Begins anew where there are other ways to draw than before.
+void Viewer::choose_pace() {
+    auto ways = choice_.renderer() == automatic
+                    ? xr::automatic_ways(scene_.calibrations().size(), options_.scale)
+                    : xr::ways_of(choice_.renderer(), options_.scale);
+    if (ways == pace_.ways())
+        return;
+    pace_ = xr::DrawingPace(std::move(ways));
+    scene_changed_ = true;
+}
+
+bool Viewer::step(Size picture, TimePoint now) {
+    const auto status = participant_.status();
+    if (status.phase == client::Participant::Phase::refused && status.joins == 0)
+        throw Error(status.problem);
+    follow_host(now);
+    for (const CameraId camera : scene_.take(participant_)) {
+        updated_.insert(camera);
+        scene_changed_ = true;
+    }
+    choose_pace();  // for the cameras that there are now
+    fading_ = scene_.fade(participant_, now);
+    scene_changed_ = scene_changed_ || fading_;
+    // A host that came back may have fewer cameras than before.
+    if (eye_.follow(cameras(), status.joins == 1, picture, now))
+        scene_changed_ = true;
+    if (first_picture_at_ == TimePoint{} && scene_.has_picture())
+        first_picture_at_ = now;
+    participant_.tell_renderer(way().renderer);
+    return scene_changed_ && eye_.is_placed();
+}
+
+std::string Viewer::camera_text(CameraId camera) const {
+    std::string text = "camera " + std::to_string(int(camera));
+    std::uint64_t generation = 0;
+    for (const auto& known : participant_.cameras(generation))
+        if (known.description.id == camera)
+            text += ": " + known.description.name;
+    return text;
+}
+
+void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {
+    scene_changed_ = false;
+    const std::string wanted = way().renderer;
+    scene_.set_depth_step(way().depth_step);
+    try {
+        scene_.draw(eye_.view(picture), target, wanted);
+        working_renderer_ = wanted;
+    } catch (const Error& e) {
+        if (working_renderer_.empty() || working_renderer_ == wanted)
+            throw;
+        note(e.what(), now);
+        choice_.follow({working_renderer_, choice_.locked()});
+        choose_pace();
+    }
+}
+
+void Viewer::on_presented(TimePoint begin, TimePoint end) {
+    pace_.add(end, end - begin);
+    drawn_.add(end);
+    ++pictures_;
+    const std::set<CameraId> updated = std::exchange(updated_, {});
+    if (updated.empty())
+        return;
+    presented_at_ = end;
+    // The session's time is known once the host has answered.
+    if (participant_.status().round_trip == Duration{})
+        return;
+    const TimePoint presented = participant_.session_time(end);
+    double age_ms = 0;
+    for (const CameraId camera : updated)
+        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
+            age_ms = std::max(age_ms, to_ms(presented - frame->second->times.captured));
+    age_at_presentation_ms_ = age_ms;
+    ages_ms_.add(age_ms);
+    all_ages_ms_.add(age_ms);
+}
+
+Facts Viewer::facts(TimePoint now) {
+    Facts facts;
+    facts.received = client::figures_of(participant_);
+    facts.has_picture = eye_.is_placed();
+    if (age_at_presentation_ms_) {
+        const double since_ms = to_ms(now - presented_at_);
+        facts.age_ms = since_ms > repeated_picture_ms ? *age_at_presentation_ms_ + since_ms
+                                                      : ages_ms_.percentile(0.5);
+    }
+    facts.drawn_per_second = drawn_.per_second(now);
+    facts.way = way();
+    facts.renderer_chosen_by = choice_.locked()                  ? Facts::ChosenBy::host
+                               : choice_.renderer() == automatic ? Facts::ChosenBy::program
+                                                                 : Facts::ChosenBy::person;
+    if (now < notice_until_)
+        facts.notice = notice_;
+    facts.help = help_;
+    return facts;
+}
+
+}  // namespace theatron::viewer

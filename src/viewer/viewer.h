@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person's view of a session: takes over new frames, follows input, draws.
+//
+// A viewer has no loop, no window, no thread and no clock: the program that shows it (a window, a
+// headset, a browser, a file) owns these and passes time in.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/statistics.h"
+#include "client/participant.h"
+#include "session/renderer_choice.h"
+#include "viewer/eye.h"
+#include "viewer/facts.h"
+#include "viewer/live_scene.h"
+#include "viewer/renderer_text.h"
+#include "xr/drawing_pace.h"
+#include "xr/window_input.h"
+
+namespace theatron::viewer {
+
+// Use from one thread, with the same GL context current, also in the destructor.
+class Viewer {
+public:
+    struct Options {
+        ViewChoice view;
+        RoomChoice room;
+        std::vector<SeenPerson> people;
+        std::string renderer = automatic;
+        double scale = 0;  // of the target's pixels to draw; 0: as there is time for
+        std::string depth_codec, color_codec;  // that the participant asked for
+    };
+
+    // `participant` outlives the viewer.
+    Viewer(Options options, client::Participant& participant);
+
+    // Keys that concern the scene, and steering. `grabbed_m` is the distance of the surface at
+    // input.grabbed, along the view's axis, if there is one.
+    void on_input(const xr::WindowInput& input, std::optional<double> grabbed_m, Size picture,
+                  TimePoint now);
+
+    // Takes over what is new in the session. `picture` is the size of the target in pixels. True
+    // if the scene is to be drawn again. Throws Error if the host refused to let the person in, or
+    // if the view that was chosen cannot be had.
+    bool step(Size picture, TimePoint now);
+
+    // Needs facts().has_picture. Draws into a cleared target that has way().scale of `picture` on
+    // each side. A renderer that the driver cannot do is replaced by the one before; Error if there
+    // is none.
+    void draw(Size picture, const render::DrawTarget& target, TimePoint now);
+    const xr::DrawingWay& way() const { return pace_.way(); }
+
+    // The picture that was drawn since `begin` is on screen at `end`.
+    void on_presented(TimePoint begin, TimePoint end);
+
+    // For a person, as of `now`.
+    Facts facts(TimePoint now);
+    // A line for a person, shown for some seconds.
+    void note(const std::string& text, TimePoint now);
+    // True while a fading camera changes the picture by itself.
+    bool is_fading() const { return fading_; }
+    // The first moment that a picture could be drawn; TimePoint{} before.
+    TimePoint first_picture_at() const { return first_picture_at_; }
+
+    // Pictures that were presented, and how old their frames were.
+    std::uint64_t pictures() const { return pictures_; }
+    const SampleWindow& ages_ms() const { return all_ages_ms_; }
+
+private:
+    void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
+    void choose_next_renderer(TimePoint now);
+    void choose_depth_codec();
+    void follow_host(TimePoint now);
+    void choose_pace();
+    std::string camera_text(CameraId camera) const;
+    ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
+
+    Options options_;
+    client::Participant& participant_;
+    LiveScene scene_;
+    Eye eye_;
+
+    session::RendererChoice choice_;
+    std::string working_renderer_;
+    xr::DrawingPace pace_;
+    bool fading_ = false;
+    bool scene_changed_ = true;
+    bool help_ = false;
+    std::string notice_;
+    TimePoint notice_until_;
+
+    std::set<CameraId> updated_;  // cameras whose new picture is not presented yet
+    RateWindow drawn_;
+    SampleWindow ages_ms_{30}, all_ages_ms_{20'000};
+    std::uint64_t pictures_ = 0;
+    TimePoint presented_at_, first_picture_at_;
+    std::optional<double> age_at_presentation_ms_;
+};
+
+}  // namespace theatron::viewer

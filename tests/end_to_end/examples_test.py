@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The programs in examples/: one publishes a camera, the other joins and saves a picture of it."""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import unittest
+
+from theatron_process import PROGRAM, make_recording, read_png
+
+EXAMPLES = pathlib.Path(PROGRAM).parent.parent.parent / "examples"
+
+
+class Examples(unittest.TestCase):
+    def test_a_picture_of_a_published_camera_is_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            camera = pathlib.Path(folder) / "camera"
+            make_recording(camera, frames=5)
+            picture = pathlib.Path(folder) / "picture.png"
+            publisher = subprocess.Popen([EXAMPLES / "publish_camera", f"folder:{camera},loop=1"],
+                                         stdout=subprocess.PIPE, text=True, env={**os.environ, "XDG_STATE_HOME": folder})
+            try:
+                link = publisher.stdout.readline().strip()
+                self.assertRegex(link, r"^https://")
+                saved = subprocess.run([EXAMPLES / "save_picture", link, picture], capture_output=True, text=True,
+                                       timeout=60)
+                self.assertEqual(saved.returncode, 0, saved.stderr)
+                width, height, channels, rows = read_png(picture)
+                self.assertEqual((width, height, channels), (1280, 720, 3))
+                self.assertGreater(len({bytes(row) for row in rows}), 50, "the picture shows nothing")
+            finally:
+                publisher.send_signal(signal.SIGTERM)
+                self.assertEqual(publisher.wait(20), 0)
+                publisher.stdout.close()
+
+    def test_a_wrong_link_ends_in_a_sentence(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = subprocess.run([EXAMPLES / "save_picture", "nonsense", pathlib.Path(folder) / "a.png"],
+                                    capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 1)
+            self.assertTrue(re.search(r"link", result.stderr), result.stderr)
+
+    def test_each_is_at_most_60_lines(self):
+        for source in pathlib.Path("examples").glob("*.cpp"):
+            self.assertLessEqual(len(source.read_text().splitlines()), 60, source)
+
+
+if __name__ == "__main__":
+    unittest.main()
