@@ -8,6 +8,7 @@
 #include "capture/mkv_reader.h"
 #include "commands.h"
 #include "link_argument.h"
+#include "unknown_command.h"
 
 int main(int argc, char** argv) {
     theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
@@ -37,6 +38,14 @@ int main(int argc, char** argv) {
 
     try {
         const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+        if (argc > 1) {
+            std::vector<std::string> commands;
+            for (const CLI::App* command : app.get_subcommands({}))
+                commands.push_back(command->get_name());
+            if (const auto problem = theatron::app::unknown_command(arguments[1], commands);
+                !problem.empty())
+                throw theatron::Error(problem);
+        }
         std::vector<const char*> taken;
         for (const std::string& argument : arguments)
             taken.push_back(argument.c_str());

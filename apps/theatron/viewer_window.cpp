@@ -36,15 +36,25 @@ private:
     std::vector<std::string> texts_;
 };
 
-bool has(const xr::WindowInput& input, xr::Action action) {
-    return std::any_of(input.keys.begin(), input.keys.end(),
-                       [&](const xr::KeyPress& key) { return key.action == action; });
-}
-
 std::string title_of(const viewer::Facts& facts, const std::string& address) {
     const std::string& host = facts.received.status.host_name;
     return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
 }
+
+// The key that leaves does so when it is pressed twice, so that nobody leaves by accident; at once
+// where there is nothing to leave.
+class Leaving {
+public:
+    bool pressed(const client::Participant::Status& status, TimePoint now) {
+        const bool again = now - pressed_at_ < confirm_within;
+        pressed_at_ = now;
+        return again || status.phase != client::Participant::Phase::joined;
+    }
+
+private:
+    static constexpr Duration confirm_within = 3s;
+    TimePoint pressed_at_ = TimePoint(-confirm_within);
+};
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                const xr::DesktopWindow& window) {
@@ -79,6 +89,7 @@ void show(ViewerWindow options) {
 
     xr::OverlayContent texts;
     std::string title;
+    Leaving leaving;
     TimePoint next_picture{}, next_texts{};
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
@@ -87,10 +98,20 @@ void show(ViewerWindow options) {
 
         const xr::WindowInput input = window.poll();
         const TimePoint now = steady_now();
-        if (input.close || has(input, xr::Action::leave))
+        if (input.close)
             break;
-        if (has(input, xr::Action::full_screen))
-            window.toggle_full_screen();
+        bool left = false;
+        for (const xr::KeyPress& key : input.keys) {
+            const bool leave = key.action == xr::Action::leave;
+            if (key.action == xr::Action::full_screen || (leave && window.is_full_screen()))
+                window.toggle_full_screen();
+            else if (leave && leaving.pressed(participant.status(), now))
+                left = true;
+            else if (leave)
+                viewer.note("Press Esc again to leave the session", now);
+        }
+        if (left)
+            break;
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
                         window.pixels(), now);
         if (const TimePoint first = viewer.first_picture_at();

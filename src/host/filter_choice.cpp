@@ -19,7 +19,7 @@ bool is_file(const std::string& text) {
     return text.ends_with(".json") || fs::is_regular_file(text, ignored);
 }
 
-// Which of `cameras` is meant; all of them in vain.
+// Index of the camera with this name or number; cameras.size() if there is none.
 std::size_t find_camera(const std::string& name, const std::vector<std::string>& cameras) {
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (name == std::to_string(i) || name == cameras[i])
@@ -40,6 +40,17 @@ std::string shown_filter(const std::string& spelling) {
         if (filter::parse_chain(preset).settings.spelling() == spelling)
             return preset;
     return spelling;
+}
+
+void check_background(const LoadedFilter& filter, Size depth) {
+    if (!filter.background || filter.background->nearest.size == depth)
+        return;
+    const auto text = [](Size size) {
+        return std::to_string(size.width) + "x" + std::to_string(size.height);
+    };
+    throw Error("The background '" + filter.settings.background_file + "' was recorded with " +
+                text(filter.background->nearest.size) + " depth pixels, the camera has " +
+                text(depth) + "; record it anew with theatron background record.");
 }
 
 LoadedFilter FilterSource::load() {
@@ -63,6 +74,10 @@ LoadedFilter FilterSource::load() {
     LoadedFilter loaded{std::move(parsed.settings), nullptr};
     if (!loaded.settings.needs_background())
         return loaded;
+    if (loaded.settings.background_file.empty())
+        throw Error(
+            "The filter 'background' needs a recorded background: write "
+            "background:file=empty.background, and make one with theatron background record.");
     // A file beside the settings is meant from there.
     const fs::path name = folder / loaded.settings.background_file;
     const auto background = filter::decode_background(files::read_file(name, max_background_bytes));

@@ -24,6 +24,10 @@ struct LoadedFilter {
 // "unfiltered" where there is none.
 std::string shown_filter(const std::string& spelling);
 
+// Throws Error with one sentence if the background was recorded with depth images of another size
+// than `depth`, which would leave it without effect.
+void check_background(const LoadedFilter& filter, Size depth);
+
 // A preset, a line as in docs/filters.md, or the name of a JSON file.
 class FilterSource {
 public:

@@ -52,8 +52,11 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         names.push_back(camera->info().name);
     filters = filter_sources(options.filters, names, usual_filter);
     std::vector<LoadedFilter> loaded;
-    for (FilterSource& source : filters)
-        loaded.push_back(source.load());
+    for (std::size_t i = 0; i < filters.size(); ++i) {
+        depth_sizes.push_back(cameras[i]->info().calibration.depth.size);
+        loaded.push_back(filters[i].load());
+        check_background(loaded.back(), depth_sizes.back());
+    }
 
     const auto state = options.state.empty() ? default_state_folder() : options.state;
     certificate = net::load_or_make_certificate(state);
@@ -214,6 +217,7 @@ void Host::follow_filter_files() {
             const auto changed = impl_->filters[i].changed();
             if (!changed)
                 continue;
+            check_background(*changed, impl_->depth_sizes[i]);
             impl_->lanes[i]->set_filter(changed->settings, changed->background);
             log::info("host", "filter changed",
                       {{"camera", int(i)}, {"filter", changed->settings.spelling()}});

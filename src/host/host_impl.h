@@ -27,6 +27,7 @@ struct Host::Impl {
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::vector<FilterSource> filters;  // by camera; used by who owns the host
+    std::vector<Size> depth_sizes;      // by camera; the same way
     std::thread thread;
     send::MediaQueue media;  // from the lanes to the server's thread
     std::mutex states_mutex;

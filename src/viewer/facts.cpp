@@ -171,6 +171,9 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     xr::OverlayContent content;
     content.facts = line_of(facts, address, filter_name);
+    // A hidden line still shows what is not as it should be.
+    if (!facts.line)
+        std::erase_if(content.facts, [](const xr::Fact& fact) { return !fact.warning; });
     const Message message = message_of(facts, address);
     content.message = message.text;
     content.detail = message.detail;

@@ -21,6 +21,7 @@ struct Facts {
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
     std::string notice;  // of what just happened; empty: nothing
     bool help = false;
+    bool line = true;  // of facts, at the bottom
 };
 
 // `address` is shown until the host has told its name. `filter_name` turns a filter's spelling into

@@ -66,6 +66,15 @@ TEST(Overlay, BlamesTheComputerThatDrawsTooSlowlyAndNotTheConnection) {
     EXPECT_EQ(overlay(facts).warning, "");
 }
 
+TEST(Overlay, HidesTheLineOfFactsButNotItsWarnings) {
+    Facts facts = healthy();
+    facts.line = false;
+    EXPECT_TRUE(overlay(facts).facts.empty());
+    facts.age_ms = 800;
+    ASSERT_EQ(overlay(facts).facts.size(), 1u);
+    EXPECT_EQ(overlay(facts).facts[0].label, "Age of picture");
+}
+
 TEST(Overlay, WarnsOfAnOldPictureFirst) {
     Facts facts = healthy();
     facts.age_ms = 3500;

@@ -53,6 +53,9 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::help:
             help_ = !help_;
             break;
+        case xr::Action::facts:
+            line_ = !line_;
+            break;
         case xr::Action::next_renderer:
             choose_next_renderer(now);
             break;
@@ -214,6 +217,7 @@ Facts Viewer::facts(TimePoint now) {
     if (now < notice_until_)
         facts.notice = notice_;
     facts.help = help_;
+    facts.line = line_;
     return facts;
 }
 

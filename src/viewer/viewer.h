@@ -88,6 +88,7 @@ private:
     bool fading_ = false;
     bool scene_changed_ = true;
     bool help_ = false;
+    bool line_ = true;
     std::string notice_;
     TimePoint notice_until_;
 

@@ -65,6 +65,8 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
         case SDLK_F1:
         case SDLK_h:
             return KeyPress{Action::help};
+        case SDLK_b:
+            return KeyPress{Action::facts};
         case SDLK_F11:
             return KeyPress{Action::full_screen};
         case SDLK_TAB:
@@ -261,8 +263,11 @@ void DesktopWindow::set_title(const std::string& title) {
 }
 
 void DesktopWindow::toggle_full_screen() {
-    const bool full = SDL_GetWindowFlags(parts_->window) & SDL_WINDOW_FULLSCREEN_DESKTOP;
-    SDL_SetWindowFullscreen(parts_->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+    SDL_SetWindowFullscreen(parts_->window, is_full_screen() ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+}
+
+bool DesktopWindow::is_full_screen() const {
+    return SDL_GetWindowFlags(parts_->window) & SDL_WINDOW_FULLSCREEN_DESKTOP;
 }
 
 void DesktopWindow::present() {

@@ -41,6 +41,7 @@ public:
 
     void set_title(const std::string& title);
     void toggle_full_screen();
+    bool is_full_screen() const;
 
     // Shows what was drawn. Waits for the screen where the driver does so.
     void present();

@@ -22,6 +22,9 @@ constexpr ImU32 key_color = IM_COL32(140, 205, 255, 255);
 // Latin, Greek and Cyrillic letters, and the signs of our own texts.
 constexpr ImWchar glyphs[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x52f, 0x2010, 0x2027, 0};
 
+// Windows narrower than this, in half text heights, show one row of facts.
+constexpr float small_window_units = 80;
+
 }  // namespace
 
 struct Overlay::Parts {
@@ -41,10 +44,10 @@ struct Overlay::Parts {
     ImVec2 measure(ImFont* font, const std::string& text, float wrap = 0) const {
         return font->CalcTextSizeA(font->FontSize, 1e9f, wrap, text.c_str());
     }
-    void text(ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
-              float wrap = 0) const {
-        list->AddText(font, font->FontSize, {std::round(place.x), std::round(place.y)}, color,
-                      words.c_str(), nullptr, wrap);
+    void text(ImFont* font, ImVec2 place, ImU32 color, const std::string& words, float wrap = 0,
+              float scale = 1) const {
+        list->AddText(font, font->FontSize * scale, {std::round(place.x), std::round(place.y)},
+                      color, words.c_str(), nullptr, wrap);
     }
 
     // Each draws its part; all use what draw() has set up.
@@ -78,32 +81,36 @@ void Overlay::Parts::make_fonts(double pixels) {
     text_pixels = pixels;
 }
 
-// From the left, in as many rows as they need. Returns how high they stand.
+// From the left, in as many rows as they need. Returns their height.
 float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
     const float gap = 2.2f * unit, margin = 1.2f * unit;
     const float row = small->FontSize + normal->FontSize + 0.9f * unit;
     const auto width = [&](const Fact& fact) {
         return std::max(measure(small, fact.label).x, measure(normal, fact.value).x);
     };
-    std::vector<ImVec2> places;
+    // Where the window is small, only warnings may begin another row than the first.
+    const bool is_small = window.x < small_window_units * unit;
+    std::vector<std::pair<const Fact*, ImVec2>> places;
     float x = margin, y = 0;
     for (const Fact& fact : facts) {
         if (x > margin && x + width(fact) + margin > window.x) {
+            if (is_small && !fact.warning)
+                continue;
             x = margin;
             y += row;
         }
-        places.push_back({x, y});
+        places.push_back({&fact, {x, y}});
         x += width(fact) + gap;
     }
-    if (facts.empty())
+    if (places.empty())
         return 0;
     const float height = y + row + 0.5f * unit, top = window.y - height;
     list->AddRectFilled({0, top}, window, bar_color);
-    for (std::size_t i = 0; i < facts.size(); ++i) {
-        const ImVec2 at{places[i].x, top + places[i].y + 0.5f * unit};
-        text(small, at, label_color, facts[i].label);
-        text(normal, {at.x, at.y + small->FontSize}, facts[i].warning ? warning_color : text_color,
-             facts[i].value);
+    for (const auto& [fact, place] : places) {
+        const ImVec2 at{place.x, top + place.y + 0.5f * unit};
+        text(small, at, label_color, fact->label);
+        text(normal, {at.x, at.y + small->FontSize}, fact->warning ? warning_color : text_color,
+             fact->value);
     }
     return height;
 }
@@ -147,14 +154,19 @@ void Overlay::Parts::help(float bottom) const {
     }
     const float width = keys + gap + meanings;
     const float height = row * float(key_help().size()) - 0.9f * unit;
-    const ImVec2 from{(window.x - width) / 2, std::max(padding, (window.y - bottom - height) / 2)};
-    list->AddRectFilled({from.x - padding, from.y - padding},
-                        {from.x + width + padding, from.y + height + padding}, panel_color, unit);
+    // Smaller where the window is small: all lines must be readable.
+    const float scale = std::min(
+        {1.0f, window.x / (width + 2 * padding), (window.y - bottom) / (height + 2 * padding)});
+    const ImVec2 half{scale * (width / 2 + padding), scale * (height / 2 + padding)};
+    const ImVec2 middle{window.x / 2, (window.y - bottom) / 2};
+    list->AddRectFilled({middle.x - half.x, middle.y - half.y},
+                        {middle.x + half.x, middle.y + half.y}, panel_color, scale * unit);
+    const ImVec2 from{middle.x - scale * width / 2, middle.y - scale * height / 2};
     float y = from.y;
     for (const KeyHelp& line : key_help()) {
-        text(normal, {from.x, y}, key_color, line.keys);
-        text(normal, {from.x + keys + gap, y}, text_color, line.meaning);
-        y += row;
+        text(normal, {from.x, y}, key_color, line.keys, 0, scale);
+        text(normal, {from.x + scale * (keys + gap), y}, text_color, line.meaning, 0, scale);
+        y += scale * row;
     }
 }
 

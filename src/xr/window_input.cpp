@@ -10,12 +10,13 @@ const std::vector<KeyHelp>& key_help() {
         {"Mouse wheel", "Come closer, go further away"},
         {"W A S D, Q E", "Walk; Q down, E up; faster with Shift"},
         {"R or Home", "Back to the camera's own view"},
-        {"1 to 9", "View of camera 1 to 9"},
+        {"1 to 9", "View of the first camera (0) to the ninth (8)"},
         {"M or Tab", "Next way of drawing"},
         {"C, V", "Next depth codec, next colour codec"},
         {"F11", "Full screen"},
+        {"B", "Show or hide the line of facts"},
         {"H or F1", "Show or hide this help"},
-        {"Esc", "Leave the session"},
+        {"Esc, twice", "Leave the session; once: leave full screen"},
     };
     return help;
 }

@@ -14,6 +14,7 @@ namespace theatron::xr {
 enum class Action {
     leave,
     help,
+    facts,
     full_screen,
     next_renderer,
     next_depth_codec,

@@ -85,6 +85,10 @@ class Window(unittest.TestCase):
                 do("key", "m")
                 wait_until(lambda: " mesh " in self.screen.title())
                 do("key", "c", "key", "v")
+            with self.subTest("nobody leaves by one press of a key"):
+                do("key", "Escape")
+                self.wait_for_change(own, 0.002)
+                self.assertIsNone(viewer.process.poll())
             do("key", "Escape")
             self.assertEqual(viewer.end(), 0)
             output = "".join(iter(viewer.lines.get, None))

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unknown_command.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::app {
+namespace {
+
+const std::vector<std::string> commands{"host", "join", "record"};
+
+TEST(UnknownCommand, NamesTheMostSimilarOne) {
+    EXPECT_EQ(unknown_command("jion", commands),
+              "There is no command 'jion'; did you mean 'theatron join'?");
+    EXPECT_EQ(unknown_command("recrod", commands),
+              "There is no command 'recrod'; did you mean 'theatron record'?");
+}
+
+TEST(UnknownCommand, ListsAllWhereNoneIsSimilar) {
+    EXPECT_EQ(unknown_command("abracadabra", commands),
+              "There is no command 'abracadabra'; the commands are host, join, record.");
+}
+
+TEST(UnknownCommand, LeavesCommandsAndOptionsAlone) {
+    EXPECT_EQ(unknown_command("join", commands), "");
+    EXPECT_EQ(unknown_command("--help", commands), "");
+}
+
+}  // namespace
+}  // namespace theatron::app
