@@ -188,12 +188,21 @@ void CameraLane::work() {
         }
         next = newest_.take(Duration(0));
     }
-    if (!contain("encode", [&] { encode_next(std::move(next), begin); })) {
+    bool ready = false;
+    if (!contain("encode", [&] { ready = prepare(std::move(next), begin); }))
+        failed_ = true;
+    if (ready)
+        encode_frame();
+    else
+        end_work();
+}
+
+void CameraLane::end_work() {
+    if (failed_.exchange(false)) {
         // The frame is lost. The filters may hold anything; encoders go on with key frames.
         chain_.reset();
         filtered_at_ = {};
     }
-
     bool more;
     {
         const std::lock_guard lock(mutex_);
@@ -209,23 +218,25 @@ void CameraLane::work() {
         workers_.enqueue([this] { work(); });
 }
 
-void CameraLane::encode_next(std::optional<Captured> next, TimePoint begin) {
+bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
     take_orders();
     if (next) {
         last_ = std::move(next);
-        if (!encoders_.empty()) {
-            meter_.on_stage(Stage::queue, begin - last_->frame->times.delivered);
-            filter_frame();
-            encode_frame(begin);
-        } else {
+        if (encoders_.empty()) {
             filtered_at_ = {};
+            return false;
         }
-    } else if (last_ && !keys_.empty() && !encoders_.empty()) {
+        meter_.on_stage(Stage::queue, begin - last_->frame->times.delivered);
+        filter_frame();
+    } else {
+        if (!last_ || keys_.empty() || encoders_.empty())
+            return false;
         // It came while nobody watched, or before the filters changed.
         if (filtered_at_ == TimePoint{})
             filter_frame();
-        encode_frame(begin);
     }
+    prepare_frame(begin);
+    return true;
 }
 
 void CameraLane::take_orders() {
@@ -266,36 +277,63 @@ void CameraLane::filter_frame() {
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
 }
 
-void CameraLane::encode_frame(TimePoint begin) {
+void CameraLane::prepare_frame(TimePoint begin) {
     const Frame& frame = *last_->frame;
-    wire::MediaHeader header;
-    header.frame = next_number_++;
-    header.moment = last_->moment;
-    header.captured = frame.times.captured;
-    header.delivered = frame.times.delivered;
-    header.filtered = filtered_at_;
     const bool filtered = filtered_at_ != TimePoint{};
-    const DepthView depth = filtered ? filtered_ : frame.depth.view();
+    picture_ = {};
+    picture_.header.frame = next_number_++;
+    picture_.header.moment = last_->moment;
+    picture_.header.captured = frame.times.captured;
+    picture_.header.delivered = frame.times.delivered;
+    picture_.header.filtered = filtered_at_;
+    picture_.depth = filtered ? filtered_ : frame.depth.view();
+    picture_.begun = begin;
+}
 
-    const auto timed = [this](Stage stage, const auto& encode) {
-        const TimePoint start = now();
-        encode();
-        meter_.on_stage(stage, now() - start);
-    };
-    const auto encode_depth = [&] {
-        if (encoders_.has_depth())
-            timed(Stage::depth_encode, [&] { encoders_.encode_depth(depth, header, keys_); });
-    };
-    const auto encode_color = [&] {
-        if (encoders_.has_color() && !frame.color.empty())
-            timed(Stage::color_encode, [&] {
-                if (encoders_.encode_color(last_->frame, header, keys_) > 0)
-                    meter_.on_damaged_color();
-            });
-    };
-    workers_.both(encode_depth, encode_color);
+// Neither thread waits for the other: the one that is done last ends the work.
+void CameraLane::encode_frame() {
+    const bool color = encoders_.has_color() && !last_->frame->color.empty();
+    const bool two_threads = color && encoders_.has_depth() && color_took_ > worth_a_thread &&
+                             workers_.has_idle_thread();
+    color_waits_ = color;
+    unfinished_parts_ = two_threads ? 2 : 1;
+    if (two_threads)
+        workers_.enqueue_first([this] {
+            encode_color();
+            end_part();
+        });
+    if (encoders_.has_depth() && !contain("encode", [this] { encode_depth(); }))
+        failed_ = true;
+    encode_color();
+    end_part();
+}
+
+void CameraLane::end_part() {
+    if (--unfinished_parts_ > 0)
+        return;
     keys_.clear();
-    meter_.on_stage(Stage::lane, now() - begin);
+    meter_.on_stage(Stage::lane, now() - picture_.begun);
+    end_work();
+}
+
+void CameraLane::encode_depth() {
+    const TimePoint start = now();
+    encoders_.encode_depth(picture_.depth, picture_.header, keys_);
+    meter_.on_stage(Stage::depth_encode, now() - start);
+}
+
+void CameraLane::encode_color() {
+    if (!color_waits_.exchange(false))
+        return;
+    const bool done = contain("encode", [this] {
+        const TimePoint start = now();
+        if (encoders_.encode_color(last_->frame, picture_.header, keys_) > 0)
+            meter_.on_damaged_color();
+        color_took_ = now() - start;
+        meter_.on_stage(Stage::color_encode, color_took_);
+    });
+    if (!done)
+        failed_ = true;
 }
 
 LaneFigures CameraLane::figures() const {

@@ -3,8 +3,8 @@
 //
 // A thread waits for the camera and does nothing else. The work on a frame runs on
 // threads that all lanes share, one frame of a lane at a time, depth and colour
-// side by side. Between the two the newest frame wins, so slow work never makes
-// frames older. Lanes know nothing of each other: nobody waits for a neighbour.
+// side by side where a thread is idle. Between the two the newest frame wins, so slow work never
+// makes frames older. Lanes know nothing of each other: nobody waits for a neighbour.
 #pragma once
 
 #include <atomic>
@@ -108,6 +108,9 @@ private:
         WantedKeys keys;
     };
 
+    // Encoding that takes longer than this, by the clock, is worth waking another thread for.
+    static constexpr Duration worth_a_thread = 200us;
+
     void on_frame(FramePtr frame);
     void look();
     TimePoint now() const { return options_.clock.now(); }
@@ -115,10 +118,18 @@ private:
     LaneEncoders::Environment encoder_environment() const;
     void begin_work();
     void work();
-    void encode_next(std::optional<Captured> next, TimePoint begin);
+    // True if a frame is now in `picture_`, to be encoded.
+    bool prepare(std::optional<Captured> next, TimePoint begin);
     void take_orders();
     void filter_frame();
-    void encode_frame(TimePoint begin);
+    void prepare_frame(TimePoint begin);
+    void encode_frame();
+    void encode_depth();
+    // Unless the other thread does or did.
+    void encode_color();
+    // One of the two parts of the frame is done; the last one ends the work on it.
+    void end_part();
+    void end_work();
 
     const CameraId id_;
     const Events events_;
@@ -137,8 +148,20 @@ private:
     bool stopping_ = false;
     bool busy_ = false;  // work() is running or will
 
+    // Depth and colour of a frame are encoded by one thread or by two.
+    std::atomic<int> unfinished_parts_{0};
+    std::atomic<bool> color_waits_{false};  // no thread has begun to encode it
+    std::atomic<bool> failed_{false};
+
     // Only in work(), which runs once at a time.
     LaneEncoders encoders_;
+    struct Picture {
+        wire::MediaHeader header;  // what is the same for all settings
+        DepthView depth;           // of last_, or filtered
+        TimePoint begun;
+    };
+    Picture picture_;
+    Duration color_took_ = worth_a_thread;  // encoding the last picture's colour
     WantedKeys keys_;
     std::optional<Captured> last_;
     FrameNumber next_number_ = 0;

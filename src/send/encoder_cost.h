@@ -7,8 +7,10 @@
 // in time. Pure; costs are CPU time, which other load on the machine does not change.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/time.h"
@@ -17,16 +19,24 @@ namespace theatron::send {
 
 class EncoderCost {
 public:
+    explicit EncoderCost(Duration expected = {}) : expected_(expected) {}
     // A picture took so much.
     void add(Duration cpu);
     // Whether enough pictures were measured to tell.
     bool known() const { return pictures_ >= 2; }
     Duration typical() const { return typical_; }
+    // What the next picture may take: measured if it is known, else what was expected or, if
+    // that is more, what the first picture took.
+    Duration likely() const { return known() ? typical_ : std::max(typical_, expected_); }
 
 private:
     std::uint32_t pictures_ = 0;
-    Duration typical_{};
+    Duration typical_{}, expected_{};
 };
+
+// CPU time that a picture of 640x576 takes on a usual machine, roughly: it orders settings that
+// were never measured. `codec` is a depth or colour setting in its one spelling.
+Duration expected_cost(std::string_view codec);
 
 // What a setting may take of a picture's time beside the cheapest one, so that `max_settings` more
 // of depth and of colour together take at most three eighths of `threads` threads. `cameras` share
@@ -38,8 +48,8 @@ constexpr Duration encoder_share(double frames_per_second, int threads, std::siz
 }
 
 // The settings that get a picture at once, cheapest first, into `at_once` (indices of `costs`).
-// A setting that is not known yet is not among them unless it is the only one or none is known;
-// then the first is. One that `was_at_once` stays until it takes half as much again as its share.
+// The one that is likely the cheapest is always among them, others only once they are known. One
+// that `was_at_once` stays until it takes half as much again as its share.
 void choose_at_once(std::span<const EncoderCost> costs, const std::vector<bool>& was_at_once,
                     Duration share, std::vector<std::size_t>& at_once);
 

@@ -54,10 +54,19 @@ TEST(ChooseAtOnce, TheCheapestAlwaysAndOthersWithinTheirShare) {
 }
 
 TEST(ChooseAtOnce, WhatIsNotMeasuredYetMakesNobodyWait) {
-    const EncoderCost unknown;
-    EXPECT_EQ(chosen({costing(1ms), unknown}, 4ms), Indices{0});
-    EXPECT_EQ(chosen({unknown, costing(150ms)}, 4ms), Indices{1});
-    EXPECT_EQ(chosen({unknown, unknown}, 4ms), Indices{0}) << "somebody must begin";
+    const EncoderCost likely_dear(100ms), likely_cheap(2ms);
+    EXPECT_EQ(chosen({costing(1ms), likely_dear}, 4ms), Indices{0});
+    EXPECT_EQ(chosen({costing(1ms), likely_cheap}, 4ms), Indices{0}) << "it is measured aside";
+    EXPECT_EQ(chosen({likely_dear, costing(150ms)}, 4ms), Indices{0}) << "somebody must begin";
+    EXPECT_EQ(chosen({costing(150ms), likely_cheap}, 4ms), Indices{1});
+    EXPECT_EQ(chosen({likely_dear, likely_cheap}, 4ms), Indices{1}) << "whatever came first";
+}
+
+TEST(ExpectedCost, OrdersSettingsThatWereNeverMeasured) {
+    EXPECT_LT(expected_cost("strata"), expected_cost("zstd:delta=1,level=9"));
+    EXPECT_LT(expected_cost("zstd:delta=1,level=9"), expected_cost("zstd:delta=1,level=19"));
+    EXPECT_LT(expected_cost("jpeg:quality=85"), expected_cost("h264:crf=20"));
+    EXPECT_LT(expected_cost("h264:crf=20"), expected_cost("h264:crf=20,preset=veryfast"));
 }
 
 TEST(ChooseAtOnce, AtTheEdgeOfItsShareNothingChangesBackAndForth) {

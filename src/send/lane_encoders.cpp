@@ -26,6 +26,7 @@ std::vector<std::shared_ptr<Encoder>> updated(const std::vector<std::shared_ptr<
         }
         const auto encoder = std::make_shared<Encoder>();
         encoder->setting = s;
+        encoder->cost = EncoderCost(expected_cost(s.codec));
         make(*encoder, s.codec);
         result.push_back(encoder);
         keys.insert({stream, s.id});

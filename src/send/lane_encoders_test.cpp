@@ -189,7 +189,20 @@ TEST_F(Encoders, ADearOneThatWasFirstMakesWayForACheapOne) {
         do_behind();
     }
     EXPECT_EQ(published[cheap].size(), 10u);
-    EXPECT_LE(at_once, 3) << "until the new one is measured";
+    EXPECT_EQ(at_once, 0) << "also before the new one is measured";
+    expect_whole_chain(dear, "zstd:delta=1,level=19");
+}
+
+TEST_F(Encoders, ADearFirstPictureMakesNoOtherSettingWait) {
+    set({{dear, "zstd:delta=1,level=19"}, {cheap, "trvl"}});
+    for (int i = 0; i < 10; ++i) {
+        const Duration before = cpu;
+        give_depth();
+        EXPECT_EQ(cpu - before, 1ms) << i;
+        do_behind();
+    }
+    EXPECT_EQ(published[cheap].size(), 10u);
+    EXPECT_EQ(published[dear].size(), 10u);
     expect_whole_chain(dear, "zstd:delta=1,level=19");
 }
 

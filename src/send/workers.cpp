@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/fault.h"
 #include "base/thread_name.h"
 
 namespace theatron::send {
@@ -14,23 +15,10 @@ int usual_threads() {
 
 }  // namespace
 
-Workers::Names::Names(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) {
-    observe(true);
-}
-
-Workers::Names::~Names() {
-    observe(false);
-}
-
-void Workers::Names::on_scheduler_entry(bool is_worker) {
-    if (is_worker)
-        name_this_thread("work");
-}
-
 Workers::Workers(int threads)
     : threads_(threads > 0 ? threads : usual_threads()),
-      limit_(tbb::global_control::max_allowed_parallelism, std::size_t(threads_) + 1),
-      arena_(threads_, 0),
+      pool_("work", threads_),
+      background_("behind", std::max(1, threads_ / 2), background_niceness),
       looking_([this] { look_around(); }) {}
 
 Workers::~Workers() {
