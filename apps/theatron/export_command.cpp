@@ -107,9 +107,7 @@ void run(const Flags& flags) {
     std::size_t calibrations = 1;
     for (const record::CameraContent& camera : recording->cameras())
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
-    bool damaged = recording->refused() > 0 || recording->missing_segments() > 0;
-    for (const record::Segment& segment : recording->segments())
-        damaged |= segment.head_damaged || segment.damaged_places > 0;
+    bool damaged = !recording->intact();
 
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;

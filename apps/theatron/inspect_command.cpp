@@ -134,7 +134,10 @@ Json describe_segments(const record::RecordingFile& recording) {
                         {"closed", segment.closed},
                         {"head_damaged", segment.head_damaged},
                         {"damaged_places", segment.damaged_places},
-                        {"damaged_bytes", segment.damaged_bytes}});
+                        {"damaged_bytes", segment.damaged_bytes},
+                        {"repeated", segment.repeated},
+                        {"foreign_files", segment.foreign.files},
+                        {"foreign_bytes", segment.foreign.bytes}});
     return list;
 }
 
@@ -157,6 +160,8 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
             {"complete", recording.complete()},
             {"refused", recording.refused()},
             {"missing_segments", recording.missing_segments()},
+            {"unreadable_files", recording.unreadable_files()},
+            {"begins_in", recording.begins_in()},
             {"segments", describe_segments(recording)},
             {"cameras", cameras}};
 }
@@ -206,8 +211,18 @@ void print_calibration(const Json& calibration) {
           calibration["registered"] ? "its place in the room is known" : "not registered");
 }
 
+void print_missing(const record::RecordingFile& recording) {
+    for (const std::string& file : recording.unreadable_files())
+        print("%s cannot be read: its beginning and all copies of it are damaged\n", file.c_str());
+    if (const std::uint64_t missing = recording.missing_segments(); missing > 0)
+        print("%llu %s missing\n", (unsigned long long)missing,
+              missing == 1 ? "segment is" : "segments are");
+}
+
 void print_segments(const record::RecordingFile& recording) {
-    const bool many = recording.segments().size() > 1 || recording.missing_segments() > 0;
+    const std::uint32_t first = recording.segments().front().info.number;
+    const bool many =
+        recording.segments().size() > 1 || recording.missing_segments() > 0 || first > 1;
     for (const record::Segment& segment : recording.segments()) {
         const std::string begin = utc_text(segment.begin_utc);
         if (many)
@@ -223,10 +238,19 @@ void print_segments(const record::RecordingFile& recording) {
         if (segment.damaged_places > 0)
             print("  damaged in %llu places, %.1f MB together\n",
                   (unsigned long long)segment.damaged_places, double(segment.damaged_bytes) * 1e-6);
+        if (segment.repeated > 0)
+            print("  %llu pictures stand in it twice, and count once\n",
+                  (unsigned long long)segment.repeated);
+        if (segment.foreign.files > 0)
+            print("  behind it in its file: %s, %.1f MB, left out\n",
+                  segment.foreign.files == 1 ? "another file that does not follow it"
+                                             : "other files that do not follow it",
+                  double(segment.foreign.bytes) * 1e-6);
     }
-    if (recording.missing_segments() > 0)
-        print("%llu segments between these are missing\n",
-              (unsigned long long)recording.missing_segments());
+    print_missing(recording);
+    if (!recording.begins_in().empty())
+        print("earlier segments are left out: the recording begins in %s\n",
+              recording.begins_in().c_str());
 }
 
 void print_minutes(const Json& camera) {

@@ -42,14 +42,23 @@ void run(const Flags& flags) {
                            {"depth", describe(saved.cameras[i].depth)},
                            {"color", describe(saved.cameras[i].color)}});
     }
-    std::uint64_t places = 0;
-    for (const record::Segment& segment : recording->segments())
+    std::uint64_t places = 0, repeated = 0;
+    record::SegmentChain::Foreign foreign;
+    for (const record::Segment& segment : recording->segments()) {
         places += segment.damaged_places + segment.head_damaged;
+        repeated += segment.repeated;
+        foreign.files += segment.foreign.files;
+        foreign.bytes += segment.foreign.bytes;
+    }
     if (flags.json) {
         std::cout << Json{{"files", saved.files},
                           {"bytes", saved.bytes},
                           {"damaged_places", places},
                           {"missing_segments", recording->missing_segments()},
+                          {"unreadable_files", recording->unreadable_files()},
+                          {"repeated", repeated},
+                          {"foreign_files", foreign.files},
+                          {"foreign_bytes", foreign.bytes},
                           {"cameras", cameras}}
                          .dump(-1, ' ', false, Json::error_handler_t::replace)
                   << std::endl;
@@ -68,9 +77,17 @@ void run(const Flags& flags) {
         }
     if (places > 0)
         std::printf("%llu damaged places were passed over\n", (unsigned long long)places);
+    if (repeated > 0)
+        std::printf("%llu pictures stood in it twice, and are saved once\n",
+                    (unsigned long long)repeated);
+    if (foreign.files > 0)
+        std::printf("files behind its segments that do not follow them: %llu, %.1f MB, left out\n",
+                    (unsigned long long)foreign.files, double(foreign.bytes) * 1e-6);
+    for (const std::string& file : recording->unreadable_files())
+        std::printf("%s cannot be read: its beginning and all copies of it are damaged\n",
+                    file.c_str());
     if (recording->missing_segments() > 0)
-        std::printf("%llu segments are missing\n",
-                    (unsigned long long)recording->missing_segments());
+        std::printf("missing segments: %llu\n", (unsigned long long)recording->missing_segments());
     for (const std::string& file : saved.files)
         std::printf("%s\n", file.c_str());
 }

@@ -73,9 +73,7 @@ std::uint64_t frames_between(const record::RecordedFrame& before,
 Verification verify(const std::shared_ptr<const record::RecordingFile>& recording,
                     const std::string& file, const capture::Progress& progress) {
     Verification found;
-    found.damaged = recording->refused() > 0 || recording->missing_segments() > 0;
-    for (const record::Segment& segment : recording->segments())
-        found.damaged |= segment.head_damaged || segment.damaged_places > 0;
+    found.damaged = !recording->intact();
     std::size_t all = 0, done = 0;
     for (const record::CameraContent& camera : recording->cameras())
         all += camera.depth.frames.size();

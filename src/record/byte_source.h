@@ -37,6 +37,27 @@ private:
     ByteView bytes_;
 };
 
+// A part of another source, which must reach that far.
+class PartSource final : public ByteSource {
+public:
+    PartSource(std::shared_ptr<ByteSource> whole, std::uint64_t begin, std::uint64_t end)
+        : whole_(std::move(whole)), begin_(begin), size_(end - begin) {
+        // Parts of parts do not grow into a chain.
+        if (const auto* part = dynamic_cast<const PartSource*>(whole_.get())) {
+            begin_ += part->begin_;
+            whole_ = std::shared_ptr(part->whole_);
+        }
+    }
+    std::uint64_t size() const override { return size_; }
+    bool read(std::uint64_t at, std::span<std::byte> out) override {
+        return at <= size_ && size_ - at >= out.size() && whole_->read(begin_ + at, out);
+    }
+
+private:
+    std::shared_ptr<ByteSource> whole_;
+    std::uint64_t begin_, size_;
+};
+
 // A regular file, read without mapping it: it may shrink meanwhile. Throws
 // Error if it cannot be opened.
 std::unique_ptr<ByteSource> open_file_source(const std::filesystem::path& path);

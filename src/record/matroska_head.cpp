@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "record/crc32c.h"
 #include "record/ebml_reader.h"
@@ -124,8 +125,10 @@ Status read_part(Window& window, const Element& part, FoundHead& head) {
     }
 }
 
-// What stands from the magic of a copy on, if it is intact.
-std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at) {
+// What stands from the magic of a copy on, if it is intact, and as long as `expected_size` if that
+// is given.
+std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at,
+                                   std::optional<std::uint64_t> expected_size = {}) {
     std::array<std::byte, head_copy_magic.size() + 8> front;
     if (!source.read(magic_at, front) ||
         !std::equal(head_copy_magic.begin(), head_copy_magic.end(), front.begin(),
@@ -133,7 +136,7 @@ std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at) {
         return std::nullopt;
     const auto check = load_le<std::uint32_t>(front.data() + head_copy_magic.size());
     const auto size = load_le<std::uint32_t>(front.data() + head_copy_magic.size() + 4);
-    if (size > max_front_bytes)
+    if (size > max_front_bytes || (expected_size && *expected_size != front.size() + size))
         return std::nullopt;
     Bytes bytes(size);
     if (!source.read(magic_at + front.size(), bytes) || crc32c(bytes) != check)
@@ -147,34 +150,55 @@ std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at) {
     return status == Status::ok && !head.tracks.empty() ? std::optional(head) : std::nullopt;
 }
 
-// The first intact copy between two places.
-std::optional<FoundHead> find_copy(ByteSource& source, std::uint64_t begin, std::uint64_t end) {
+// Calls `visit` with each place between two where these bytes stand, until it returns true. Returns
+// what it returned last.
+template <class Visit>
+bool find_bytes(ByteSource& source, std::uint64_t begin, std::uint64_t end, ByteView wanted,
+                Visit visit) {
     constexpr std::uint64_t chunk = 1 << 16;
-    constexpr std::size_t overlap = head_copy_magic.size() - 1;
+    const std::size_t overlap = wanted.size() - 1;
     Bytes bytes;
-    const ByteView magic = as_bytes(head_copy_magic);
     for (std::uint64_t at = begin; at + overlap < end; at += chunk) {
         bytes.resize(std::size_t(std::min<std::uint64_t>(chunk + overlap, end - at)));
         if (!source.read(at, bytes))
-            return std::nullopt;
+            return false;
         for (auto found = bytes.begin();; ++found) {
-            found = std::search(found, bytes.end(), magic.begin(), magic.end());
+            found = std::search(found, bytes.end(), wanted.begin(), wanted.end());
             if (found == bytes.end())
                 break;
-            if (auto head = read_copy(source, at + std::uint64_t(found - bytes.begin())))
-                return head;
+            if (visit(at + std::uint64_t(found - bytes.begin())))
+                return true;
         }
     }
-    return std::nullopt;
+    return false;
 }
 
+// The first intact copy between two places.
+std::optional<FoundHead> find_copy(ByteSource& source, std::uint64_t begin, std::uint64_t end) {
+    std::optional<FoundHead> head;
+    find_bytes(source, begin, end, as_bytes(head_copy_magic), [&](std::uint64_t at) {
+        head = read_copy(source, at);
+        return head.has_value();
+    });
+    return head;
+}
+
+// The first of all, those near the ends before the others: a file that is no recording at all is
+// not read whole.
 std::optional<FoundHead> find_copy(ByteSource& source) {
     const std::uint64_t size = source.size();
     if (size <= 2 * max_front_bytes)
         return find_copy(source, 0, size);
     if (auto head = find_copy(source, 0, max_front_bytes))
         return head;
-    return find_copy(source, size - max_front_bytes, size);
+    if (auto head = find_copy(source, size - max_front_bytes, size))
+        return head;
+    constexpr std::array cluster{
+        std::byte(ids::cluster >> 24), std::byte(ids::cluster >> 16 & 0xff),
+        std::byte(ids::cluster >> 8 & 0xff), std::byte(ids::cluster & 0xff)};
+    const bool has_clusters =
+        find_bytes(source, 0, max_front_bytes, cluster, [](std::uint64_t) { return true; });
+    return has_clusters ? find_copy(source, max_front_bytes, size - max_front_bytes) : std::nullopt;
 }
 
 struct PlainHead {
@@ -224,6 +248,7 @@ PlainHead read_plain(ByteSource& source) {
         return found;
     }
     found.status = Status::ok;
+    bool has_passed_copy = false;
     for (std::uint64_t at = segment->begin; at < end;) {
         const Result<Element> part = read_element(window, at, end);
         if (part && part->id == ids::cluster)
@@ -235,8 +260,10 @@ PlainHead read_plain(ByteSource& source) {
             found.status = read_part(window, *part, found.head);
         if (found.status != Status::ok)
             break;
-        if (part->id == ids::void_element && !found.copy)
-            found.copy = read_copy(source, part->begin);
+        // A damaged size of that element would pass over clusters, up to another copy perhaps.
+        if (part->id == ids::void_element && !found.head.tracks.empty() &&
+            !std::exchange(has_passed_copy, true))
+            found.copy = read_copy(source, part->begin, part->size());
         at = part->end;
         found.head.clusters_at = at;
     }
@@ -255,19 +282,23 @@ bool has_copies(const FoundHead& head) {
 
 }  // namespace
 
-Result<FoundHead> read_head(ByteSource& source) {
+Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
     PlainHead plain = read_plain(source);
     bool plain_is_whole = plain.status == Status::ok;
     if (plain_is_whole && !plain.copy) {
         // A damaged size may have hidden the copy; in version 1 there is none.
         constexpr std::uint64_t near = 2 * second_copy_at;
-        plain.copy = find_copy(source, 0, std::min(source.size(), plain.head.clusters_at + near));
+        if (search == CopySearch::everywhere)
+            plain.copy =
+                find_copy(source, 0, std::min(source.size(), plain.head.clusters_at + near));
         if (!plain.copy && !has_copies(plain.head))
             return plain.head;
         plain_is_whole = false;
     }
     bool damaged = !plain_is_whole || !plain.copy;
-    std::optional<FoundHead> copy = plain.copy ? std::move(plain.copy) : find_copy(source);
+    std::optional<FoundHead> copy = std::move(plain.copy);
+    if (!copy && search == CopySearch::everywhere)
+        copy = find_copy(source);
     if (!copy) {
         if (plain.status != Status::ok)
             return plain.status;

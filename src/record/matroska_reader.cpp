@@ -3,6 +3,7 @@
 #include "record/matroska_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "record/ebml_reader.h"
@@ -61,9 +62,10 @@ bool is_passed_over_in_group(std::uint32_t id) {
 }
 
 // The head of a block's content: the track as a number of one or two bytes, 16 bits of time,
-// flags. False for a block with lacing, which none of ours has.
-Result<bool> read_block(Window& window, const Element& element, std::int64_t cluster_us,
-                        FoundBlock& block) {
+// flags. None of ours has lacing, so flags that say so are damaged; the picture behind them need
+// not be.
+Status read_block(Window& window, const Element& element, std::int64_t cluster_us,
+                  FoundBlock& block) {
     std::array<std::byte, 5> head{};
     const std::size_t there = std::size_t(std::min<std::uint64_t>(element.size(), head.size()));
     if (!window.read(element.begin, std::span(head).first(there)))
@@ -80,8 +82,7 @@ Result<bool> read_block(Window& window, const Element& element, std::int64_t clu
     if (element.end - block.payload_at > std::numeric_limits<std::uint32_t>::max())
         return Status::too_large;
     block.payload_size = std::uint32_t(element.end - block.payload_at);
-    constexpr unsigned lacing = 0x06;
-    return !(byte(length + 2) & lacing);
+    return Status::ok;
 }
 
 template <class Array>
@@ -135,9 +136,8 @@ Status read_group(Window& window, const Element& group, std::int64_t cluster_us,
     bool has_block = false;
     const Status status = for_each_child(window, group, [&](const Element& e) {
         if (e.id == ids::block) {
-            const Result<bool> plain = read_block(window, e, cluster_us, found);
-            has_block = plain && *plain;
-            return plain.has_value() ? Status::ok : plain.error();
+            has_block = true;
+            return read_block(window, e, cluster_us, found);
         }
         if (e.id == ids::block_additions)
             return read_additions(window, e, found);
@@ -166,9 +166,8 @@ std::uint64_t read_cluster(Window& window, const Element& cluster, const Visit& 
             read = read_group(window, e, time_us, visit);
         } else if (e.id == ids::simple_block && time_us >= 0) {
             FoundBlock found;
-            const Result<bool> plain = read_block(window, e, time_us, found);
-            read = plain ? Status::ok : plain.error();
-            if (plain && *plain)
+            read = read_block(window, e, time_us, found);
+            if (read == Status::ok)
                 visit(found);
         } else if (!is_passed_over_in_cluster(e.id)) {
             read = Status::malformed;
@@ -180,23 +179,57 @@ std::uint64_t read_cluster(Window& window, const Element& cluster, const Visit& 
     return status == Status::ok ? cluster.end : understood;
 }
 
-// Where the next cluster seems to begin, from `at` on; the end of the file if nowhere.
-std::uint64_t find_cluster(ByteSource& source, std::uint64_t at) {
-    constexpr std::array<std::byte, 4> id{
-        std::byte(ids::cluster >> 24), std::byte(ids::cluster >> 16 & 0xff),
-        std::byte(ids::cluster >> 8 & 0xff), std::byte(ids::cluster & 0xff)};
+// Is this the head of a Matroska file?
+bool begins_file(Window& window, std::uint64_t at) {
+    const Result<Element> head = read_element(window, at, window.size());
+    constexpr std::uint64_t max_head = 256;
+    if (!head || head->id != ids::ebml || !head->size_known || head->size() > max_head)
+        return false;
+    constexpr std::string_view type = "matroska";
+    bool found = false;
+    const Status status = for_each_child(window, *head, [&](const Element& e) {
+        std::array<std::byte, type.size()> text;
+        if (e.id == ids::doc_type && e.size() == text.size() && window.read(e.begin, text))
+            found = std::ranges::equal(text, as_bytes(type));
+        return Status::ok;
+    });
+    return status == Status::ok && found;
+}
+
+constexpr std::array<std::byte, 4> bytes_of(std::uint32_t id) {
+    return {std::byte(id >> 24), std::byte(id >> 16 & 0xff), std::byte(id >> 8 & 0xff),
+            std::byte(id & 0xff)};
+}
+
+struct Place {
+    std::uint64_t at = 0;
+    bool is_file = false;  // else a cluster, or the end
+};
+
+// Where the next cluster or the next file seems to begin, from `at` on; the end if nowhere.
+Place find_next(ByteSource& source, std::uint64_t at) {
+    constexpr auto cluster = bytes_of(ids::cluster), file = bytes_of(ids::ebml);
     constexpr std::uint64_t chunk = 1 << 16;
     const std::uint64_t end = source.size();
+    Window window(source);
     Bytes bytes;
-    for (; at + id.size() <= end; at += chunk) {
-        bytes.resize(std::size_t(std::min<std::uint64_t>(chunk + id.size() - 1, end - at)));
+    for (; at + cluster.size() <= end; at += chunk) {
+        bytes.resize(std::size_t(std::min<std::uint64_t>(chunk + cluster.size() - 1, end - at)));
         if (!source.read(at, bytes))
-            return end;
-        const auto found = std::search(bytes.begin(), bytes.end(), id.begin(), id.end());
+            return {end};
+        const auto found = std::search(bytes.begin(), bytes.end(), cluster.begin(), cluster.end());
+        for (auto other = bytes.begin();; ++other) {
+            other = std::search(other, found, file.begin(), file.end());
+            if (other == found)
+                break;
+            const std::uint64_t place = at + std::uint64_t(other - bytes.begin());
+            if (begins_file(window, place))
+                return {place, true};
+        }
         if (found != bytes.end())
-            return at + std::uint64_t(found - bytes.begin());
+            return {at + std::uint64_t(found - bytes.begin())};
     }
-    return end;
+    return {end};
 }
 
 }  // namespace
@@ -205,12 +238,16 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
     Window window(source);
     FoundClusters found;
     const std::uint64_t end = window.size();
+    // The file's own head may stand behind what was put before it, or where damage is.
+    bool is_own_head = head.clusters_at == 0;
     // Nothing before this is looked at again, so the time is proportional to the size.
     std::uint64_t understood = head.clusters_at;
     for (std::uint64_t at = head.clusters_at; at < end;) {
         const Result<Element> element = read_element(window, at, end);
         const bool whole = element && element->size_known;
+        const bool is_head = whole && element->id == ids::ebml && begins_file(window, at);
         if (whole && element->id == ids::cluster) {
+            is_own_head = false;
             understood = read_cluster(window, *element, visit);
             at = element->end;
             if (understood == element->end)
@@ -221,18 +258,31 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
             if (at == end)
                 return found;
             continue;
+        } else if (is_head && !is_own_head) {
+            found.next_file_at = at;
+            return found;
         } else {
+            is_own_head = is_own_head && !is_head;
             understood = std::max(understood, head.clusters_at);
         }
-        at = find_cluster(source, understood + (understood == at ? 1 : 0));
+        Place next = find_next(source, understood + (understood == at ? 1 : 0));
+        while (next.is_file && is_own_head) {
+            is_own_head = false;
+            next = find_next(source, next.at + 1);
+        }
+        at = next.at;
         const std::uint64_t lost = at - understood;
         understood = at;
         // What a crash or a cut leaves at the end is no damage.
-        if (at == end && !head.closed) {
+        if ((at == end || next.is_file) && !head.closed) {
             found.cut_bytes = lost;
         } else {
             ++found.damaged_places;
             found.damaged_bytes += lost;
+        }
+        if (next.is_file) {
+            found.next_file_at = at;
+            return found;
         }
     }
     return found;

@@ -51,11 +51,12 @@ struct FoundHead {
 };
 
 // Everything before the first block may take this much; copies of the head are looked for this far
-// from both ends of the file.
+// from both ends of the file, before all of a file that has clusters is searched.
 inline constexpr std::size_t max_front_bytes = std::size_t(16) << 20;
 
+enum class CopySearch { everywhere, at_the_beginning };
 // malformed: no Matroska file, nor one whose head can be found; truncated: it ends in its head.
-Result<FoundHead> read_head(ByteSource& source);
+Result<FoundHead> read_head(ByteSource& source, CopySearch search = CopySearch::everywhere);
 
 using EncodedHeader = std::array<std::byte, wire::media_header_size>;
 
@@ -75,9 +76,12 @@ struct FoundClusters {
     std::uint64_t damaged_places = 0;  // passed over: each up to the next intact cluster
     std::uint64_t damaged_bytes = 0;   // in them
     std::uint64_t cut_bytes = 0;       // after the last whole cluster of a file that was not closed
+    // Where another Matroska file stands behind this one's; reading ends there.
+    std::optional<std::uint64_t> next_file_at;
 };
 
-// Calls `visit` for each block of the clusters from head.clusters_at on, in the order of the file.
+// Calls `visit` for each block of the clusters from head.clusters_at on, in the order of the file,
+// up to its end or to where another file begins.
 FoundClusters read_clusters(ByteSource& source, const FoundHead& head,
                             const std::function<void(const FoundBlock&)>& visit);
 

@@ -7,9 +7,13 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "record/segment_chain.h"
+#include "record/segment_files.h"
 
 namespace theatron::record {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr auto write_period = std::chrono::milliseconds(100);
 constexpr auto sync_period = std::chrono::seconds(1);
@@ -20,6 +24,20 @@ constexpr std::size_t message_overhead = 256;
 
 std::size_t cost_of(const std::shared_ptr<const Bytes>& message) {
     return message_overhead + (message ? message->size() : 0);
+}
+
+// The later segments of the recording that is in `path`; none where there is no recording.
+std::vector<fs::path> later_segments_of(const fs::path& path) {
+    std::error_code ignored;
+    const auto first = fs::is_regular_file(path, ignored) ? read_segment_info(path) : std::nullopt;
+    std::vector<fs::path> files;
+    if (!first)
+        return files;
+    for (const fs::path& file : files_of_later_segments(path))
+        if (const auto info = read_segment_info(file);
+            info && info->recording == first->recording && info->number > first->number)
+            files.push_back(file);
+    return files;
 }
 
 std::vector<StreamId> streams_of(const std::vector<RecordedCamera>& cameras) {
@@ -48,7 +66,13 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     : path_(path), buffer_bytes_(options.buffer_bytes) {
     info_.recording = make_uid();
     info_.clock = clock;
+    const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};
     writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace);
+    // Of the recording that was here: in the new one they would stand beside it for ever.
+    for (const fs::path& later : replaced) {
+        std::error_code ignored;
+        fs::remove(later, ignored);
+    }
     streams_ = streams_of(cameras);
     last_now_ = clock.session;
     figures_.bytes = writer_->bytes();

@@ -34,7 +34,8 @@ public:
         // Messages that came and are not written yet, those being written included, take up to
         // this: how long a disk may stand still.
         std::size_t buffer_bytes = std::size_t(1) << 30;
-        bool replace = true;  // a file that is there; else it is refused
+        // A file that is there, and the later segments of the recording in it; else it is refused.
+        bool replace = true;
     };
 
     enum class Added {

@@ -5,7 +5,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/outside_text.h"
@@ -33,14 +36,6 @@ double frames_per_second(std::uint64_t default_duration_ns) {
 
 std::string text_of(const Bytes& bytes) {
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
-std::optional<SegmentInfo> info_of(const FoundHead& head) {
-    for (const FoundAttachment& attachment : head.attachments)
-        if (attachment.name == segment_info_name)
-            if (const auto info = decode_segment_info(attachment.bytes))
-                return *info;
-    return std::nullopt;
 }
 
 // The cameras that a head describes; only those with depth.
@@ -98,11 +93,11 @@ void note_filters(StreamContent& stream, const std::string& note) {
 
 }  // namespace
 
-void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundHead& head,
-                                const std::optional<SegmentInfo>& info, std::string file) {
+void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain) {
+    const FoundHead& head = member.head;
+    const std::optional<SegmentInfo>& info = member.info;
     Segment segment;
-    segment.file = std::move(file);
-    segment.bytes = source->size();
+    segment.file = member.file;
     segment.has_info = info.has_value();
     if (info)
         segment.info = *info;
@@ -148,7 +143,7 @@ void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundH
     };
     bool any = false;
     std::optional<TimePoint> first_captured;
-    const FoundClusters found = read_clusters(*source, head, [&](const FoundBlock& block) {
+    const FoundClusters found = read_clusters(*member.source, head, [&](const FoundBlock& block) {
         // A file has blocks of its own tracks only, those that this reader does not know included.
         if (!is_listed(block.track)) {
             ++refused_;
@@ -199,8 +194,63 @@ void RecordingFile::add_segment(std::unique_ptr<ByteSource> source, const FoundH
     segment.first_captured = first_captured.value_or(TimePoint{});
     if (info || head.date_ns > 0)
         segment.begin_utc = segment.info.clock.utc + (info ? segment.begin : Duration(0));
+    std::uint64_t end = member.source->size();
+    if (found.next_file_at) {
+        segment.foreign = chain.add_behind(member, *found.next_file_at);
+        end = *found.next_file_at;
+        member.source = std::make_shared<PartSource>(member.source, 0, end);
+    }
+    segment.bytes = end + segment.foreign.bytes;
     segments_.push_back(std::move(segment));
-    sources_.push_back(std::move(source));
+    sources_.push_back(std::move(member.source));
+    leave_out_repeated(index);
+}
+
+// Of frames that stand in a segment twice, as where a part of a file was copied behind itself, the
+// first ones count.
+void RecordingFile::leave_out_repeated(std::size_t segment) {
+    if (!segments_[segment].has_info)
+        return;  // in version 1 numbers may begin anew
+    const auto leave_out = [&](StreamContent& stream, std::size_t begin) {
+        auto& frames = stream.frames;
+        const auto is_behind = [](const RecordedFrame& a, const RecordedFrame& b) {
+            return std::int32_t(b.number - a.number) <= 0;
+        };
+        const auto first = frames.begin() + std::ptrdiff_t(begin);
+        if (std::adjacent_find(first, frames.end(), is_behind) == frames.end())
+            return;
+        std::vector<std::uint32_t> order(frames.size() - begin);
+        std::iota(order.begin(), order.end(), 0u);
+        const auto name_of = [&](std::uint32_t i) {
+            const RecordedFrame& f = frames[begin + i];
+            return std::tuple(f.number, std::int64_t(f.time_us), f.payload_size, f.payload_check);
+        };
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(name_of(a), a) < std::pair(name_of(b), b);
+        });
+        std::vector<bool> is_repeated(order.size());
+        for (std::size_t i = 1; i < order.size(); ++i)
+            is_repeated[order[i]] = name_of(order[i]) == name_of(order[i - 1]);
+        std::size_t kept = begin;
+        auto change = stream.filters.begin();
+        for (std::size_t i = begin; i < frames.size(); ++i) {
+            for (; change != stream.filters.end() && change->frame <= i; ++change)
+                change->frame = std::min(change->frame, kept);
+            if (!is_repeated[i - begin])
+                frames[kept++] = frames[i];
+        }
+        const std::uint64_t repeated = frames.size() - kept;
+        frames.resize(kept);
+        std::erase_if(stream.filters, [&](const FilterChange& c) { return c.frame >= kept; });
+        segments_[segment].repeated += repeated;
+        segments_[segment].frames -= repeated;
+        frames_ -= repeated;
+    };
+    for (CameraContent& camera : cameras_)
+        if (const CameraPart& part = camera.parts.back(); part.segment == segment) {
+            leave_out(camera.depth, part.first_depth);
+            leave_out(camera.color, part.first_color);
+        }
 }
 
 // Puts the segments one behind the other, and moves all frames to where they then are.
@@ -247,49 +297,17 @@ void RecordingFile::place_segments() {
 
 Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
     std::vector<std::unique_ptr<ByteSource>> sources, std::vector<std::string> files) {
-    files.resize(sources.size());
-    struct Member {
-        std::size_t source;
-        FoundHead head;
-        std::optional<SegmentInfo> info;
-    };
-    std::vector<Member> members;
-    std::uint64_t unreadable = 0;
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        Result<FoundHead> head = read_head(*sources[i]);
-        if (!head) {
-            if (i == 0)
-                return head.error();
-            // Its name says that it belongs here, and nothing else can be known of it.
-            ++unreadable;
-            continue;
-        }
-        const auto info = info_of(*head);
-        if (i == 0 && cameras_of(*head).empty())
-            return Status::unsupported;
-        const bool follows =
-            i == 0 || (info && members[0].info && info->recording == members[0].info->recording &&
-                       info->number > members[0].info->number);
-        if (follows)
-            members.push_back({i, std::move(*head), info});
-    }
-    const auto number_of = [](const Member& m) { return m.info ? m.info->number : 1; };
-    std::stable_sort(members.begin(), members.end(),
-                     [&](const Member& a, const Member& b) { return number_of(a) < number_of(b); });
-    // A file that was copied beside the original.
-    members.erase(
-        std::unique(members.begin(), members.end(),
-                    [&](const Member& a, const Member& b) { return number_of(a) == number_of(b); }),
-        members.end());
-
+    Result<SegmentChain> chain = SegmentChain::read(std::move(sources), std::move(files));
+    if (!chain)
+        return chain.error();
     std::unique_ptr<RecordingFile> recording(new RecordingFile);
-    // A segment that cannot be read is either one of those missing in between, or behind them.
-    const std::uint64_t between =
-        number_of(members.back()) - number_of(members.front()) + 1 - members.size();
-    recording->missing_segments_ = std::max(between, unreadable);
-    for (Member& member : members)
-        recording->add_segment(std::move(sources[member.source]), member.head, member.info,
-                               std::move(files[member.source]));
+    for (std::optional<SegmentChain::Member> member; (member = chain->take());) {
+        if (recording->segments_.empty() && cameras_of(member->head).empty())
+            return Status::unsupported;
+        recording->add_segment(*std::move(member), *chain);
+    }
+    recording->missing_segments_ = chain->missing();
+    recording->unreadable_files_ = chain->unreadable();
     std::sort(recording->cameras_.begin(), recording->cameras_.end(),
               [](const CameraContent& a, const CameraContent& b) { return a.id < b.id; });
     recording->place_segments();
@@ -312,8 +330,10 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
         files.push_back(other.string());
     }
     auto recording = read(std::move(sources), std::move(files));
-    if (recording)
+    if (recording) {
+        (*recording)->note_earlier(path);
         return std::move(*recording);
+    }
     const std::string name = "'" + path.string() + "'";
     switch (recording.error()) {
         case Status::malformed:
@@ -328,6 +348,29 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
             throw Error(name + " cannot be read as a recording: it is " +
                         std::string(to_text(recording.error())) + ".");
     }
+}
+
+// Segments before the first one that was opened are missing, unless they lie beside it.
+void RecordingFile::note_earlier(const std::filesystem::path& path) {
+    const SegmentInfo& own = segments_.front().info;
+    if (!segments_.front().has_info || own.number == 1)
+        return;
+    std::set<std::uint32_t> found;
+    for (const std::filesystem::path& file : files_of_earlier_segments(path)) {
+        const auto info = read_segment_info(file);
+        if (!info || info->recording != own.recording || info->number >= own.number)
+            continue;
+        found.insert(info->number);
+        if (info->number == 1)
+            begins_in_ = file.string();
+    }
+    missing_segments_ += own.number - 1 - found.size();
+}
+
+bool RecordingFile::intact() const {
+    return missing_segments_ == 0 && refused_ == 0 &&
+           std::all_of(segments_.begin(), segments_.end(),
+                       [](const Segment& s) { return s.intact(); });
 }
 
 bool RecordingFile::complete() const {

@@ -17,7 +17,7 @@
 #include "base/status.h"
 #include "record/byte_source.h"
 #include "record/matroska_reader.h"
-#include "record/segment_info.h"
+#include "record/segment_chain.h"
 #include "wire/media_header.h"
 
 namespace theatron::record {
@@ -95,8 +95,14 @@ struct Segment {
     bool closed = false;        // false: never closed, or cut off
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;
+    std::uint64_t repeated = 0;     // frames that stand in it once more; these are left out
+    SegmentChain::Foreign foreign;  // what stands behind it in its file, left out
 
-    bool complete() const { return closed && !head_damaged && damaged_places == 0; }
+    // Nothing of it is damaged, and nothing else stands in its file.
+    bool intact() const {
+        return !head_damaged && damaged_places == 0 && repeated == 0 && foreign.files == 0;
+    }
+    bool complete() const { return closed && intact(); }
 };
 
 class RecordingFile {
@@ -113,10 +119,20 @@ public:
 
     const std::vector<CameraContent>& cameras() const { return cameras_; }
     const std::vector<Segment>& segments() const { return segments_; }
-    // Of those between the first and the last that there are.
+    // Those before the first that there is, those between it and the last, and those of
+    // unreadable_files().
     std::uint64_t missing_segments() const { return missing_segments_; }
+    // Files that follow by their names, and whose beginning is damaged in all its copies. Their
+    // pictures might be read with the cameras of a segment beside them, but a segment begins
+    // wherever calibrations or codecs change: what they show would be a guess.
+    const std::vector<std::string>& unreadable_files() const { return unreadable_files_; }
+    // The file that holds the recording's segment 1, where a later one was opened and the earlier
+    // ones are there; empty otherwise.
+    const std::string& begins_in() const { return begins_in_; }
     // False if a segment is missing, was never closed, or was cut off or damaged.
     bool complete() const;
+    // No segment is missing, and nothing is damaged. Those that were never closed count as intact.
+    bool intact() const;
     std::uint64_t bytes() const;
     // Frames whose header is damaged or does not fit its stream, of all streams.
     std::uint64_t refused() const { return refused_; }
@@ -130,14 +146,17 @@ public:
 
 private:
     RecordingFile() = default;
-    void add_segment(std::unique_ptr<ByteSource> source, const FoundHead& head,
-                     const std::optional<SegmentInfo>& info, std::string file);
+    void add_segment(SegmentChain::Member member, SegmentChain& chain);
+    void leave_out_repeated(std::size_t segment);
+    void note_earlier(const std::filesystem::path& path);
     void place_segments();
 
-    std::vector<std::unique_ptr<ByteSource>> sources_;
+    std::vector<std::shared_ptr<ByteSource>> sources_;
     std::vector<Segment> segments_;
     std::vector<CameraContent> cameras_;
     std::uint64_t refused_ = 0, missing_segments_ = 0;
+    std::vector<std::string> unreadable_files_;
+    std::string begins_in_;
     std::size_t frames_ = 0;
     Duration duration_{};
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "base/error.h"
 #include "record/segment_writer.h"
@@ -28,11 +29,22 @@ public:
         return there ? &stream_.frames[next_] : nullptr;
     }
 
-    void begin_segment() { kept_.clear(); }
+    void begin_segment() {
+        kept_.clear();
+        last_.reset();
+    }
+
+    // The upcoming frame is earlier than the one before it: here the file is not in the order in
+    // which it was recorded.
+    bool goes_back() const { return last_ && stream_.frames[next_].time() < *last_; }
 
     // Moves on; false if the frame is not to be kept.
     bool take(const RecordingFile& recording, RecordedMessage& out) {
+        // What is referred to across such a place may be another picture of the same number.
+        if (goes_back())
+            kept_.clear();
         const RecordedFrame& frame = stream_.frames[next_++];
+        last_ = frame.time();
         for (; change_ < stream_.filters.size() && stream_.filters[change_].frame < next_;
              ++change_)
             filters_ = stream_.filters[change_].filters;
@@ -67,6 +79,7 @@ private:
     std::size_t change_ = 0;
     std::string filters_;
     std::deque<FrameNumber> kept_;
+    std::optional<Duration> last_;
     Bytes payload_;
 };
 
@@ -88,6 +101,15 @@ std::vector<RecordedCamera> cameras_in(const RecordingFile& recording, std::size
             cameras.push_back(std::move(camera));
         }
     return cameras;
+}
+
+// What was written must be as whole as it is said to be.
+void check(const std::filesystem::path& file, std::uint64_t frames) {
+    const auto written = RecordingFile::read(open_file_source(file));
+    if (!written || !(*written)->segments()[0].complete() || (*written)->refused() > 0 ||
+        (*written)->segments()[0].frames != frames)
+        throw Error("What was saved into '" + file.string() +
+                    "' is not what can be read from it; its disk may be failing.");
 }
 
 void require(const std::string& problem) {
@@ -124,7 +146,9 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         SegmentWriter writer(file, cameras_in(recording, s), info);
         std::vector<RecordedMessage> messages;
         std::size_t waiting = 0;
+        std::uint64_t frames = 0;
         const auto flush = [&] {
+            frames += messages.size();
             require(writer.write(messages));
             messages.clear();
             waiting = 0;
@@ -144,6 +168,9 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             }
             if (!first)
                 break;
+            // The writer sorts what it gets at once.
+            if (first->goes_back())
+                flush();
             RecordedMessage message;
             // As if it had arrived when it was taken: it keeps its place.
             message.arrived = info.clock.session + (frame->time() - segment.origin);
@@ -159,6 +186,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         flush();
         require(writer.finish());
+        check(file, frames);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();
         result.files.push_back(file.string());

@@ -31,10 +31,9 @@ Name parse(const std::string& stem) {
     return {stem.substr(0, dot), number};
 }
 
-}  // namespace
-
-std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem::path& file) {
-    const Name own = parse(file.stem().string());
+// Files beside `file` of the same name and ending, whose number is from `least` to `most`.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file, const Name& own,
+                                                std::uint32_t least, std::uint32_t most) {
     std::map<std::uint32_t, std::filesystem::path> found;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code problem;
@@ -45,7 +44,7 @@ std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem
             continue;
         const Name name = parse(other.stem().string());
         std::error_code ignored;
-        if (name.base == own.base && name.number > own.number && name.number <= max_segments &&
+        if (name.base == own.base && least <= name.number && name.number <= most &&
             at->is_regular_file(ignored))
             found[name.number] = file.parent_path() / other.filename();
     }
@@ -53,6 +52,18 @@ std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem
     for (auto& [number, path] : found)
         files.push_back(std::move(path));
     return files;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem::path& file) {
+    const Name own = parse(file.stem().string());
+    return files_beside(file, own, own.number + 1, max_segments);
+}
+
+std::vector<std::filesystem::path> files_of_earlier_segments(const std::filesystem::path& file) {
+    const Name own = parse(file.stem().string());
+    return files_beside(file, own, 1, own.number - 1);
 }
 
 }  // namespace theatron::record

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// How recordings are written, and how they end.
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "record/test_recordings.h"
+
+namespace theatron::record {
+namespace {
+
+TEST(Recorder, ASegmentBeginsWithTheNextMessageInAFileOfItsOwn) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "chain.mkv";
+    const auto messages = generated(2, 8, 100);
+    {
+        // Another recording's: it stays.
+        std::ofstream(folder.path() / "chain.002.mkv") << "not ours";
+        Recorder recorder(path, cameras(2), session_begin);
+        for (const Message& m : messages)
+            ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
+        recorder.begin_segment(cameras(7), session_begin);  // nothing comes
+        recorder.begin_segment(cameras(1), session_begin);
+        EXPECT_EQ(add(recorder, messages.back()), Recorder::Added::not_recorded);
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
+        recorder.finish();
+        EXPECT_EQ(recorder.figures().problem, "");
+        EXPECT_EQ(recorder.figures().segments, 2u);
+        EXPECT_EQ(recorder.figures().frames, messages.size() + 1);
+    }
+    EXPECT_EQ(bytes_of(folder.path() / "chain.002.mkv").size(), 8u);
+    EXPECT_EQ(RecordingFile::open(path)->cameras().size(), 2u);
+    EXPECT_EQ(RecordingFile::open(folder.path() / "chain.003.mkv")->cameras().size(), 1u);
+}
+
+TEST(Recorder, TellsWhatItHadToDropOfWhichStream) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(1, 8, 10'000);
+    Recorder recorder(folder.path() / "small.mkv", cameras(1), session_begin, {.buffer_bytes = 0});
+    for (const Message& m : messages)
+        EXPECT_EQ(add(recorder, m), Recorder::Added::dropped);
+    recorder.finish();
+    EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::ended);
+    const Recorder::Figures figures = recorder.figures();
+    EXPECT_EQ(figures.dropped, messages.size());
+    EXPECT_EQ(figures.dropped_of.at(depth_stream(CameraId(0))), messages.size() / 2);
+    EXPECT_EQ(figures.frames, 0u);
+}
+
+TEST(Recording, APicturesPlaceDependsOnWhatItSaysOnlyWhereThatIsCredible) {
+    const TimePoint begin = from_us(7'000'000), arrived = begin + 100s;
+    EXPECT_EQ(block_time_us(arrived - 5s, arrived, begin), 95'000'000);
+    EXPECT_EQ(block_time_us(arrived - max_picture_age, arrived, begin), 40'000'000);
+    EXPECT_EQ(block_time_us(arrived + max_picture_lead, arrived, begin), 101'000'000);
+    for (const std::int64_t odd :
+         {-(std::int64_t(1) << 62), std::int64_t(1) << 62, std::int64_t(0), to_us(arrived + 2s)})
+        EXPECT_EQ(block_time_us(from_us(odd), arrived, begin), 100'000'000) << odd;
+    EXPECT_EQ(block_time_us(begin - 1s, begin, begin), 0);
+    EXPECT_EQ(block_time_us(arrived, from_us(INT64_MAX), from_us(INT64_MIN)), 1LL << 52);
+    EXPECT_EQ(block_time_us(arrived, from_us(INT64_MIN), from_us(INT64_MAX)), 0);
+}
+
+TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "killed.mkv";
+    int pipe_ends[2];
+    ASSERT_EQ(pipe(pipe_ends), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        // Two cameras at a hundred frames a second, until the end.
+        Recorder recorder(path, cameras(2), session_begin);
+        for (FrameNumber n = 0;; ++n) {
+            for (int c = 0; c < 2; ++c) {
+                const Message m = message(depth_stream(CameraId(c)), n, n * 10ms, 20'000, n);
+                (void)add(recorder, m);
+            }
+            if (write(pipe_ends[1], &n, sizeof(n)) < 0)
+                _exit(1);
+            // The cameras' pace: what may be lost is counted in seconds of the clock.
+            std::this_thread::sleep_for(10ms);
+        }
+    }
+    FrameNumber last = 0;
+    while (last < 150)
+        ASSERT_EQ(read(pipe_ends[0], &last, sizeof(last)), ssize_t(sizeof(last)));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+
+    const auto recording = RecordingFile::open(path);
+    EXPECT_FALSE(recording->complete());
+    for (const CameraContent& camera : recording->cameras()) {
+        const auto& frames = camera.depth.frames;
+        ASSERT_FALSE(frames.empty());
+        EXPECT_GE(frames.back().number + 100, last);
+        EXPECT_EQ(frames.size(), frames.back().number + 1u) << "there are gaps";
+    }
+}
+
+// Stands for a full disk: the system lets the file grow to this size only.
+
+class SizeLimit {
+public:
+    explicit SizeLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+private:
+    rlimit before_;
+};
+
+TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "full.mkv";
+    const auto messages = generated(1, 90, 10'000);
+    {
+        const SizeLimit limit(500'000);
+        Recorder recorder(path, cameras(1), session_begin);
+        // The first thirty have room, all of them do not.
+        for (const std::size_t end : {30, 90}) {
+            for (std::size_t i = end == 30 ? 0 : 30; i < end; ++i)
+                EXPECT_EQ(add(recorder, messages[i]), Recorder::Added::taken);
+            wait_until_written(recorder, end);
+        }
+        EXPECT_EQ(recorder.figures().frames, 30u);
+        recorder.finish();
+        const auto figures = recorder.figures();
+        EXPECT_NE(figures.problem.find("ends here; what came before is kept"), std::string::npos)
+            << figures.problem;
+        EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::ended);
+        EXPECT_EQ(figures.bytes, fs::file_size(path));
+        EXPECT_LE(figures.bytes, 500'000u);
+    }
+    const auto recording = RecordingFile::open(path);
+    EXPECT_TRUE(recording->complete()) << "it was closed, if early";
+    EXPECT_GT(frames_in(*recording), 10u);
+    EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
+}
+
+TEST(Recorder, NeverTakesAFileFromAnotherRecorderOrAPlayer) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "one.mkv";
+    const auto refused = [&](const Recorder::Options& options) -> std::string {
+        try {
+            Recorder second(path, cameras(1), session_begin, options);
+        } catch (const Error& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    const std::string in_use =
+        "'" + path.string() +
+        "' is being recorded or played; name another file, or end that first.";
+    Bytes whole;
+    {
+        Recorder first(path, cameras(1), session_begin);
+        EXPECT_EQ(refused({}), in_use);
+        for (const Message& m : generated(1, 3, 100))
+            ASSERT_EQ(add(first, m), Recorder::Added::taken);
+        first.finish();
+    }
+    whole = bytes_of(path);
+    {
+        const auto playing = RecordingFile::open(path);
+        EXPECT_EQ(refused({}), in_use);
+    }
+    // It came into being after whoever asked had looked.
+    EXPECT_EQ(refused({.replace = false}),
+              "'" + path.string() + "' exists already; name another file, or give --overwrite.");
+    EXPECT_EQ(bytes_of(path), whole);
+    EXPECT_EQ(refused({}), "") << "nobody uses it any more";
+}
+
+TEST(Recording, WhereNoFileCanBeIsOneSentence) {
+    try {
+        Recorder recorder("/nowhere/at/all.mkv", cameras(1), session_begin);
+        FAIL();
+    } catch (const Error& problem) {
+        EXPECT_STREQ(problem.what(),
+                     "Cannot create '/nowhere/at/all.mkv': No such file or directory.");
+    }
+}
+
+}  // namespace
+}  // namespace theatron::record

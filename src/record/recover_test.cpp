@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that were put one behind the other, and what is recovered of damaged ones.
+#include "record/recover.h"
+
+#include "base/error.h"
+#include "record/test_recordings.h"
+
+namespace theatron::record {
+namespace {
+
+Bytes joined(const std::vector<Bytes>& parts) {
+    Bytes all;
+    for (const Bytes& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+// Pictures with a key every second.
+std::vector<Message> with_keys(int frames, std::size_t size, unsigned content = 0) {
+    std::vector<Message> messages;
+    for (int n = 0; n < frames; ++n) {
+        const bool key = n % 30 == 0;
+        Message m = message(depth_stream(CameraId(0)), FrameNumber(n), n * 33ms, size,
+                            FrameNumber(key ? n : n - 1));
+        Bytes bytes = *m.bytes;
+        bytes.back() = std::byte(content);
+        messages.push_back({m.header, std::make_shared<const Bytes>(std::move(bytes))});
+    }
+    return messages;
+}
+
+Bytes recording_of(const std::vector<Message>& messages) {
+    const testing::TemporaryFolder folder;
+    record_all(folder.path() / "a.mkv", 1, messages);
+    return bytes_of(folder.path() / "a.mkv");
+}
+
+std::unique_ptr<RecordingFile> recovered(const Bytes& bytes, const fs::path& folder) {
+    write_bytes(folder / "broken.mkv", bytes);
+    const auto saved =
+        recover(*RecordingFile::open(folder / "broken.mkv"), folder / "whole.mkv", {});
+    auto recording = RecordingFile::open(folder / "whole.mkv");
+    EXPECT_TRUE(recording->complete());
+    EXPECT_EQ(recording->refused(), 0u);
+    EXPECT_EQ(recording->segments().size(), saved.files.size());
+    return recording;
+}
+
+// No picture is earlier than the one before it, or refers to what is not there.
+void expect_playable(const RecordingFile& recording) {
+    const auto& frames = recording.cameras()[0].depth.frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto header = recording.read_header(frames[i]);
+        ASSERT_TRUE(header);
+        if (i > 0)
+            EXPECT_GT(frames[i].time(), frames[i - 1].time()) << i;
+        EXPECT_TRUE(header->key || (i > 0 && frames[i - 1].number == header->reference)) << i;
+    }
+}
+
+TEST(JoinedFiles, TheSecondCopyOfARecordingIsLeftOutAndSaid) {
+    const auto messages = with_keys(60, 500);
+    const Bytes one = recording_of(messages);
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "twice.mkv", joined({one, one, one}));
+    const auto recording = RecordingFile::open(folder.path() / "twice.mkv");
+    EXPECT_EQ(frames_in(*recording), messages.size());
+    EXPECT_EQ(recording->segments()[0].foreign.files, 2u);
+    EXPECT_EQ(recording->segments()[0].foreign.bytes, 2 * one.size());
+    EXPECT_EQ(recording->segments()[0].damaged_places, 0u);
+    EXPECT_EQ(recording->bytes(), 3 * one.size());
+    EXPECT_FALSE(recording->intact());
+    const auto whole = recovered(joined({one, one, one}), folder.path());
+    EXPECT_EQ(count_equal(*whole, messages), messages.size());
+    expect_playable(*whole);
+}
+
+TEST(JoinedFiles, AnotherRecordingsPicturesAreNotTakenForThisOnes) {
+    const auto messages = with_keys(60, 500, 1);
+    const testing::TemporaryFolder folder;
+    const Bytes bytes = joined({recording_of(messages), recording_of(with_keys(45, 500, 2))});
+    const auto whole = recovered(bytes, folder.path());
+    EXPECT_EQ(count_equal(*whole, messages), messages.size());
+    EXPECT_EQ(frames_in(*whole), messages.size());
+    expect_playable(*whole);
+}
+
+TEST(JoinedFiles, AreReadAsOneRecordingWhereTheyAreItsSegments) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "a.mkv";
+    const auto messages = with_keys(60, 500);
+    {
+        Recorder recorder(path, cameras(1), session_begin);
+        for (int segment = 0; segment < 3; ++segment) {
+            if (segment > 0)
+                recorder.begin_segment(cameras(1), session_begin);
+            for (const Message& m : messages)
+                ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
+        }
+    }
+    const Bytes first = bytes_of(path), second = bytes_of(folder.path() / "a.002.mkv"),
+                third = bytes_of(folder.path() / "a.003.mkv");
+    const Bytes other = recording_of(messages);
+    for (const std::vector<Bytes>& order : {std::vector{first, second, third},
+                                            {first, third, second},
+                                            {first, other, second, first, third}}) {
+        const Bytes all = joined(order);
+        const auto recording = RecordingFile::read(std::make_unique<MemorySource>(all));
+        ASSERT_TRUE(recording);
+        EXPECT_EQ((*recording)->segments().size(), 3u);
+        EXPECT_EQ(frames_in(**recording), 3 * messages.size());
+        EXPECT_EQ((*recording)->missing_segments(), 0u);
+        EXPECT_EQ((*recording)->intact(), order.size() == 3);
+        EXPECT_EQ((*recording)->bytes(), all.size());
+    }
+}
+
+// With the first one's copies of its head damaged, only the second one's are intact.
+TEST(JoinedFiles, KeepEachItsOwnHead) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "a.mkv";
+    {
+        Recorder recorder(path, cameras(1), session_begin);
+        for (const Message& m : with_keys(40, 500))
+            ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
+        auto others = cameras(1);
+        others[0].name = "another";
+        recorder.begin_segment(others, session_begin);
+        for (const Message& m : with_keys(40, 500))
+            ASSERT_EQ(add(recorder, m), Recorder::Added::taken);
+    }
+    Bytes first = bytes_of(path);
+    for (auto at = first.begin();; ++at) {
+        at = std::search(at, first.end(), as_bytes(head_copy_magic).begin(),
+                         as_bytes(head_copy_magic).end());
+        if (at == first.end())
+            break;
+        at[head_copy_magic.size()] ^= std::byte{1};
+    }
+    const Bytes all = joined({first, bytes_of(folder.path() / "a.002.mkv")});
+    const auto recording = RecordingFile::read(std::make_unique<MemorySource>(all));
+    ASSERT_TRUE(recording);
+    ASSERT_EQ((*recording)->segments().size(), 2u);
+    EXPECT_TRUE((*recording)->segments()[0].head_damaged);
+    EXPECT_EQ((*recording)->cameras()[0].name, "camera 0");
+}
+
+TEST(JoinedFiles, BehindOneThatWasNeverClosedAreFoundToo) {
+    const auto messages = with_keys(60, 500);
+    Bytes one = recording_of(messages);
+    one.resize(one.size() / 2);
+    const testing::TemporaryFolder folder;
+    const auto whole = recovered(joined({one, recording_of(messages)}), folder.path());
+    EXPECT_LT(frames_in(*whole), 60u);
+    EXPECT_EQ(count_equal(*whole, messages), frames_in(*whole));
+    expect_playable(*whole);
+}
+
+TEST(Recording, PicturesThatStandInAFileTwiceCountOnce) {
+    const auto messages = with_keys(120, 500);
+    const Bytes one = recording_of(messages);
+    const std::size_t from = one.size() / 4, to = one.size() * 3 / 4;
+    Bytes bytes(one.begin(), one.begin() + std::ptrdiff_t(to));
+    bytes.insert(bytes.end(), one.begin() + std::ptrdiff_t(from), one.end());
+    const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
+    ASSERT_TRUE(recording);
+    EXPECT_LE(frames_in(**recording), messages.size());
+    EXPECT_GT((*recording)->segments()[0].repeated, 20u);
+    EXPECT_EQ((*recording)->segments()[0].frames, frames_in(**recording));
+    EXPECT_FALSE((*recording)->intact());
+    const testing::TemporaryFolder folder;
+    expect_playable(*recovered(bytes, folder.path()));
+}
+
+TEST(Recover, LeavesWhatRefersAcrossAPlaceWhereTheFileGoesBack) {
+    const auto messages = with_keys(120, 500);
+    const Bytes one = recording_of(messages);
+    // The two halves change places.
+    const auto half = one.begin() + std::ptrdiff_t(one.size() / 2);
+    Bytes bytes(half, one.end());
+    bytes.insert(bytes.begin(), one.begin(), one.begin() + 4000);
+    bytes.insert(bytes.end(), one.begin() + 4000, half);
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "broken.mkv", bytes);
+    const auto broken = RecordingFile::open(folder.path() / "broken.mkv");
+    recover(*broken, folder.path() / "whole.mkv", {});
+    const auto whole = RecordingFile::open(folder.path() / "whole.mkv");
+    EXPECT_TRUE(whole->complete());
+    EXPECT_GT(frames_in(*whole), 90u);
+    const auto& frames = whole->cameras()[0].depth.frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto header = whole->read_header(frames[i]);
+        EXPECT_TRUE(header->key || (i > 0 && frames[i - 1].number == header->reference)) << i;
+    }
+}
+
+// Where the copies of the head stand.
+std::vector<std::uint64_t> copies_in(const Bytes& bytes) {
+    std::vector<std::uint64_t> places;
+    const ByteView magic = as_bytes(head_copy_magic);
+    for (auto at = bytes.begin();; ++at) {
+        at = std::search(at, bytes.end(), magic.begin(), magic.end());
+        if (at == bytes.end())
+            return places;
+        places.push_back(std::uint64_t(at - bytes.begin()));
+    }
+}
+
+TEST(Recover, WritesTheHeadAsOftenAsARecorderDoes) {
+    const auto messages = with_keys(300, 12'000);  // 3.6 MB
+    Bytes one = recording_of(messages);
+    const std::size_t copies = copies_in(one).size();
+    EXPECT_GE(copies, 4u);
+    one[one.size() / 2] ^= std::byte{1};
+    const testing::TemporaryFolder folder;
+    (void)recovered(one, folder.path());
+    EXPECT_GE(copies_in(bytes_of(folder.path() / "whole.mkv")).size(), copies);
+}
+
+// A long file's copies near its ends are damaged; one stands in the middle.
+TEST(Recover, FindsTheHeadWhereverItIsIntact) {
+    const auto messages = with_keys(30, 1'600'000);  // 48 MB
+    Bytes bytes = recording_of(messages);
+    const auto places = copies_in(bytes);
+    for (const std::uint64_t at : places)
+        if (at < max_front_bytes || at > bytes.size() - max_front_bytes)
+            bytes[at + head_copy_magic.size()] ^= std::byte{1};
+    const ByteView name = as_bytes(std::string_view("V_THEATRON/DEPTH"));
+    auto plain = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    *plain ^= std::byte{1};
+    const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
+    ASSERT_TRUE(recording);
+    EXPECT_EQ(frames_in(**recording), messages.size());
+    EXPECT_TRUE((*recording)->segments()[0].head_damaged);
+}
+
+// Two places of the head, wherever they are.
+TEST(Recover, MakesAFileThatSurvivesTwoFlipsInItsHead) {
+    const auto messages = with_keys(40, 100);
+    Bytes one = recording_of(messages);
+    one[3] ^= std::byte{1};  // only a copy of the head is found
+    const testing::TemporaryFolder folder;
+    (void)recovered(one, folder.path());
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+    MemorySource source{ByteView(whole)};
+    const std::uint64_t head_end = read_head(source)->clusters_at;
+    std::minstd_rand random(4);
+    for (int i = 0; i < 2000; ++i) {
+        Bytes damaged = whole;
+        std::string where;
+        for (int k = 0; k < 2; ++k) {
+            const std::uint64_t at = random() % head_end;
+            damaged[at] ^= std::byte(1 << random() % 8);
+            where += std::to_string(at) + " ";
+        }
+        SCOPED_TRACE(where);
+        const auto recording = RecordingFile::read(std::make_unique<MemorySource>(damaged));
+        ASSERT_TRUE(recording);
+        EXPECT_EQ(frames_in(**recording), messages.size());
+        EXPECT_EQ((*recording)->cameras()[0].name, "camera 0");
+        EXPECT_EQ((*recording)->cameras()[0].depth.codec, "zstd:delta=1,layers=3");
+        EXPECT_EQ((*recording)->cameras()[0].calibration, cameras(1)[0].calibration);
+    }
+}
+
+}  // namespace
+}  // namespace theatron::record

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/segment_chain.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "record/recording_layout.h"
+
+namespace theatron::record {
+namespace {
+
+std::uint32_t number_of(const std::optional<SegmentInfo>& info) {
+    return info ? info->number : 1;
+}
+
+// A copy of the head that was found elsewhere must not be that of another file which stands behind
+// this one.
+Result<FoundHead> read_own_head(const std::shared_ptr<ByteSource>& source) {
+    Result<FoundHead> head = read_head(*source);
+    if (!head || !head->damaged)
+        return head;
+    const auto next = read_clusters(*source, *head, [](const FoundBlock&) {}).next_file_at;
+    if (!next)
+        return head;
+    PartSource own(source, 0, *next);
+    return read_head(own);
+}
+
+}  // namespace
+
+std::optional<SegmentInfo> segment_info_of(const FoundHead& head) {
+    for (const FoundAttachment& attachment : head.attachments)
+        if (attachment.name == segment_info_name)
+            if (const auto info = decode_segment_info(attachment.bytes))
+                return *info;
+    return std::nullopt;
+}
+
+std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file) {
+    try {
+        const Result<FoundHead> head = read_head(*open_file_source(file));
+        return head ? segment_info_of(*head) : std::nullopt;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+Result<SegmentChain> SegmentChain::read(std::vector<std::unique_ptr<ByteSource>> sources,
+                                        std::vector<std::string> files) {
+    files.resize(sources.size());
+    SegmentChain chain;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const std::shared_ptr<ByteSource> source = std::move(sources[i]);
+        Result<FoundHead> head = read_own_head(source);
+        if (!head) {
+            if (i == 0)
+                return head.error();
+            // Its name says that it belongs here, and nothing else can be known of it.
+            chain.unreadable_.push_back(std::move(files[i]));
+            continue;
+        }
+        const auto info = segment_info_of(*head);
+        if (i == 0)
+            chain.first_ = info;
+        else if (!chain.follows(info, number_of(chain.first_)))
+            continue;
+        // Of a file that was copied beside the original, the first one counts.
+        chain.waiting_.try_emplace(number_of(info),
+                                   Member{source, std::move(*head), info, std::move(files[i])});
+    }
+    return chain;
+}
+
+bool SegmentChain::follows(const std::optional<SegmentInfo>& info, std::uint32_t number) const {
+    return info && first_ && info->recording == first_->recording && info->number > number;
+}
+
+std::optional<SegmentChain::Member> SegmentChain::take() {
+    if (waiting_.empty())
+        return std::nullopt;
+    Member member = std::move(waiting_.extract(waiting_.begin()).mapped());
+    last_ = number_of(member.info);
+    ++taken_;
+    return member;
+}
+
+SegmentChain::Foreign SegmentChain::add_behind(const Member& taken, std::uint64_t at) {
+    Foreign foreign;
+    const std::uint64_t end = taken.source->size();
+    for (std::optional<std::uint64_t> next = at; next;) {
+        const std::uint64_t begin = *next;
+        const auto rest = std::make_shared<PartSource>(taken.source, begin, end);
+        Result<FoundHead> head = read_head(*rest, CopySearch::at_the_beginning);
+        next =
+            read_clusters(*rest, head ? *head : FoundHead{}, [](const FoundBlock&) {}).next_file_at;
+        if (next)
+            *next += begin;
+        const std::uint64_t size = next.value_or(end) - begin;
+        const auto info = head ? segment_info_of(*head) : std::nullopt;
+        const bool is_new = follows(info, last_) && !waiting_.contains(info->number);
+        if (is_new) {
+            auto own = std::make_shared<PartSource>(taken.source, begin, begin + size);
+            waiting_.emplace(info->number,
+                             Member{std::move(own), std::move(*head), info, taken.file});
+        } else {
+            ++foreign.files;
+            foreign.bytes += size;
+        }
+    }
+    return foreign;
+}
+
+std::uint64_t SegmentChain::missing() const {
+    const std::uint64_t between = last_ - number_of(first_) + 1 - taken_;
+    return std::max<std::uint64_t>(between, unreadable_.size());
+}
+
+}  // namespace theatron::record

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The segments of a recording, in their order: which of some files belong to it, and which parts
+// of files that were put one behind the other. Safe for untrusted input.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/byte_source.h"
+#include "record/matroska_reader.h"
+#include "record/segment_info.h"
+
+namespace theatron::record {
+
+// Of version 1: nothing.
+std::optional<SegmentInfo> segment_info_of(const FoundHead& head);
+// Of a file. Nothing also where it is no recording or cannot be read.
+std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file);
+
+class SegmentChain {
+public:
+    struct Member {
+        std::shared_ptr<ByteSource> source;
+        FoundHead head;
+        std::optional<SegmentInfo> info;
+        std::string file;
+    };
+
+    // Reads the heads of `sources`, named `files`; the first one says which recording it is. Files
+    // of another recording, those with a smaller number, and second copies are left out.
+    static Result<SegmentChain> read(std::vector<std::unique_ptr<ByteSource>> sources,
+                                     std::vector<std::string> files);
+
+    // The next segment; nothing after the last one.
+    std::optional<Member> take();
+
+    // Other files that stand in a segment's file, behind the segment, and do not follow it.
+    struct Foreign {
+        std::uint64_t files = 0, bytes = 0;
+    };
+    // Behind the member that was taken last, from `at` on, stand one or more files. Those that
+    // follow in the recording become members.
+    Foreign add_behind(const Member& taken, std::uint64_t at);
+
+    // After the last one was taken: how many segments between the first and the last are not there,
+    // and at least as many as files that cannot be read although their names say that they follow.
+    std::uint64_t missing() const;
+    const std::vector<std::string>& unreadable() const { return unreadable_; }
+
+private:
+    bool follows(const std::optional<SegmentInfo>& info, std::uint32_t number) const;
+
+    std::optional<SegmentInfo> first_;
+    std::map<std::uint32_t, Member> waiting_;
+    std::uint32_t last_ = 0;  // number of the segment that was taken last
+    std::uint64_t taken_ = 0;
+    std::vector<std::string> unreadable_;
+};
+
+}  // namespace theatron::record

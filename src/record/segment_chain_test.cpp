@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings of several files, of which some are missing, cannot be read, or are of another one.
+#include "record/segment_chain.h"
+
+#include "record/test_recordings.h"
+
+namespace theatron::record {
+namespace {
+
+// In "a.mkv", "a.002.mkv" and so on, with one picture each.
+void record_segments(const fs::path& folder, int segments) {
+    Recorder recorder(folder / "a.mkv", cameras(1), session_begin);
+    const Message picture = generated(1, 4, 100)[0];
+    for (int n = 0; n < segments; ++n) {
+        if (n > 0)
+            recorder.begin_segment(cameras(1), session_begin);
+        ASSERT_EQ(add(recorder, picture), Recorder::Added::taken);
+    }
+    recorder.finish();
+    ASSERT_EQ(recorder.figures().segments, std::uint32_t(segments));
+}
+
+TEST(SegmentChain, ALaterSegmentSaysWhichEarlierOnesAreMissing) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    const auto third = [&] { return RecordingFile::open(folder.path() / "a.003.mkv"); };
+    EXPECT_EQ(third()->missing_segments(), 0u) << "they lie beside it";
+    EXPECT_EQ(third()->begins_in(), (folder.path() / "a.mkv").string());
+    EXPECT_TRUE(third()->intact());
+    fs::remove(folder.path() / "a.mkv");
+    EXPECT_EQ(third()->missing_segments(), 1u);
+    EXPECT_EQ(third()->begins_in(), "");
+    EXPECT_FALSE(third()->complete());
+    // Another recording's file of that name is none of them.
+    record_all(folder.path() / "a.mkv", 1, generated(1, 3, 100));
+    fs::remove(folder.path() / "a.002.mkv");
+    EXPECT_EQ(third()->missing_segments(), 2u);
+    EXPECT_EQ(RecordingFile::open(folder.path() / "a.mkv")->missing_segments(), 0u);
+}
+
+TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    const fs::path second = folder.path() / "a.002.mkv";
+    write_bytes(second, Bytes(fs::file_size(second)));
+    const auto recording = RecordingFile::open(folder.path() / "a.mkv");
+    EXPECT_EQ(recording->unreadable_files(), std::vector{second.string()});
+    EXPECT_EQ(recording->missing_segments(), 1u);
+    EXPECT_EQ(recording->segments().size(), 2u);
+}
+
+TEST(Recorder, ReplacesARecordingWithAllItsSegments) {
+    const testing::TemporaryFolder folder, other;
+    record_segments(folder.path(), 4);
+    // What is not of that recording stays.
+    record_segments(other.path(), 2);
+    fs::rename(other.path() / "a.002.mkv", folder.path() / "a.003.mkv");
+    write_bytes(folder.path() / "a.005.mkv", Bytes(10));
+    record_all(folder.path() / "a.mkv", 1, generated(1, 3, 100));
+    EXPECT_FALSE(fs::exists(folder.path() / "a.002.mkv"));
+    EXPECT_TRUE(fs::exists(folder.path() / "a.003.mkv"));
+    EXPECT_FALSE(fs::exists(folder.path() / "a.004.mkv"));
+    EXPECT_TRUE(fs::exists(folder.path() / "a.005.mkv"));
+}
+
+}  // namespace
+}  // namespace theatron::record
