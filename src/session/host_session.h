@@ -26,7 +26,7 @@ namespace theatron::session {
 
 class HostSession {
 public:
-    // A codec text in its one spelling, or what is wrong with it.
+    // A codec text in its one spelling, which is not empty, or what is wrong with it.
     struct CheckedCodec {
         std::string codec;
         std::string problem;

@@ -48,7 +48,9 @@ wire::Camera camera(int number) {
 
 HostSession::Config config() {
     const auto check = [](const std::string& text) {
-        return HostSession::CheckedCodec{text.substr(0, 20), text.size() > 20 ? "Too long." : ""};
+        // As with real codecs, an empty text is none.
+        const char* problem = text.empty() ? "Empty." : text.size() > 20 ? "Too long." : "";
+        return HostSession::CheckedCodec{text.substr(0, 20), problem};
     };
     HostSession::Config config;
     config.token = "secret";
