@@ -10,8 +10,9 @@
 namespace theatron::codec::ans {
 namespace {
 
-// Runs of zeros and of other values in turn, the first of zeros; the last may be
-// of either kind. Differences are to the other value before, zigzagged.
+// Splits the values into runs and differences. Runs of zeros and of non-zero values
+// alternate, zeros first; the last run may be of either kind. A difference is the
+// zigzagged change since the non-zero value before.
 void split(std::span<const std::uint16_t> values, DepthWorkspace& work) {
     work.runs.resize(values.size() + 1);
     work.differences.resize(values.size());
@@ -34,7 +35,8 @@ void split(std::span<const std::uint16_t> values, DepthWorkspace& work) {
     work.difference_count = std::size_t(difference - work.differences.data());
 }
 
-// The number of non-zero values, if the runs cover `count` values.
+// The number of non-zero values according to the runs. Malformed unless they cover
+// exactly `count` values.
 Result<std::size_t> count_differences(std::span<const std::uint32_t> runs, std::size_t count) {
     std::size_t covered = 0, measured = 0;
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -71,7 +73,7 @@ Status join(std::span<const std::uint32_t> runs, std::span<const std::uint32_t> 
 }  // namespace
 
 std::size_t max_encoded_size(Size size) {
-    // One difference and one run for each pixel, and one more run.
+    // At most one difference per pixel, and one run per pixel and one more.
     return payload_header_size + 4 + max_encoded_numbers(size.area()) +
            max_encoded_numbers(size.area() + 1);
 }

@@ -32,8 +32,8 @@ void normalise(Frequencies& counts, std::uint32_t symbols) {
         if (counts[s] > counts[largest])
             largest = s;
     }
-    // What rounding left over goes to the largest; what rare symbols took too much
-    // comes from whoever is largest then.
+    // A remainder left by rounding goes to the largest. An excess caused by rare symbols,
+    // which keep at least 1, is taken from whichever is largest at the time.
     if (sum < scale)
         counts[largest] += scale - sum;
     for (; sum > scale; --sum) {
@@ -43,8 +43,8 @@ void normalise(Frequencies& counts, std::uint32_t symbols) {
     }
 }
 
-// A frequency takes one byte below 128, else two; zeros come as a zero and how
-// many more follow. Stops when the frequencies reach `scale`.
+// Writes a frequency as one byte below 128, else as two. A zero is followed by the
+// number of further zeros. Stops when the frequencies reach `scale`.
 std::byte* put_frequencies(const Frequencies& frequencies, std::byte* out) {
     std::uint32_t sum = 0;
     for (std::uint32_t s = 0; sum < scale; ++s) {
@@ -68,8 +68,8 @@ std::byte* put_frequencies(const Frequencies& frequencies, std::byte* out) {
     return out;
 }
 
-// What a position in [0, scale) means: symbol (bits 0-7), frequency (8-19), and
-// distance to the symbol's first position (20-31).
+// Reads frequencies into a table that maps each position in [0, scale) to its symbol
+// (bits 0-7), frequency (8-19), and distance to the symbol's first position (20-31).
 Status get_table(ByteReader& in, std::uint32_t symbols, std::uint32_t* table) {
     std::uint32_t at = 0;
     for (std::uint32_t s = 0; at < scale; ++s) {
@@ -112,7 +112,7 @@ private:
     std::uint32_t pending_count_ = 0;
 };
 
-// Past the end there are zeros, and finished() is false.
+// Past the end it reads zeros, and finished() is false.
 class BitReader {
 public:
     explicit BitReader(ByteView in) : in_(in) {}
@@ -126,7 +126,7 @@ public:
         count_ -= count;
         return bits;
     }
-    // Everything was taken, and what fills the last byte is zero.
+    // True if all input was consumed and the unused bits of the last byte are zero.
     bool finished() const { return at_ == in_.size() && window_ == 0; }
 
 private:
@@ -138,7 +138,8 @@ private:
 
 // --- Coding ------------------------------------------------------------------
 
-// The four parts; the first ones are one longer where the count does not divide.
+// The four parts of a sequence. The first ones are longer by one if the count is no
+// multiple of four.
 struct Parts {
     explicit Parts(std::size_t count) {
         for (std::size_t lane = 0, at = 0; lane < lanes; ++lane) {
@@ -149,11 +150,11 @@ struct Parts {
         longer = count % lanes;
     }
     std::array<std::size_t, lanes> begin;
-    std::size_t steps;   // that all four lanes take
-    std::size_t longer;  // lanes that take one more
+    std::size_t steps;   // taken by all four lanes
+    std::size_t longer;  // number of lanes that take one more
 };
 
-// Sixteen bytes, so that the tables of all contexts stay in the first-level cache.
+// 16 bytes, so that the tables of all contexts fit into the first-level cache.
 struct EncodeSymbol {
     // (x * reciprocal) >> shift is x / frequency, exactly, for x below 2^31.
     std::uint64_t reciprocal;
@@ -171,7 +172,7 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
     work.symbols.resize(std::max(work.symbols.size(), numbers.size()));
     std::uint16_t* const work_symbols = work.symbols.data();
 
-    // Symbols and contexts, how often each occurs, and the extra bits.
+    // Finds symbols and contexts, counts each, and writes the extra bits.
     std::array<Frequencies, Model::contexts> counts{};
     work.extra.resize(4 * numbers.size() + 8);
     BitWriter extra(work.extra.data());
@@ -214,7 +215,7 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
         }
     }
 
-    // Backwards, so that the decoder reads forwards.
+    // Encodes backwards, so that the decoder reads forwards.
     work.words.resize(std::max(work.words.size(), numbers.size() + 2 * lanes));
     std::uint16_t* const words_end = work.words.data() + work.words.size();
     std::uint16_t* word = words_end;
@@ -224,7 +225,7 @@ std::size_t encode(std::span<const std::uint32_t> numbers, Workspace& work,
         const std::uint16_t coded = work_symbols[index];
         const EncodeSymbol& s = table[coded >> 8][coded & 0xff];
         std::uint32_t x = state[lane];
-        // Without a branch, as in decode().
+        // Branch-free, as in decode().
         const std::uint32_t due = x >= std::uint32_t(s.frequency) << 20 ? ~0u : 0u;
         word[-1] = std::uint16_t(x);
         word -= due & 1;
@@ -299,13 +300,13 @@ Status decode(ByteView& bytes, Workspace& work, std::span<std::uint32_t> numbers
     };
 
     std::size_t step = 0;
-    // A step takes at most one word for each lane.
+    // A step consumes at most one word per lane.
     for (; step < parts.steps && end - word >= 2 * lanes; ++step) {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::uint32_t symbol = decode_symbol(lane);
             std::uint16_t next;
             std::memcpy(&next, word, 2);
-            // Without a branch: whether a word is due is hard to foretell.
+            // Branch-free: the need for a word is hard to predict.
             const std::uint32_t due = state[lane] < lowest ? ~0u : 0u;
             state[lane] = state[lane] << (due & 16) | (next & due);
             word += due & 2;
@@ -333,7 +334,7 @@ Status decode(ByteView& bytes, Workspace& work, std::span<std::uint32_t> numbers
         if (!decode_carefully(lane, parts.begin[lane] + parts.steps))
             return Status::malformed;
     }
-    // Every coder comes back to where the encoder's began.
+    // The state of each coder ends where the encoder's began.
     const bool clean =
         word == end && extra.finished() &&
         std::all_of(state.begin(), state.end(), [](std::uint32_t x) { return x == lowest; });
@@ -343,7 +344,7 @@ Status decode(ByteView& bytes, Workspace& work, std::span<std::uint32_t> numbers
 }  // namespace
 
 std::size_t max_encoded_numbers(std::size_t count) {
-    // Two bytes for each frequency; then a word and 25 extra bits for each number.
+    // Two bytes per frequency; then one word and 25 extra bits per number.
     return 6 * 2 * 256 + 8 + 2 * 4 * lanes + 6 * count;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sequences of numbers through an asymmetric numeral system (rANS).
+// Entropy coding of number sequences with an asymmetric numeral system (rANS).
 //
-// J. Duda, "Asymmetric numeral systems", 2013. A number becomes a symbol, coded
-// with a table of frequencies that is sent in front, and extra bits that are not
-// compressed. The sequence is cut into four parts of equal length; one coder
-// runs through each, all four in step, so that their latencies overlap. Which
-// table codes a symbol depends on those before it in its part (the Model). The
-// bytes are specified in docs/formats/depth_ans.md.
+// J. Duda, "Asymmetric numeral systems", 2013. A number becomes a symbol, coded with
+// a frequency table that precedes the symbols, and extra bits, stored uncompressed.
+// The sequence is split into four parts of equal length, coded by four coders in
+// turn, so that their latencies overlap. The table of a symbol depends on the symbols
+// before it in its part (the Model). docs/formats/depth_ans.md specifies the bytes.
 #pragma once
 
 #include <array>
@@ -23,8 +22,8 @@ inline constexpr int scale_bits = 11;
 inline constexpr std::uint32_t scale = 1u << scale_bits;
 inline constexpr int lanes = 4;
 
-// Numbers as symbols: those below `direct` are symbols of their own; larger ones
-// share one with their quarter of an octave, told apart by extra bits.
+// Maps numbers to symbols. Numbers below `direct` have a symbol each. Larger numbers
+// of the same quarter octave share one; extra bits distinguish them.
 template <std::uint32_t direct, int max_bits>
 struct Alphabet {
     static_assert(direct % 4 == 0 && std::bit_width(direct) >= 3);
@@ -54,7 +53,7 @@ struct Alphabet {
     }
 };
 
-// Run lengths, of two kinds in turn.
+// Run lengths; the two kinds alternate.
 struct RunModel {
     using Symbols = Alphabet<16, 27>;
     static constexpr int contexts = 2;
@@ -63,8 +62,8 @@ struct RunModel {
     static std::uint32_t next(std::uint32_t state, std::uint32_t) { return state ^ 1; }
 };
 
-// Zigzagged differences. Large ones follow large ones, so the table is chosen by
-// a running mean of the symbols.
+// Zigzagged differences. Large differences tend to follow large ones, so a running
+// mean of the symbols selects the table.
 struct DifferenceModel {
     using Symbols = Alphabet<192, 16>;
     static constexpr int contexts = 6;
@@ -82,9 +81,9 @@ struct DifferenceModel {
     }
 };
 
-// Memory of one coder, used again from frame to frame.
+// Buffers of one coder, reused from frame to frame.
 struct Workspace {
-    // Symbols with their contexts, to be coded from the last to the first.
+    // Symbols with their contexts; coded from the last to the first.
     std::vector<std::uint16_t> symbols;
     std::vector<std::uint16_t> words;
     Bytes extra;
@@ -100,7 +99,7 @@ std::size_t encode_runs(std::span<const std::uint32_t> numbers, Workspace& work,
 std::size_t encode_differences(std::span<const std::uint32_t> numbers, Workspace& work,
                                std::span<std::byte> out);
 
-// Decodes exactly numbers.size() numbers and takes their bytes off the front of
+// Decodes exactly numbers.size() numbers and removes their bytes from the front of
 // `in`. Safe for untrusted input.
 Status decode_runs(ByteView& in, Workspace& work, std::span<std::uint32_t> numbers);
 Status decode_differences(ByteView& in, Workspace& work, std::span<std::uint32_t> numbers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The libraries behind library_codec.h, each if this build has it.
+// The implementations of library_codec.h, as far as this build has the libraries.
 #include <cassert>
 
 #include "codec/library_codec.h"
@@ -17,7 +17,7 @@ namespace theatron::codec {
 #if THEATRON_HAS_ZSTD
 namespace {
 
-// One zstd frame that states its content size, and nothing after it.
+// Format: one zstd frame that states its content size, and nothing after it.
 class Zstd final : public ByteCompressor {
 public:
     explicit Zstd(int level) : level_(level) {}
@@ -83,8 +83,8 @@ std::unique_ptr<ByteCompressor> make_zstd_compressor(int) {
 #if THEATRON_HAS_LZ4
 namespace {
 
-// One LZ4 block. It does not know its own end: the library takes a truncated one
-// for whole only if all pixels were there.
+// Format: one LZ4 block. A block has no end mark; a truncated one is accepted only if
+// it still gives all pixels.
 class Lz4 final : public ByteCompressor {
 public:
     std::size_t bound(std::size_t count) const override {
@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    // The library wants its state aligned to 8 bytes.
+    // LZ4 requires the state to be aligned to 8 bytes.
     std::vector<std::uint64_t> state_ =
         std::vector<std::uint64_t>(std::size_t(LZ4_sizeofState()) / 8 + 1);
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The property that the fuzz targets of all depth codecs share.
+// The properties checked by the fuzz targets of all depth codecs.
 #pragma once
 
 #include <cstdlib>
@@ -9,9 +9,9 @@
 
 namespace theatron::codec {
 
-// Any bytes: decoding stays inside its buffers (the sanitizers watch). Bytes that
-// are accepted: encoding the result and decoding that again gives the same
-// depth, and for a `canonical` codec the same bytes.
+// Any bytes: decoding stays inside its buffers (the sanitizers check). Accepted bytes:
+// encoding the result and decoding that again gives the same depth, and for a
+// `canonical` codec also the same bytes.
 inline void fuzz_depth_codec(DepthCodec& codec, ByteView input, bool canonical) {
     const Result<Size> size = codec.read_size(input);
     if (!size || size->area() > 1 << 16)

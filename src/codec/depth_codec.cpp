@@ -12,7 +12,7 @@
 namespace theatron::codec {
 namespace {
 
-// Everything a setting can say. Each codec reads its own part.
+// All parameters of a setting. Each codec reads the ones that it uses.
 struct Parameters {
     bool delta = false;
     int level = 1;
@@ -21,12 +21,12 @@ struct Parameters {
     StrataParams strata;
 };
 
-// One member of the family.
+// One codec of the family.
 struct Kind {
     std::string_view name;
     DepthCodecId id;
     bool in_this_build;
-    // Takes the codec's own parameters; says whether it is temporal with them.
+    // Reads the codec's parameters from the options. Returns true if it is temporal.
     bool (*read)(Options& options, Parameters& parameters);
     std::unique_ptr<DepthCodec> (*make)(const Parameters& parameters);
 };
@@ -69,7 +69,7 @@ std::unique_ptr<DepthCodec> make_lz4(const Parameters& p) {
     return make_library_codec(DepthCodecId::lz4, make_lz4_compressor(), p.delta, p.quant_mm);
 }
 
-// In the order in which help texts and benchmarks show them.
+// In the order of help texts and benchmarks.
 const std::vector<Kind>& kinds() {
     using P = const Parameters&;
     static const std::vector<Kind> all = {
@@ -100,7 +100,7 @@ std::string names_in_this_build() {
     return names;
 }
 
-// The one spelling: parameters in a fixed order, and only those that matter.
+// The canonical text of a setting: fixed order, default values omitted.
 std::string spelling(const Kind& kind, const Parameters& p) {
     std::string text(kind.name);
     char separator = ':';
@@ -142,7 +142,7 @@ Understood understand(std::string_view text) {
             "In '" + options.text() + "', '" + options.value() + "' is not a key=value pair.";
         return result;
     }
-    // RVL over the temporal delta has a name of its own.
+    // RVL of the change since a reference is a codec with its own name.
     if (result.kind->id == DepthCodecId::rvl && options.take_flag("delta"))
         result.kind = find_kind("trvl");
     const bool temporal = result.kind->read(options, result.parameters);

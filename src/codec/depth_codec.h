@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of depth codecs behind one shape, and the choice between them.
+// The common interface of all depth codecs, and their selection by name.
 //
-// Each codec is a pair of pure functions on views (raw.h, rvl.h, …). This file
-// names them all, so that a stream, a benchmark or a test can take any of them.
-// The names and parameters are those of the command line: "rvl", "zstd:delta=1".
+// Most codecs are pairs of pure functions on views (raw.h, rvl.h, …). This interface
+// lets a stream, a benchmark or a test use any of them. Names and parameters are those
+// of the command line: "rvl", "zstd:delta=1".
 #pragma once
 
 #include <memory>
@@ -18,36 +18,35 @@
 
 namespace theatron::codec {
 
-// What a temporal frame refers to: a frame that both sides have, as depth or as
-// whatever the codec remembers of it instead. Most codecs use `depth` alone.
+// The content of an earlier frame that both sides have, as depth or in a form private
+// to the codec. Most codecs use `depth` alone.
 struct Reference {
     DepthImage depth;
     Bytes memory;
 };
 
-// One codec with its parameters. Encoding and decoding are const and keep no
-// state but scratch memory inside the object: use one object per thread.
+// One codec with its parameters. Encoding and decoding depend on the arguments alone;
+// the object only holds parameters and scratch memory. One thread at a time.
 class DepthCodec {
 public:
     virtual ~DepthCodec() = default;
 
-    // True if decoded depth equals what was encoded, bit by bit.
+    // True if decoded depth equals the encoded depth, bit by bit.
     virtual bool lossless() const = 0;
-    // True if the codec makes use of a reference frame.
+    // True if the codec can refer to a reference frame.
     virtual bool temporal() const = 0;
-    // The part of the image that stays exact from the next encoded frame on, for
-    // codecs whose error is bounded outside of it; others leave it alone. Empty
-    // while none is drawn. It must be strata::is_valid.
+    // Sets the region that stays exact, from the next encoded frame on. Codecs without
+    // a bounded error ignore it. Empty: no region. Precondition: strata::is_valid.
     virtual void set_region(strata::Region) {}
     // Bytes that always suffice for an image of this size.
     virtual std::size_t max_encoded_size(Size size) const = 0;
 
-    // Encodes `depth` into `out` (max_encoded_size bytes) and returns the bytes
-    // used. `reference` is null for a key frame; it is of an image of the same
-    // size. `next` receives what a later frame needs to refer to this one: the
-    // depth as the decoder will have it, or the codec's memory. It may be null where
-    // no frame will refer to this one, and may not be `reference`. A codec that
-    // is not temporal leaves it alone.
+    // Encodes `depth` into `out` (max_encoded_size bytes) and returns the bytes used.
+    // `reference` is null for a key frame, else it belongs to an image of the same size.
+    // `next` receives the reference for later frames: the depth as the decoder will
+    // have it, or the codec's private form. `next` may be null if no frame will refer to
+    // this one, and must differ from `reference`. Codecs that are not temporal ignore
+    // both.
     virtual std::size_t encode(DepthView depth, const Reference* reference,
                                std::span<std::byte> out, Reference* next) = 0;
 
@@ -63,7 +62,7 @@ public:
 
 inline constexpr int max_layers = 3;
 
-// Numbers of the codecs in the media header. Never reused.
+// Codec numbers in the media header. Never reused.
 enum class DepthCodecId : std::uint8_t {
     raw = 1,
     rvl = 2,
@@ -75,7 +74,7 @@ enum class DepthCodecId : std::uint8_t {
     strata = 8,
 };
 
-// A codec as a receiver asks for it, checked and in its one spelling.
+// A codec setting, checked, in its canonical spelling.
 struct DepthSetting {
     DepthCodecId id = DepthCodecId::trvl;
     std::string text = "trvl";
@@ -83,20 +82,20 @@ struct DepthSetting {
     bool operator==(const DepthSetting&) const = default;
 };
 
-// A specification understood, or one sentence for the user about what is wrong.
+// A setting, or one sentence for the user on what is wrong with the text.
 struct ParsedDepthSetting {
     DepthSetting setting;
     std::string problem;  // empty if `setting` holds
 };
 
-// Understands "trvl" or "zstd:delta=1". The problem names the codecs there are,
-// or the parameter that is wrong.
+// Parses "trvl" or "zstd:delta=1". The problem names the available codecs or the
+// wrong parameter.
 ParsedDepthSetting parse_depth_setting(std::string_view text);
 
-// Makes the codec of a setting that parse_depth_setting gave.
+// Makes the codec of a setting returned by parse_depth_setting.
 std::unique_ptr<DepthCodec> make_depth_codec(const DepthSetting& setting);
 
-// Every codec name, for help texts, tests and benchmarks.
+// All codec names, for help texts, tests and benchmarks.
 std::vector<std::string> depth_codec_names();
 
 }  // namespace theatron::codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every codec of the family.
+// Properties of every codec of the family.
 #include "codec/depth_codec.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Bytes encoded(DepthCodec& codec, DepthView depth, const Reference* reference = n
     return Bytes(out);
 }
 
-// What both sides have after a key frame of the image.
+// The reference on both sides after a key frame of the image.
 Reference reference_to(const DepthImage& image, DepthCodec& codec) {
     Reference reference;
     encoded(codec, image.view(), nullptr, &reference);
@@ -163,7 +163,7 @@ TEST_P(EveryDepthCodec, SurvivesDamagedBytes) {
         Bytes damaged = whole;
         for (unsigned n = 1 + random() % 3; n > 0; --n)
             damaged[random() % damaged.size()] = std::byte(random());
-        // Either answer is right; the sanitizers watch the memory.
+        // Both results are allowed; the sanitizers check memory accesses.
         (void)codec_->decode(damaged, &reference, out.view(), nullptr);
     }
 }
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(DepthCodecs, EveryDepthCodec,
                              return name;
                          });
 
-// Quantisation is the only loss there is, and it is bounded.
+// Quantisation is the only loss, and it is bounded.
 TEST(QuantisedDepth, KeepsValidityAndItsBound) {
     DepthImage all({256, 256});
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
@@ -190,7 +190,7 @@ TEST(QuantisedDepth, KeepsValidityAndItsBound) {
             const auto codec =
                 make_depth_codec(setting("lz4:quant_mm=" + std::to_string(step) + delta));
             EXPECT_FALSE(codec->lossless());
-            // The reference is what a decoder holds of an earlier frame.
+            // The reference is the decoder's version of an earlier frame.
             Reference held, next;
             DepthImage decoded(all.size);
             const Bytes first = encoded(*codec, before.depth.view(), nullptr, &held);

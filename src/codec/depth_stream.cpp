@@ -102,7 +102,7 @@ Status DepthStreamDecoder::decode(const FrameLink& link, ByteView encoded, Mutab
     const Status status = codec_->decode(encoded, reference, out, space);
     if (status != Status::ok)
         return status;
-    // Nothing after a key frame refers to anything before it.
+    // No later frame refers to a frame before the key frame.
     if (link.key)
         references_.clear();
     if (codec_->temporal())

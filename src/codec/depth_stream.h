@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A depth codec along a stream: which frame refers to which, and the references
-// themselves.
+// A depth codec applied to a stream: selects the reference of each frame, and stores
+// the references.
 //
-// With N temporal layers every group of 2^(N-1) frames is a small hierarchy:
+// With N temporal layers, each group of 2^(N-1) frames is a small hierarchy:
 //
 //   layer 2      1     3           5     7
 //   layer 1         2                 6
 //   layer 0   0              4              8
 //
-// The first frame of a group refers to the first of the group before; any other
-// to the most recent frame of a lower layer. So a receiver may leave out the
-// highest layers for half or a quarter of the frames, or miss single frames of
-// them, and still decode the rest. Each side keeps one reference for each layer
-// that is referred to. Nothing is allocated after the first few frames.
+// The first frame of a group refers to the first of the group before, any other frame
+// to the most recent frame of a lower layer. A receiver may therefore skip the highest
+// layers, which halves or quarters the frame rate, or lose single frames of them, and
+// still decodes the rest. Each side stores one reference per layer that is referred
+// to. Nothing is allocated after the first few frames.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ namespace theatron::codec {
 // The layer of the frame at `position` since the last key frame.
 int temporal_layer(int layers, std::uint32_t position);
 
-// A frame's place in its stream. It travels beside the encoded bytes.
+// The place of a frame in its stream, sent beside the encoded bytes.
 struct FrameLink {
     FrameNumber frame = 0;
-    FrameNumber reference_frame = 0;  // of a key frame: itself
+    FrameNumber reference_frame = 0;  // of a key frame: its own number
     int layer = 0;
     bool key = false;
 };
@@ -38,20 +38,21 @@ struct EncodedDepth : FrameLink {
     std::size_t bytes = 0;
 };
 
-// The references of one side of a stream.
+// The references stored on one side of a stream.
 class StreamReferences {
 public:
     explicit StreamReferences(int layers) : layers_(layers) {}
 
     int layers() const { return layers_; }
     void clear();
-    // Null if the frame is not held.
+    // Null if the frame is not stored.
     const Reference* find(FrameNumber frame) const;
     // The most recent frame of a layer below `layer`, or of layer 0 for layer 0.
     const Reference* most_recent_below(int layer, FrameNumber& frame) const;
-    // Where to put a frame of this layer; null if nothing will refer to it.
+    // The storage for a frame of this layer; null if no frame will refer to it.
     Reference* space_for(int layer);
-    // The space now holds `frame` of `layer`, in place of the layer's last one.
+    // Records that the storage now contains `frame` of `layer`, replacing the layer's
+    // previous frame.
     void keep(int layer, FrameNumber frame);
 
 private:
@@ -73,7 +74,7 @@ private:
 class DepthStreamEncoder {
 public:
     explicit DepthStreamEncoder(const DepthSetting& setting);
-    // With a codec from elsewhere, for example one that needs a video library.
+    // With a codec made elsewhere, for example one that needs a video library.
     DepthStreamEncoder(std::unique_ptr<DepthCodec> codec, int layers);
 
     std::size_t max_encoded_size(Size size) const { return codec_->max_encoded_size(size); }
@@ -81,10 +82,9 @@ public:
     // As DepthCodec::set_region.
     void set_region(strata::Region region) { codec_->set_region(std::move(region)); }
 
-    // Encodes `depth` into `out` (max_encoded_size bytes). It becomes a key frame
-    // if `key` says so, if it is the first, if the image has changed its size, or
-    // if the codec is not temporal. A key frame starts a new group. Frame numbers
-    // may have gaps.
+    // Encodes `depth` into `out` (max_encoded_size bytes). The frame is a key frame if
+    // `key` is set, if it is the first, if the image size changed, or if the codec is
+    // not temporal. A key frame starts a new group. Frame numbers may have gaps.
     EncodedDepth encode(DepthView depth, FrameNumber frame, bool key, std::span<std::byte> out);
 
 private:
@@ -104,10 +104,10 @@ public:
     // The size of an encoded image. Safe for untrusted input.
     Result<Size> read_size(ByteView encoded) const { return codec_->read_size(encoded); }
 
-    // Decodes into `out`, whose size must match. Status::missing_reference if the
-    // frame referred to was skipped or lost; a later frame of a lower layer, or
-    // else a key frame, will decode again. Safe for untrusted input, `link`
-    // included. On failure `out` is unspecified and the references are as before.
+    // Decodes into `out`, whose size must match. Status::missing_reference if the frame
+    // referred to was skipped or lost; decoding recovers with a later frame of a lower
+    // layer or with a key frame. Safe for untrusted input, `link` included. On failure
+    // `out` is unspecified and the references are unchanged.
     Status decode(const FrameLink& link, ByteView encoded, MutableDepthView out);
 
 private:

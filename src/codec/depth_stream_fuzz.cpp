@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hostile stream: links and bytes of any kind, into the decoder of a stream
-// with three layers. Decoding stays inside its buffers, and afterwards a good key
-// frame still decodes.
+// A hostile stream: arbitrary links and bytes into the decoder of a stream with three
+// layers. Decoding stays inside its buffers, and a valid key frame decodes afterwards.
 #include <algorithm>
 #include <cstdlib>
 

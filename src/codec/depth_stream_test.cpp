@@ -23,8 +23,8 @@ DepthSetting setting(const std::string& text) {
     return parse_depth_setting(text).setting;
 }
 
-// Encodes `count` frames, numbered from 100; those in `keys` are asked to be key
-// frames.
+// Encodes `count` frames, numbered from 100. Key frames are requested for those in
+// `keys`.
 std::vector<Sent> stream(const std::string& text, unsigned count,
                          const std::set<unsigned>& keys = {}) {
     DepthStreamEncoder encoder(setting(text));
@@ -40,8 +40,8 @@ std::vector<Sent> stream(const std::string& text, unsigned count,
     return sent;
 }
 
-// Decodes the frames that `arrives` lets through and returns their statuses;
-// checks the depth of each that decodes.
+// Decodes the frames selected by `arrives`, checks their depth, and returns the
+// statuses.
 std::vector<Status> receive(const std::string& text, const std::vector<Sent>& sent,
                             const std::function<bool(unsigned, const Sent&)>& arrives) {
     DepthStreamDecoder decoder(setting(text));
@@ -147,11 +147,11 @@ TEST(DepthStream, AKeyFrameEndsWhatWasBefore) {
     DepthImage out(size);
     for (const unsigned i : {0u, 2u, 4u, 7u})
         ASSERT_EQ(decoder.decode(sent[i].link, sent[i].bytes, out.view()), Status::ok);
-    // Frame 3 refers to frame 2, which was held until the key frame.
+    // Frame 3 refers to frame 2, which was stored until the key frame.
     EXPECT_EQ(decoder.decode(sent[3].link, sent[3].bytes, out.view()), Status::missing_reference);
 }
 
-// A late joiner is given the last key frame and the layer-0 frames since.
+// A late joiner receives the last key frame and the layer-0 frames since.
 TEST(DepthStream, AReceiverJoinsWithTheKeyAndTheBaseLayerSince) {
     const auto sent = stream("trvl:layers=3", 40, {10});
     EXPECT_TRUE(all_ok(receive("trvl:layers=3", sent, [](unsigned i, const Sent& frame) {
@@ -195,7 +195,7 @@ TEST(DepthStream, RefusesLinksThatCannotBe) {
     EXPECT_EQ(status_of({101, 101, 1, true}), Status::malformed) << "a key off the base";
     EXPECT_EQ(status_of({101, 99, 1, false}), Status::missing_reference);
     EXPECT_EQ(status_of({101, 101, 0, true}), Status::missing_reference) << "no key after all";
-    // None of this did harm.
+    // The hostile input left the decoder intact.
     EXPECT_EQ(decoder.decode(sent[1].link, sent[1].bytes, out.view()), Status::ok);
     EXPECT_EQ(out, sent[1].depth);
 }

@@ -7,7 +7,7 @@
 
 namespace theatron::codec {
 
-// Lane 0 is in the lowest bits, and first in memory.
+// Lane 0 has the lowest bits and is first in memory.
 using Lanes = std::uint64_t;
 
 inline constexpr Lanes every_lane = 0x0001'0001'0001'0001;
@@ -44,8 +44,8 @@ constexpr Lanes zigzag_lanes(Lanes differences) {
     return ((differences & ~every_top_bit) << 1) ^ ((negative << 16) - negative);
 }
 
-// The top bit of the lowest lane that is zero; bits above it mean nothing. Zero
-// if no lane is.
+// Sets the top bit of the lowest zero lane; the bits above it are unspecified. Zero if
+// no lane is zero.
 constexpr Lanes lowest_zero_lane(Lanes lanes) {
     return (lanes - every_lane) & ~lanes & every_top_bit;
 }

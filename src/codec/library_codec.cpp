@@ -12,7 +12,7 @@
 namespace theatron::codec {
 namespace {
 
-// The header's parameter: bit 0 says planes, the others hold step - 1.
+// The header's parameter: bit 0 = planes, the other bits = quantisation step - 1.
 constexpr int max_parameter = 2 * (max_quantisation_step - 1) + 1;
 
 struct Layout {
@@ -112,7 +112,7 @@ private:
         return header;
     }
 
-    // The reference in the units that are coded. A restored depth has the level
+    // Converts the reference to quantisation levels. A restored depth maps to the level
     // that it was restored from.
     DepthView levels_of(DepthView reference, int step) {
         if (reference.pixels == nullptr || step == 1)

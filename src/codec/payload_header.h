@@ -3,8 +3,8 @@
 //
 //   codec u8, version u8, flags u8, parameter u8, width u16, height u16
 //
-// They make an image self-describing: what it takes to decode it, and its size.
-// Specified in docs/formats/depth_payload.md.
+// They make an image self-describing: codec, parameters and size.
+// docs/formats/depth_payload.md specifies them.
 #pragma once
 
 #include "base/bytes.h"
@@ -16,7 +16,7 @@ namespace theatron::codec {
 struct PayloadHeader {
     DepthCodecId codec = DepthCodecId::raw;
     bool delta = false;          // coded against a reference frame
-    std::uint8_t parameter = 0;  // meaning and range are the codec's
+    std::uint8_t parameter = 0;  // meaning and range depend on the codec
     Size size;
 };
 
@@ -25,9 +25,9 @@ inline constexpr std::size_t payload_header_size = 8;
 // Writes the header to the first payload_header_size bytes of `out`.
 void put_header(const PayloadHeader& header, std::byte* out);
 
-// Reads the header of an image of `codec`. Safe for untrusted input; the size
-// is valid. A delta frame of a codec without delta frames, and a parameter
-// above `max_parameter`, are malformed.
+// Reads the header of an image of `codec`. Safe for untrusted input; the size returned
+// is valid. Malformed: a delta frame if `may_be_delta` is false, or a parameter above
+// `max_parameter`.
 Result<PayloadHeader> read_header(ByteView encoded, DepthCodecId codec, bool may_be_delta,
                                   int max_parameter = 0);
 

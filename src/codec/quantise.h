@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarser depth: steps of several units, without touching validity.
+// Coarser depth: levels that are several units wide. Validity is preserved.
 //
-// Value v > 0 becomes level (v - 1) / step + 1, and comes back as the middle of
-// its step: at most step / 2 away. 0, no measurement, stays 0.
+// Value v > 0 becomes level (v - 1) / step + 1, and is restored to the middle of the
+// level: at most step / 2 away. 0, no measurement, stays 0.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ inline constexpr int max_quantisation_step = 100;
 
 // `out` may be `depth`.
 inline void quantise_rows(DepthView depth, int step, MutableDepthView out) {
-    // Exact for 16 bits and steps to 100: (v - 1 + 1/2) / step is never closer to a
-    // whole number than the arithmetic is wrong. The compiler vectorises it.
+    // Exact for 16 bits and steps up to 100: the distance of (v - 1 + 1/2) / step to a
+    // whole number exceeds the rounding error. In this form compilers vectorise it.
     const float scale = 1.0f / float(step);
     for (int y = 0; y < depth.size.height; ++y) {
         const std::uint16_t* from = depth.row(y);
@@ -28,7 +28,7 @@ inline void quantise_rows(DepthView depth, int step, MutableDepthView out) {
     }
 }
 
-// `out` may be `levels`. Any levels; those beyond the range come back as 65535.
+// `out` may be `levels`. Accepts any level; those out of range become 65535.
 inline void restore_rows(DepthView levels, int step, MutableDepthView out) {
     const int middle = (step + 1) / 2 - step;
     for (int y = 0; y < levels.size.height; ++y) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth as it is: two bytes a pixel, little-endian, row after row.
+// Uncompressed depth: two bytes a pixel, little-endian, row after row.
 //
-// The yardstick for ratios, and the fastest codec where a link has room. The
-// bytes are specified in docs/formats/depth_raw.md.
+// The baseline for compression ratios, and the fastest codec where bandwidth allows.
+// docs/formats/depth_raw.md specifies the bytes.
 //
 // All functions are pure: no allocation, no state. Safe to call from any thread.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace theatron::codec::raw {
 
-// Bytes of an encoded image of this size, always exactly as many.
+// The exact number of bytes of an encoded image of this size.
 std::size_t encoded_size(Size size);
 
-// Encodes `depth` into `out`, which holds encoded_size bytes; returns them.
+// Encodes `depth` into `out` of encoded_size bytes; returns that number.
 std::size_t encode(DepthView depth, std::span<std::byte> out);
 
 // Reads the size of an encoded image without decoding it.

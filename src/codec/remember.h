@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lossless temporal codecs do with references.
+// References of lossless temporal codecs: the depth itself.
 #pragma once
 
 #include "codec/depth_codec.h"
@@ -7,12 +7,12 @@
 
 namespace theatron::codec {
 
-// The depth of a reference; without pixels if there is none.
+// The depth of a reference; a view without pixels if there is none.
 inline DepthView view_of(const Reference* reference) {
     return reference == nullptr || reference->depth.empty() ? DepthView{} : reference->depth.view();
 }
 
-// Keeps `depth` in `next`, if that is wanted. The memory in it is used again.
+// Copies `depth` to `next` unless that is null. Its memory is reused.
 inline void remember(DepthView depth, Reference* next) {
     if (next == nullptr)
         return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plain loops over the rows of depth images that the codecs share.
+// Loops over the rows of depth images, shared by the codecs.
 //
-// Pixels are copied to and from bytes as they lie in memory, which is the
-// little-endian order of the formats on every machine that we build for.
+// Pixels are copied between images and bytes without conversion: all supported
+// machines are little-endian, as the formats are.
 #pragma once
 
 #include <cstring>
@@ -46,7 +46,7 @@ inline void add_rows(DepthView a, DepthView b, MutableDepthView out) {
     }
 }
 
-// Small numbers for small differences of either sign: 0, -1, 1, -2, ... become
+// Maps small differences of either sign to small numbers: 0, -1, 1, -2, ... become
 // 0, 1, 2, 3, ...
 constexpr std::uint16_t zigzag(std::uint16_t difference) {
     return std::uint16_t((difference << 1) ^ (difference & 0x8000 ? 0xffff : 0));

@@ -15,7 +15,7 @@ namespace {
 
 // --- Nibbles out -------------------------------------------------------------
 
-// The nibbles of a number below 512 and, from bit 12, how many they are.
+// The nibbles of a number below 512 and, from bit 12 on, their count.
 constexpr auto short_codes = [] {
     std::array<std::uint16_t, 512> codes{};
     for (unsigned v = 0; v < 512; ++v) {
@@ -28,8 +28,8 @@ constexpr auto short_codes = [] {
     return codes;
 }();
 
-// Collects nibbles, lowest first. Writes eight bytes at a time, of which the
-// last seven may be rewritten: the end of the buffer needs that much slack.
+// Collects nibbles, lowest first. Writes eight bytes at a time; up to seven of them
+// are overwritten later, so the buffer needs that much slack at its end.
 class NibbleWriter {
 public:
     explicit NibbleWriter(std::byte* out) : begin_(out), out_(out) {}
@@ -66,7 +66,7 @@ public:
         put_number(measured);
     }
 
-    // The bytes written, the last nibble filled up with zero.
+    // The number of bytes written. An unused half of the last byte is zero.
     std::size_t finish() const { return std::size_t(out_ - begin_) + (pending_count_ > 0 ? 1 : 0); }
 
 private:
@@ -100,7 +100,7 @@ std::size_t end_of_nonzeros(const std::uint16_t* values, std::size_t at, std::si
     return at;
 }
 
-// Writes the differences `codes`, zigzagged, of `count` (1 to 4) lanes.
+// Writes the zigzagged differences of the first `count` (1 to 4) lanes.
 inline void put_differences(NibbleWriter& out, Lanes codes, unsigned count) {
     codes &= lowest_lanes(count);
     if ((codes & 0xfe00'fe00'fe00'fe00) != 0) {
@@ -116,18 +116,18 @@ inline void put_differences(NibbleWriter& out, Lanes codes, unsigned count) {
     const std::uint64_t low = (c0 & 0xfff) | std::uint64_t(c1 & 0xfff) << (4 * n0);
     const std::uint64_t high = (c2 & 0xfff) | std::uint64_t(c3 & 0xfff) << (4 * n2);
     const std::uint64_t bits = low | high << (4 * (n0 + n1));
-    // The lanes that are not wanted became single zero nibbles at the end.
+    // The unused lanes gave single zero nibbles at the end, which are left out.
     out.put_bits(bits, 4 * (n0 + n1 + n2 + n3 - (4 - count)));
 }
 
 // --- Nibbles in --------------------------------------------------------------
 
-// What the next three nibbles mean as zigzagged differences: up to three whole
-// numbers, as running sums, so that one addition decodes them all.
-// Lanes 0 to 2 are the sums after one, two and three numbers; where there are
-// fewer they repeat the last. Lane 3 has, from bit 48 on: how many numbers there
-// are (2 bits), the nibbles of none, one, two and three of them (2 bits each), two
-// unused bits, and the bits of all together (4 bits).
+// Decodes the next three nibbles: up to three complete numbers, zigzagged differences,
+// as running sums, so that one addition decodes all of them.
+// Lanes 0 to 2 are the sums after one, two and three numbers; with fewer numbers the
+// last sum repeats. Lane 3, from bit 48 on: the count of numbers (2 bits), the nibbles
+// of none, one, two and three of them (2 bits each), two unused bits, and the bits of
+// all together (4 bits).
 constexpr unsigned numbers_in(std::uint64_t entry) {
     return unsigned(entry >> 48) & 3;
 }
@@ -151,7 +151,7 @@ constexpr auto short_decodes = [] {
                 value |= (nibble & 7) << (3 * (end - at));
                 ++end;
             } while (nibble >= 8 && end < 3);
-            // Unfinished, or a last group of zero that the encoder never writes.
+            // Incomplete, or with a zero as last group, which the encoder never writes.
             if (nibble >= 8 || (nibble == 0 && end - at > 1))
                 break;
             at = end;
@@ -166,13 +166,13 @@ constexpr auto short_decodes = [] {
     return entries;
 }();
 
-// Hands out nibbles, lowest first. Past the end there are zeros, and consumed()
-// tells.
+// Reads nibbles, lowest first. Past the end it reads zeros; consumed() then exceeds
+// the input.
 class NibbleReader {
 public:
     explicit NibbleReader(ByteView in) : in_(in) {}
 
-    // At least 14 nibbles from here on, lowest first.
+    // At least the next 14 nibbles, lowest first.
     std::uint64_t peek() {
         if (count_ < 56)
             refill();
@@ -183,7 +183,7 @@ public:
         count_ -= bits;
     }
 
-    // One number of up to `max`; false if the next nibbles are no such number.
+    // Reads one number up to `max`; false if the next nibbles are not such a number.
     bool get_number(std::uint32_t max, std::uint32_t& value) {
         std::uint64_t bits = peek();
         std::uint64_t result = 0;
@@ -207,7 +207,7 @@ private:
             std::memcpy(&next, in_.data() + at_, 8);
         else if (at_ < in_.size())
             std::memcpy(&next, in_.data() + at_, in_.size() - at_);
-        // Bits of a byte that only half fits are ORed in again, equal, next time.
+        // A byte that fits only in part is ORed in again, with equal bits, next time.
         window_ |= next << count_;
         const unsigned bytes = (63 - count_) / 8;
         at_ += bytes;
@@ -215,12 +215,12 @@ private:
     }
 
     ByteView in_;
-    std::size_t at_ = 0;  // the next byte to take; may run past the end
+    std::size_t at_ = 0;  // next byte to load; may run past the end
     std::uint64_t window_ = 0;
-    unsigned count_ = 0;  // bits of `window_` that count
+    unsigned count_ = 0;  // valid bits of `window_`
 };
 
-// Decodes runs into `values`. Every step says whether it could be done.
+// Decodes runs into `values`. Each step returns false on failure.
 class RunDecoder {
 public:
     RunDecoder(ByteView in, std::span<std::uint16_t> values)
@@ -228,7 +228,7 @@ public:
 
     bool done() const { return at_ == count_; }
 
-    // One run of empty pixels and one of measured ones.
+    // Decodes one run of empty pixels and one of measured pixels.
     bool decode_pair() {
         if (const std::uint64_t window = nibbles_.peek(); is_short_pair(window))
             return decode_short_pair(window);
@@ -236,15 +236,15 @@ public:
         if (!nibbles_.get_number(std::uint32_t(count_ - at_), empty) ||
             !nibbles_.get_number(std::uint32_t(count_ - at_ - empty), measured))
             return false;
-        // Also what follows a truncation: zeros without end.
+        // A truncated input also ends here: it continues as zeros.
         if ((empty == 0 && at_ > 0) || (measured == 0 && at_ + empty < count_))
             return false;
         put_empty(empty);
         const std::size_t end = at_ + measured;
-        // The very first pixel has no measured one before it.
+        // The first measured pixel has no predecessor.
         if (previous_ == 0 && measured > 0 && !decode_one())
             return false;
-        // Twelve, and one that is no short number; each store takes four pixels.
+        // Twelve short numbers and a long one; each store writes four pixels.
         while (end - at_ >= 13 && count_ - at_ >= 16) {
             if (!decode_up_to_13())
                 return false;
@@ -256,7 +256,7 @@ public:
         return true;
     }
 
-    // After a failed step: why.
+    // The reason of a failed step.
     Status problem() const {
         return nibbles_.consumed() > nibble_count_ ? Status::truncated : Status::malformed;
     }
@@ -272,15 +272,15 @@ public:
     }
 
 private:
-    // A pair of few pixels, as most are where pixels seldom change.
+    // True for a pair of short runs, the most frequent case where few pixels change.
     bool is_short_pair(std::uint64_t window) const {
         const bool single_nibbles = (window & 0x88) == 0;
         const bool both = (window & 0x07) != 0 && (window & 0x70) != 0;
         return single_nibbles && both && previous_ != 0 && count_ - at_ >= 16;
     }
 
-    // Its lengths and first measured pixels come from one window, without asking
-    // how many they are: a wrong guess would cost more than the work.
+    // Decodes lengths and first measured pixels from one window, without a branch on
+    // the number of pixels: a misprediction would cost more than the unneeded work.
     bool decode_short_pair(std::uint64_t window) {
         const unsigned empty = window & 7;
         const unsigned measured = window >> 4 & 7;
@@ -313,8 +313,8 @@ private:
         at_ += count;
     }
 
-    // As many pixels as one window holds, without asking for the end of the run.
-    // A number that no look-up knows makes the rest of them do nothing.
+    // Decodes all pixels in one window, without a check for the end of the run. A number
+    // that is not in the table makes the remaining look-ups advance by nothing.
     bool decode_up_to_13() {
         std::uint64_t window = nibbles_.peek();
         std::uint16_t* to = v_ + at_;
@@ -363,14 +363,14 @@ private:
     std::size_t count_;
     std::size_t at_ = 0;
     std::uint16_t previous_ = 0;  // the last measured pixel, 0 before the first
-    Lanes zero_seen_ = 0;         // not zero once a measured pixel was
+    Lanes zero_seen_ = 0;         // non-zero after a measured pixel of value 0: malformed
 };
 
 }  // namespace
 
 std::size_t max_encoded_runs(std::size_t count) {
-    // A measured pixel takes six nibbles at most, the lengths of runs at most one
-    // for each pixel and two more.
+    // At most six nibbles per measured pixel; run lengths take at most one nibble per
+    // pixel and two more.
     return (7 * count + 2) / 2 + 1 + write_slack;
 }
 

@@ -49,7 +49,7 @@ TEST(Rvl, CodesTheLargestDifferencesAndLongestRuns) {
     EXPECT_EQ(decoded, values);
 }
 
-// Differences and runs around every length of the code and of the fast paths.
+// Differences and runs of all code lengths, and at the limits of the fast paths.
 TEST(Rvl, CodesEveryMixOfLengths) {
     std::mt19937 random(3);
     const int steps[] = {0, 1, 3, 4, 7, 31, 32, 40, 255, 256, 300, 2047, 2048, 16383, 20000};
@@ -70,7 +70,7 @@ TEST(Rvl, CodesEveryMixOfLengths) {
     }
 }
 
-// What follows a run must not be taken for a part of it, whatever it looks like.
+// The bytes after a run must not be decoded as part of it, whatever their value.
 TEST(Rvl, EndsRunsWhereTheyEnd) {
     for (std::size_t measured = 1; measured < 40; ++measured) {
         for (const std::size_t empty : {1u, 7u, 8u, 9u, 511u, 512u, 5000u}) {
@@ -101,7 +101,7 @@ TEST(Rvl, TruncationsAreCalledTruncated) {
     const Bytes whole = encoded_runs(image.pixels);
     for (std::size_t n = 0; n < whole.size(); ++n) {
         const Bytes part(whole.begin(), whole.begin() + std::ptrdiff_t(n));
-        // A cut inside a number can leave a shorter number in its longest spelling.
+        // A cut inside a number can leave a shorter number with a needless last group.
         const Status status = decoded_runs(part, image.pixels.size());
         EXPECT_TRUE(status == Status::truncated || status == Status::malformed) << n;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The codecs that are pure functions, in the shape of the family.
+// Adapters from the pure codec functions to DepthCodec.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test vectors of docs/formats for raw, trvl, ans, zstd and lz4, and what the planes
-// of zstd and lz4 hold.
+// The test vectors of docs/formats for raw, trvl, ans, zstd and lz4, and the planes of
+// zstd and lz4.
 #include <gtest/gtest.h>
 
 #include "codec/ans.h"
@@ -65,7 +65,7 @@ TEST(Ans, BytesAreAsSpecified) {
     EXPECT_EQ(out, expected);
 }
 
-// Numbers of every size, with every remainder of the four parts.
+// Numbers of all sizes, and counts with all remainders of the four parts.
 TEST(Ans, CodesAnyNumbers) {
     std::mt19937 random(9);
     ans::Workspace work;
@@ -120,7 +120,7 @@ TEST(Ans, SymbolsPartitionTheNumbers) {
     EXPECT_EQ(last + 1, Symbols::size);
 }
 
-// Decoding only: the same pixels may be compressed in more than one way.
+// Decoding only: other LZ4 versions may compress the same pixels differently.
 TEST(Lz4, DecodesTheSpecifiedBytes) {
     if (!has_lz4())
         GTEST_SKIP() << "built without LZ4";
@@ -133,7 +133,7 @@ TEST(Lz4, DecodesTheSpecifiedBytes) {
     EXPECT_EQ(decoded, four_by_two({0, 0, 1001, 999, 1001, 999, 7, 1}));
 }
 
-// Decoding only: the same pixels may be compressed in more than one way.
+// Decoding only: other zstd versions may compress the same pixels differently.
 TEST(Zstd, DecodesTheSpecifiedBytes) {
     if (!has_zstd())
         GTEST_SKIP() << "built without zstd";

@@ -17,7 +17,7 @@ namespace {
 
 using namespace strata;
 
-// Bits that these tokens cost with ideal tables; contexts apart.
+// Bits of these tokens under ideal probability tables; excludes context bits.
 double ideal_bits(const Counts& counts) {
     double bits = 0;
     for (unsigned c = 0; c < coded_contexts; ++c) {
@@ -35,16 +35,17 @@ double ideal_bits(const Counts& counts) {
     return bits;
 }
 
-// Which way of predicting pays is tried on an intra frame, on the first that
-// refers to it, and then now and again; other frames do as their reference.
+// The age selects frames on which both predictors are tried (blend_pays): intra
+// frames, the first frame that refers to one, and then every eighth. Other frames
+// use the predictor of their reference.
 std::uint8_t next_age(bool delta, const Memory& before) {
     constexpr int period = 8;
     return delta ? std::uint8_t(before.head->age % period + 1) : std::uint8_t(0);
 }
 
-// What the coding of one image needs and nobody reads afterwards. It is the thread's and
-// not the codec's: codecs of many cameras that take turns would push each other's memory
-// out of the caches. Where pixels were are tokens when they are coded.
+// Temporary buffers for one image. They belong to the thread, not to the codec: the
+// codecs of many cameras that take turns on a thread would evict each other's buffers
+// from the caches. Tokens overwrite the pixels in place.
 struct Scratch {
     std::vector<std::uint16_t> pixels, trial_tokens, extras, words, moved;
     std::vector<std::uint8_t> has_extra;
@@ -116,7 +117,7 @@ void Codec::prepare(Size size) {
     Scratch::of_this_thread().pixels.resize(layout_.coded_values());
 }
 
-// The region by step and lane.
+// The region in step order, redrawn when it changes.
 const std::uint8_t* Codec::draw(const Region& region) {
     if (!region_steps_.empty() && drawn_ == region)
         return region_steps_.data();
@@ -146,7 +147,7 @@ void Codec::encode_and_count(const Model& model, const std::uint16_t* pixels,
         scratch.counts[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
 }
 
-// Tries both ways of predicting on 32 rows in the middle of the image.
+// Tries both predictors on the 32 rows in the middle of the image.
 bool Codec::blend_pays(Model model, CodedPixels coded) {
     Scratch& scratch = Scratch::of_this_thread();
     const int group = (layout_.groups - 1) / 2;
@@ -190,7 +191,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
     Values old_values, values;
     if (payload.delta) {
         old_values = values = before.values();
-        // Too many values: begin anew.
+        // More values than a list holds: encode an intra frame instead.
         if (!values.empty() && !tables_.to_ranks(layout_, depth, values, scratch.pixels.data()))
             payload.delta = false;
     }
@@ -201,7 +202,7 @@ std::size_t Codec::encode(DepthView depth, const Reference* reference, std::span
             tables_.to_ranks(layout_, depth, values, scratch.pixels.data());
     }
     payload.ranks = !values.empty();
-    // Ranks are worth more than a tolerance, where they are used.
+    // Ranks save more than a tolerance would (find_values).
     if (payload.ranks)
         payload.tolerance = {};
     const bool lossy = !payload.tolerance.lossless();

@@ -2,9 +2,9 @@
 // Strata's entropy coder: 32 range coders (rANS), one per lane, which share one
 // sequence of 16-bit words. Included once per instruction set.
 //
-// The encoder goes from the last step to the first and appends words; the
-// decoder goes forward and takes words from the end. In both, the words of one
-// phase of a step lie in the order of the lanes.
+// The encoder runs from the last step to the first and appends words. The
+// decoder runs forwards and takes words from the end. A step has up to two
+// rounds, tokens and further bits; in a round the words are in lane order.
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <cstring>
@@ -36,7 +36,8 @@ HWY_INLINE void store16(V32 v, std::uint16_t* to) {
 
 HWY_INLINE V32 gather(const std::uint32_t* from, hn::Vec<S32> index) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-    // Into a register that is 0: the instruction waits for what stood there before.
+    // The destination is a zeroed register: the instruction would otherwise wait
+    // for the register's previous value.
     return V32{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, index.raw, from, 4)};
 #else
     return hn::GatherIndex(D32(), from, index);
@@ -44,8 +45,8 @@ HWY_INLINE V32 gather(const std::uint32_t* from, hn::Vec<S32> index) {
 }
 
 #if !(HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86) && HWY_TARGET != HWY_SCALAR
-// Shuffles of 8 words for each set of lanes: those of the set to the front, and
-// the first words to the set.
+// Byte shuffles of a vector of 8 words, for each set of lanes. `front` moves the
+// words of the lanes in the set to the front; `spread` is its inverse.
 struct WordShuffles {
     alignas(16) std::uint8_t front[256][16] = {}, spread[256][16] = {};
     constexpr WordShuffles() {
@@ -78,7 +79,8 @@ HWY_INLINE hn::Vec<Half16> shuffle(hn::Vec<Half16> words, const std::uint8_t* by
 }
 #endif
 
-// The first words, in order, to the lanes of the mask; anything to the others.
+// Distributes the first words, in order, to the lanes of the mask. Other lanes
+// are unspecified.
 HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     return V32{_mm512_maskz_expand_epi32(mask.raw, load32(words).raw)};
@@ -86,7 +88,7 @@ HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
     return hn::PromoteTo(D32(),
                          shuffle(hn::LoadU(Half16(), words), word_shuffles.spread[set_of(mask)]));
 #else
-    // Of four lanes one by one: a shuffle is not faster, and slower in WebAssembly.
+    // A scalar loop for four lanes: a shuffle is not faster, and slower in WebAssembly.
     const D32 d;
     alignas(64) std::uint32_t wanted[chunk_lanes];
     hn::Store(hn::IfThenElseZero(mask, hn::Set(d, 1)), d, wanted);
@@ -100,7 +102,7 @@ HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
 #endif
 }
 
-// How many bits follow each token.
+// The number of further bits of each token.
 HWY_INLINE V32 extra_bits_of(V32 token) {
     const D32 d;
     const V32 of_long = hn::Sub(hn::ShiftRight<1>(token), hn::Set(d, 10));
@@ -110,7 +112,7 @@ HWY_INLINE V32 extra_bits_of(V32 token) {
 static_assert(extra_bits(first_long_token) == first_long_token / 2 - 10);
 static_assert(extra_bits(literal_high_token) == literal_high_token / 2 - 10);
 
-// 16-bit values as 32-bit ones and, if they fit, back.
+// Converts 16-bit lanes to 32-bit lanes, and back, keeping the low 16 bits.
 #if HWY_TARGET == HWY_SCALAR
 inline constexpr int wide_parts = 1;
 HWY_INLINE void widen(V16 v, V32 (&wide)[wide_parts]) {
@@ -144,8 +146,8 @@ public:
             states_[i] = hn::LoadU(D32(), stream.states.data() + i * chunk_lanes);
     }
 
-    // Reads one token of each lane, and the code of its difference: zigzag of
-    // the difference, or the depth of a literal. False if the words ran out.
+    // Reads one token per lane, and its code: the zigzagged difference, or the
+    // depth itself for a literal. False if the words ran out.
     HWY_INLINE bool read(const Prediction (&predictions)[part_count], V16 (&tokens)[part_count],
                          V16 (&codes)[part_count]) {
         const D32 d;
@@ -177,7 +179,7 @@ public:
         return left_ >= 0;
     }
 
-    // True if all that the encoder wrote has been read, and nothing else.
+    // True if the encoder's output was consumed exactly.
     bool at_end() const {
         const D32 d;
         auto wrong = hn::Zero(d);
@@ -213,7 +215,7 @@ private:
         refill();
     }
 
-    // Gives every state that became small a word.
+    // Renormalises: each state below least_state takes one word.
     HWY_INLINE void refill() {
         const D32 d;
         M32 small[max_chunks];
@@ -239,7 +241,7 @@ private:
     V32 states_[max_chunks];
 };
 
-// Moves the low halves of the marked states to the words.
+// Renormalises the marked states: appends their low 16 bits to the words.
 HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     const D32 d;
     const V32 low = hn::And(state, hn::Set(d, 0xffff));
@@ -247,7 +249,7 @@ HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     store16(hn::Compress(low, mask), out);
     out += hn::CountTrue(d, mask);
 #else
-    // Highway's own compression of four or eight lanes copies its table each time.
+    // Highway's own Compress of four or eight lanes copies its table on each call.
     const unsigned set = set_of(mask);
     const auto words = hn::DemoteTo(Half16(), hn::BitCast(S32(), low));
     hn::StoreU(shuffle(words, word_shuffles.front[set]), Half16(), out);
@@ -256,9 +258,9 @@ HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     return hn::IfThenElse(mask, hn::ShiftRight<16>(state), state);
 }
 
-// A little less than 1 / v: a quotient between 1 and 2^20, made with it and rounded
-// down, is right or one too small. (It is off by at most 2^-21 * (1 + 1/4 + 1/2) of
-// itself, from the factor, the approximation and the four roundings.)
+// Slightly less than 1 / v. A quotient between 1 and 2^20 that is computed with it
+// and rounded down is exact or one too small. (The relative error is at most
+// 2^-21 * (1 + 1/4 + 1/2): the factor, the approximation and four roundings.)
 HWY_INLINE hn::Vec<F32> reciprocal(hn::Vec<F32> v) {
     const F32 d;
 #if HWY_ARCH_X86
@@ -272,7 +274,8 @@ HWY_INLINE hn::Vec<F32> reciprocal(hn::Vec<F32> v) {
 void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequencies& frequencies,
                    Stream& stream) {
     const D32 d;
-    // In registers, if there are few: each step waits for the one before.
+    // An array of vectors, kept in registers where enough exist: the steps form one
+    // dependency chain.
     V32 states[max_chunks];
     for (V32& state : states)
         state = hn::Set(d, least_state);
@@ -301,8 +304,8 @@ void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequen
             const V32 bound = hn::Sub(hn::ShiftLeft<20>(frequency), hn::Set(d, 1));
             const V32 state = emit(states[i], above(states[i], bound), out);
 
-            // The quotient is right or one too small, which the remainder shows. In a
-            // number between 2^23 and 2^24 it stands in the lowest bits.
+            // The quotient is exact or one too small; the remainder tells which. Adding
+            // 2^23 puts the integer quotient into the lowest bits of the mantissa.
             const auto sum =
                 hn::MulAdd(hn::ConvertTo(F32(), hn::BitCast(S32(), state)),
                            reciprocal(hn::ConvertTo(F32(), hn::BitCast(S32(), frequency))),
@@ -331,7 +334,7 @@ HWY_INLINE V16 unzigzag(V16 code) {
     return hn::Xor(hn::ShiftRight<1>(code), sign);
 }
 
-// How far a pixel of this depth may be off.
+// The largest error allowed for a pixel of this depth.
 HWY_INLINE V16 tolerance_at(const Model& model, V16 depth, const std::uint8_t* region) {
     const D16 d;
     const V16 square = hn::ShiftRight<4>(hn::MulHigh(depth, depth));
@@ -341,7 +344,7 @@ HWY_INLINE V16 tolerance_at(const Model& model, V16 depth, const std::uint8_t* r
     return hn::IfThenZeroElse(hn::Gt(inside, hn::Zero(d)), hn::Min(sum, hn::Set(d, 2047)));
 }
 
-// What one unit of a coded difference stands for.
+// The quantiser's interval: depth units per unit of a coded difference.
 HWY_INLINE V16 step_width(const Model& model, V16 prediction, const std::uint8_t* region) {
     const V16 off = tolerance_at(model, prediction, region);
     return hn::Add(hn::Add(off, off), hn::Set(D16(), 1));
@@ -349,7 +352,7 @@ HWY_INLINE V16 step_width(const Model& model, V16 prediction, const std::uint8_t
 
 struct Quantised {
     V16 difference;
-    V16 depth;  // what the decoder will have
+    V16 depth;  // as the decoder reconstructs it
     V16 literal, literal_token;
     hn::Mask<D16> is_literal;
 };
@@ -365,8 +368,8 @@ HWY_INLINE Quantised quantise(const Model& model, V16 prediction, V16 depth,
     alignas(64) std::uint16_t dividend[hn::MaxLanes(d)], divisor[hn::MaxLanes(d)];
     hn::Store(hn::Add(size, hn::ShiftRight<1>(width)), d, dividend);
     hn::Store(width, d, divisor);
-    // 16-bit quotients are exact in floating point: two of them that differ do
-    // so by more than its rounding.
+    // Single precision gives exact 16-bit quotients: two different quotients are
+    // further apart than its rounding error.
     const auto as_float = [](const std::uint16_t* from) HWY_ATTR {
         return hn::ConvertTo(F32(), hn::BitCast(S32(), load32(from)));
     };

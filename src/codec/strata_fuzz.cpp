@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes, as an intra frame and against a reference: decoding stays inside its
-// buffers (the sanitizers watch). Bytes that are accepted: encoding the result and
-// decoding that gives the same depth.
+// Two properties, for intra frames and frames with a reference. Any bytes: decoding
+// stays inside its buffers (the sanitizers check). Accepted bytes: encoding the
+// result and decoding that gives the same depth.
 #include <cstdlib>
 
 #include "codec/strata.h"

@@ -11,7 +11,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-// In this order: each uses the one before.
+// The order matters: each file uses the one before.
 #include "codec/strata_model-inl.h"
 
 #include "codec/strata_coder-inl.h"
@@ -21,8 +21,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace theatron::codec::strata::HWY_NAMESPACE {
 
-// Everything that walks over the steps: the planes, the traces, and the rows of
-// lane 31 that lane 0 will need.
+// Iterates over the steps. Owns the traces, and carries values between groups: lane 0
+// needs those of lane 31 of the previous group.
 template <bool blend>
 class Walk {
 public:
@@ -37,7 +37,7 @@ public:
         }
     }
 
-    // Prepares the step's copies of lanes of other groups.
+    // Fills the values beside the lanes with those of the neighbouring groups.
     Step begin(int index) {
         const auto row = std::size_t(index + plane_margin);
         const std::size_t at = row * plane_stride + plane_origin;
@@ -71,8 +71,8 @@ public:
         return step;
     }
 
-    // Ends a step. What other groups need of it is copied a few steps later,
-    // when it has left the processor's store queue.
+    // Ends a step. Its values for other groups are copied copy_lag steps later, when
+    // the stores have left the processor's store queue and can be read without a stall.
     void end(int index) {
         copy_lanes(index - copy_lag);
         if (++position_ == model_.layout.pitch) {
@@ -100,7 +100,7 @@ private:
                (group_ + 1) * lane_count <= size.height;
     }
 
-    // Those of steps before the first are 0.
+    // Traces of lane 31 at an earlier step; 0 for steps before the first.
     std::uint16_t* delayed(int index) {
         return delayed_.data() + std::size_t(index & (delayed_steps_ - 1)) * kept_traces;
     }
@@ -133,8 +133,8 @@ HWY_INLINE void load_weights(const Weights& from, LinearWeights& weights) {
         weights[i] = hn::Set(S16(), from[i]);
 }
 
-// The code of each difference as a token. True if any has further bits; they are
-// then stored.
+// Converts zigzagged differences to tokens. Returns true and stores the further bits
+// if any token has some.
 HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     const D16 d;
     token = hn::Add(code, hn::Set(d, first_token));
@@ -146,8 +146,8 @@ HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     V32 wide[wide_parts], tokens[wide_parts], extras[wide_parts];
     widen(code, wide);
     for (int i = 0; i < wide_parts; ++i) {
-        // As a floating-point number a code shows its highest bit in the
-        // exponent, and the next one in front of the rest of the mantissa.
+        // In floating point, the exponent holds the position of the highest bit, and
+        // the top mantissa bit is the next one. Bits 22 and up are both together.
         const V32 as_float = hn::BitCast(d32, hn::ConvertTo(F32(), hn::BitCast(S32(), wide[i])));
         const V32 halves = hn::Sub(hn::ShiftRight<22>(as_float), hn::Set(d32, 2 * 127));
         const V32 bits = hn::Sub(hn::ShiftRight<1>(halves), one);
@@ -159,8 +159,8 @@ HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     return true;
 }
 
-// Counts the tokens of one step. In several tables, so that equal tokens in a
-// row do not wait for each other.
+// Counts the tokens of one step. Four tables are used in turn, so that increments of
+// equal tokens do not depend on each other.
 HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
     for (int lane = 0; lane < lane_count; lane += 4) {
         for (int i = 0; i < 4; ++i)
@@ -171,7 +171,7 @@ HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
 template <bool temporal, bool blend, bool lossy>
 void encode_steps(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded) {
     const D16 d;
-    constexpr int count_lag = 2;  // steps until tokens can be read without waiting
+    constexpr int count_lag = 2;  // steps until stored tokens can be read without a stall
     Walk<blend> walk(model);
     LinearWeights weights;
     load_weights(model.weights, weights);
@@ -186,14 +186,14 @@ void encode_steps(const Model& model, const std::uint16_t* pixels, const CodedPi
                 window = begin_window<temporal>(step, lane);
             const std::size_t at = std::size_t(t) * lane_count + lane;
             Prediction p = predict<temporal, blend>(weights, step, walk.traces, window, lane);
-            // Where there is no pixel stands 0, as in a hole.
+            // Positions outside the image hold 0, like a hole.
             V16 depth = hn::LoadU(d, pixels + at);
             const V16 one = hn::Set(d, 1);
             const auto is_measured = hn::Gt(hn::Add(depth, one), one);
 
             V16 difference = hn::IfThenElseZero(is_measured, hn::Sub(depth, p.depth));
             V16 token;
-            // 0 and 65535 as tokens.
+            // Depths 0 and 65535 become tokens 0 and 1.
             const V16 hole = hn::And(depth, one);
             std::uint16_t* const extra = coded.extra + at;
             if constexpr (lossy) {
@@ -270,7 +270,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             const std::size_t at = std::size_t(t) * lane_count + lane;
             Prediction& p = predictions[part];
             const V16 token = tokens[part], code = codes[part];
-            // Where there is no pixel, the token is a hole.
+            // Positions outside the image decode to a hole.
             const auto is_measured = hn::Gt(token, hn::Set(d, literal_low_token - 1));
 
             V16 difference = hn::Sub(hn::Xor(unzigzag(code), p.flip), p.flip);
@@ -289,7 +289,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             } else {
                 depth = hn::Add(p.depth, difference);
             }
-            // 0 or 65535 from the token.
+            // Tokens 0 and 1 become depths 0 and 65535.
             const V16 hole = hn::Sub(hn::Zero(d), token);
             hn::StoreU(hn::IfThenElse(is_measured, depth, hole), d, pixels + at);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inner loops of Strata, on skewed planes (strata_layout.h), for the best
-// instructions of this CPU.
+// The inner loops of Strata on skewed planes (strata_layout.h), compiled for every
+// instruction set and selected at run time.
 //
-// The model goes over all steps, predicts each pixel from pixels that both sides
-// have, and chooses its context. The encoder's model pass turns pixels into
-// tokens; the decoder does the same step by step while it reads tokens.
+// The model runs over all steps, predicts each pixel from pixels that both sides
+// know, and selects its context. The encoder runs the model over the whole image
+// first and gets tokens; the decoder runs it step by step while it reads tokens.
 #pragma once
 
 #include <array>
@@ -18,100 +18,104 @@
 
 namespace theatron::codec::strata {
 
-// Weights of the linear predictor in 2^-15, for the differences of these pixels
-// to the mean of the left and upper one: left, upper left, upper right, two to
-// the left, two above, two right of above; in the reference the same place,
-// left, above, right, below.
+// Weights of the linear predictor, in units of 2^-15. Each weight multiplies the
+// difference between one neighbour (tap) and the mean of left and upper neighbour.
+// Order of the taps: left, upper left, upper right, second left, second above, and
+// (x + 2, y - 1); then in the reference frame: same place, left, above, right, below.
 inline constexpr int tap_count = 11;
 inline constexpr int intra_taps = 6;
 using Weights = std::array<std::int16_t, tap_count>;
 
-// How far a pixel may be off: constant + squared * (depth / 1024)^2, at most
-// 2047, and 0 in the region.
+// The largest error allowed per pixel: constant + squared * (depth / 1024)^2, at
+// most 2047; 0 inside the region.
 struct Tolerance {
     std::uint16_t constant = 0;
     std::uint16_t squared = 0;
     bool lossless() const { return constant == 0 && squared == 0; }
 };
 
-// What the model of both sides takes. Planes start plane_margin steps before
-// step 0. Of `valid`, bit plane_origin + k is lane k's.
+// Input and output of the model on either side; pointers are not owned. Planes
+// start plane_margin steps before step 0. Bit plane_origin + k of an element of
+// `valid` belongs to lane k.
 struct Model {
     Layout layout;
     const std::uint16_t* reference_depth = nullptr;  // null: an intra frame
     const std::uint64_t* reference_valid = nullptr;
-    std::uint16_t* depth = nullptr;  // receives the depth with holes filled
-    std::uint64_t* valid = nullptr;  // receives where depth was measured
+    std::uint16_t* depth = nullptr;  // written: depth with holes filled
+    std::uint64_t* valid = nullptr;  // written: bits of the measured pixels
     Weights weights{};
-    bool blend = false;  // choose among predictors by their errors nearby
+    bool blend = false;  // choose among predictors by their errors on the neighbours
     Tolerance tolerance;
-    const std::uint8_t* region = nullptr;  // by step and lane: 255 where exact; if lossy
+    const std::uint8_t* region = nullptr;  // by step and lane, 255 = exact; unused if lossless
 };
 
-// How often each token occurs in each context; the sum of the tables counts.
+// Occurrences of each token in each context, spread over four tables to be summed.
 struct TokenCounts {
     std::array<Counts, 4> of;
 };
 
-// What the model pass makes of the pixels. One value per step and lane, without
-// margins, but has_extra, which is by step. `token` may be where the pixels are.
+// Output of the encoder's model pass: one value per step and lane, without
+// margins; has_extra has one per step. `token` may be the array of the pixels.
 struct CodedPixels {
     std::uint16_t* token = nullptr;     // context * token_count + token
     std::uint16_t* extra = nullptr;     // only where a token has further bits
     std::uint8_t* has_extra = nullptr;  // 1 if any lane's token has further bits
-    TokenCounts* counts = nullptr;      // is added to
+    TokenCounts* counts = nullptr;      // incremented
 };
 
-// The model pass of the encoder. `pixels` holds the depth by step and lane, 0 outside
-// the image.
+// Runs the encoder's model over all steps. `pixels` holds the depth by step and
+// lane, 0 outside the image.
 void encode_model(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded);
 
-// Where the encoder's words go, and the states that the decoder starts from.
+// The entropy coded words, and the states from which the decoder starts.
 struct Stream {
     std::uint16_t* words = nullptr;
     std::size_t word_count = 0;
     std::array<std::uint32_t, lane_count> states{};
 };
 
-// Most words that encode_tokens can write, and slack for whole vectors.
+// The largest number of words that encode_tokens writes, whole vectors included.
 inline std::size_t max_words(const Layout& layout) {
     return 2 * layout.coded_values() + 2 * lane_count;
 }
-inline constexpr std::size_t word_slack = 2 * lane_count;  // readable after and before the words
+inline constexpr std::size_t word_slack = 2 * lane_count;  // readable before and after the words
 
+// Entropy codes the tokens into `stream`, whose buffer holds max_words words.
 void encode_tokens(const Layout& layout, const CodedPixels& coded, const Frequencies& frequencies,
                    Stream& stream);
 
-// Decodes all steps. `pixels` receives the depth by step and lane. False if the
-// stream is not one that encode_tokens could have written.
+// Decodes all steps. `pixels` receives the depth by step and lane. False if
+// encode_tokens could not have written the stream.
 bool decode_steps(const Model& model, const SlotTable& slots, const Stream& stream,
                   std::uint16_t* pixels);
 
-// Rows to steps, 0 outside the image, and back, through a table if there is one.
+// Converts rows to step order, 0 outside the image, and back. The way back maps
+// each value through `depths` (65536 entries) unless it is null.
 void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels);
 void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, const std::uint16_t* depths,
                    MutableDepthView out);
 
-// Rows to steps through a table of the rank of each depth. Depths without one have no_rank;
-// they are found, once, and marked in the table. Found are also the bands of 8 rows in
-// which no_rank or 65535 occurs. With `bands` only those are done, and nothing is found.
+// Converts rows to step order and maps each depth through `ranks` (65536 entries).
+// A depth whose entry is no_rank is appended once to `found.depths` and marked in
+// `ranks`; the 8-row bands that contain such a depth or 65535 go to `found.bands`.
+// With `bands`, only those bands are converted, and `found` receives nothing.
 inline constexpr std::uint16_t no_rank = 0x7fff;
 struct NewDepths {
     std::vector<std::uint16_t> depths;
-    std::vector<int> bands;           // their first rows
+    std::vector<int> bands;           // first row of each
     std::vector<std::uint16_t> band;  // scratch memory
 };
 void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>* bands,
                    std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found);
 
-// Sums for the linear predictor's normal equations over a sample of the pixels:
-// the upper triangle of taps by taps, then taps by target.
+// Accumulates the normal equations of the linear predictor over a sample of the
+// pixels: the upper triangle of taps by taps, each row followed by tap times target.
 inline constexpr int equation_count = tap_count * (tap_count + 1) / 2 + tap_count;
 using Equations = std::array<double, equation_count>;
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations);
 
-// Adds to each number how many of the bounds it reaches. `to` may be `from`.
+// Adds to each rank the number of bounds that are not above it. `to` may be `from`.
 void shift_ranks(const std::uint16_t* from, std::size_t count, const std::uint16_t* bounds,
                  std::size_t bound_count, std::uint16_t* to);
 

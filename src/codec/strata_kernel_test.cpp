@@ -18,7 +18,7 @@ namespace {
 
 using namespace strata;
 
-// All that a model needs, as planes of its own.
+// A model with planes of its own.
 struct Planes {
     explicit Planes(Size size)
         : layout(layout_of(size)),
@@ -53,7 +53,7 @@ struct Planes {
     TokenCounts counts;
 };
 
-// Two frames, the second refers to the first, and what the reference makes of them.
+// Two frames, the second refers to the first, and the reference model's result.
 struct ReferenceCase {
     ReferenceCase(Size size, bool blend) : blend(blend) {
         ReferenceModel first(size, weights, blend), second(size, weights, blend);
@@ -69,8 +69,8 @@ struct ReferenceCase {
     std::array<std::vector<ReferenceModel::Coded>, 2> expected;
 };
 
-// Heights with and without a remainder after groups of 32 rows; widths shorter and longer
-// than what lane 0 does of the row after the last group.
+// Heights that are and are not multiples of 32; widths below and above the part of the
+// row after the last group that lane 0 reaches.
 TEST(StrataKernel, EveryTargetEqualsTheReference) {
     std::vector<ReferenceCase> cases;
     for (const Size size : {Size{1, 1}, Size{40, 35}, Size{160, 70}, Size{100, 64}, Size{121, 32},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Strata remembers of a frame besides its depth, as bytes in
-// Reference::memory: never sent, the same on both sides.
+// The part of a Strata reference frame other than its depth image, kept as bytes in
+// Reference::memory. It is never sent; both sides compute it equally.
 #pragma once
 
 #include "base/bytes.h"
@@ -10,7 +10,7 @@
 
 namespace theatron::codec::strata {
 
-// The part in front of the planes.
+// The header in front of the planes.
 struct MemoryHead {
     std::uint32_t magic = 0;
     std::uint16_t width = 0, height = 0;
@@ -23,7 +23,7 @@ struct MemoryHead {
 
 inline constexpr std::uint32_t memory_magic = 0x31a7a257;
 
-// A view of the memory's parts.
+// Pointers to the parts of the bytes, not owned.
 struct Memory {
     MemoryHead* head = nullptr;
     std::uint16_t* depth = nullptr;
@@ -34,10 +34,11 @@ struct Memory {
     }
 };
 
-// Gives `bytes` the size that the layout needs; contents are unspecified.
+// Resizes `bytes` for the layout; contents are unspecified. The result points into
+// `bytes`.
 Memory make_memory(const Layout& layout, Bytes& bytes);
 
-// False if the bytes are not a memory of this layout.
+// Checks and opens bytes of make_memory. False if they do not belong to this layout.
 bool open_memory(const Layout& layout, const Bytes& bytes, Memory& memory);
 
 }  // namespace theatron::codec::strata

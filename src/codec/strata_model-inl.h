@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of Strata's model for some of the lanes, in vectors of 16-bit values.
+// One step of Strata's model for one vector (part) of the 32 lanes.
 // Included once per instruction set, by strata_kernel.cpp.
 //
-// All arithmetic is modulo 2^16, so that each side gets equal results whatever
-// the pixels are. docs/formats/depth_strata.md has the same in words.
+// All arithmetic is modulo 2^16, so that encoder and decoder get equal results for
+// any pixels. docs/formats/depth_strata.md specifies the model.
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <algorithm>
@@ -25,58 +25,59 @@ using VS16 = hn::Vec<S16>;
 inline constexpr int part_lanes = int(hn::MaxLanes(D16()));
 inline constexpr int part_count = lane_count / part_lanes;
 
-// What the row below needs of a step, three steps later and one lane further.
-// Only the first where predictors are not chosen by their errors.
+// Values of a step that the row below reads three steps later, one lane further.
+// Without blend only the first kind is kept.
 enum Trace { marks_above, triple0, triple1, triple2, triple3, trace_count };
 
-// How well a pixel was predicted, at most 255, and whether it was measured, as one
-// number: sums of several, up to six in all, are sums of both.
+// A mark packs the residual of a pixel (at most 255) and a flag for "measured" into
+// one number. The sum of up to six marks holds both sums: residuals in the low 12
+// bits, the count of measured pixels above.
 inline constexpr std::uint16_t measured_mark = 1 << 12;
 
 struct Traces {
-    // Lanes from value trace_origin on, in front of them the lane above lane 0.
+    // Lane 0 is at trace_origin; the value in front of it belongs to the lane above.
     static constexpr int trace_stride = 64, trace_origin = 32;
     alignas(64) std::uint16_t of[8][trace_count][trace_stride] = {};
 
     std::uint16_t* at(int step, int trace) { return of[step & 7][trace] + trace_origin; }
 };
 
-// The planes at lane 0 of a step, and where that lane is.
+// Pointers to lane 0 of one step in the planes, and the position of lane 0.
 struct Step {
     std::uint16_t* depth;
     std::uint64_t* valid;
     const std::uint16_t* reference_depth;
     const std::uint64_t* reference_valid;
     int index;
-    int position, group;
-    bool inside;  // all lanes are at a pixel
+    int position, group;  // of lane 0
+    bool inside;          // all lanes are at a pixel
 };
 
-// What some of the lanes carry from one step to the next: pixels at their left,
-// those above that were seen before, and how well the last predictions were. An
-// 8 in a name: eight times the depth.
+// State that the lanes of a part carry from step to step: neighbours to the left,
+// neighbours above that were already loaded, and the errors of recent predictions.
+// A suffix 8 means eight times the depth.
 struct Window {
     V16 left, left8, far_left8;
-    V16 upper_left, upper8[3];  // right above, above, upper left
+    V16 upper_left, upper8[3];  // upper8: upper right, above, upper left
     V16 before, before_left;    // in the reference
     V16 before8[2];
-    V16 mark[2], two_marks;       // of the last two steps, and twice that of the last
-    V16 error[4], two_errors[4];  // of the last step, and of the last two together
+    V16 mark[2], two_marks;       // marks of the last two steps; twice the last one
+    V16 error[4], two_errors[4];  // per candidate: of the last step; sum of the last two
 };
 
-// What the model says about the pixels of some lanes.
+// The model's output for the pixels of a part.
 struct Prediction {
     V16 candidate[4];
     V16 depth;    // the prediction
-    V16 context;  // as if there were a pixel
-    V16 flip;     // all bits set where differences have the opposite sign
+    V16 context;  // assumes that every position is a pixel
+    V16 flip;     // all bits set where the difference is coded with the opposite sign
 };
 
 HWY_INLINE V16 load(const std::uint16_t* plane, int steps_ago, int lane) {
     return hn::LoadU(D16(), plane - std::ptrdiff_t(steps_ago) * plane_stride + lane);
 }
 
-// Some lanes of a step's bits, the first as the lowest bit.
+// Converts the lowest bits of a 64-bit mask to a vector mask, and back.
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
 HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
     return hn::Mask<D16>{static_cast<decltype(hn::Mask<D16>::raw)>(bits)};
@@ -91,7 +92,7 @@ HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
     return hn::LoadMaskBits(D16(), bytes);
 }
 HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
-    // The library has no other way than through memory.
+    // Highway converts masks to bits only through memory.
     std::uint8_t bytes[sizeof(std::uint64_t)] = {};
     hn::StoreMaskBits(D16(), mask, bytes);
     std::uint64_t bits;
@@ -110,7 +111,7 @@ HWY_INLINE V16 distance(V16 a, V16 b) {
 
 using LinearWeights = VS16[tap_count];
 
-// `at` is the pixel that the taps are taken relative to.
+// `at` is the mean of left and upper neighbour; taps count relative to it.
 template <bool temporal>
 HWY_INLINE V16 linear_prediction(const Step& s, int lane, const Window& w, V16 at, V16 next8,
                                  V16 before_right8, const LinearWeights& weights) {
@@ -134,7 +135,7 @@ HWY_INLINE V16 linear_prediction(const Step& s, int lane, const Window& w, V16 a
     return hn::Add(at, hn::BitCast(D16(), hn::ShiftRight<3>(sum)));
 }
 
-// The candidate with the least error nearby, or the mean of the best two.
+// The candidate with the least error on the neighbours, or the mean of the best two.
 HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w, Traces& traces,
                       int lane) {
     const D16 d;
@@ -166,7 +167,7 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w,
     return hn::IfThenElse(close, hn::AverageRound(pick, next), pick);
 }
 
-// How many activity_bounds an activity reaches, times 3.
+// 3 times the number of activity_bounds that are not above the activity.
 constexpr std::uint8_t activity_part(unsigned activity) {
     unsigned part = 0;
     for (const std::uint16_t bound : activity_bounds)
@@ -174,8 +175,9 @@ constexpr std::uint8_t activity_part(unsigned activity) {
     return std::uint8_t(part);
 }
 
-// The same as a sum of entries for min(activity, 15) and min(activity / 8, 15),
-// and the last bound; and what to add by the distance of the linear predictor.
+// The same as table look-ups: the sum of low[min(activity, 15)], high[min(activity / 8,
+// 15)] and 3 for the last bound. `side` maps the distance between the linear predictor
+// and the prediction to 0, 1 or 2.
 struct ContextTables {
     alignas(16) std::uint8_t low[16] = {}, high[16] = {}, side[16] = {};
     constexpr ContextTables() {
@@ -265,7 +267,7 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
         p.depth = choose(p.candidate, s, w, traces, lane);
     }
 
-    // How far and to which side the linear predictor is.
+    // The sign and size of the difference between linear predictor and prediction.
     const V16 aside = hn::Sub(linear, p.depth);
     p.flip = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), aside)));
     const V16 how_far = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), aside)));
@@ -274,7 +276,7 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
     const V16 activity = hn::And(marks, hn::Set(d, measured_mark - 1));
     const V16 level = level_of(activity, how_far);
 
-    // All six of a neighbourhood are measured, and the reference there.
+    // True if all marks of the neighbourhood and the reference's pixels are measured.
     auto is_whole = hn::Gt(marks, hn::Set(d, 6 * measured_mark - 1));
     V16 neighbourhood = hn::Add(hn::And(hn::ShiftRight<10>(marks), hn::Set(d, 7 << 2)),
                                 hn::Set(d, mixed_contexts + (temporal ? 0 : 3)));
@@ -302,22 +304,22 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
     return p;
 }
 
-// What stands at the positions of some lanes, of which some are not pixels.
+// The values stored at positions outside the image, for parts that have some.
 struct Outside {
     hn::Mask<D16> is_pixel, valid;
     V16 depth;
 };
 
-// Left of the image stands what is above right, right of it the last pixel,
-// below it the row above. `w` as before predict.
-// (Without the whole Step, which would then have to be in memory.)
+// Left of the image: the value at upper right. Right of it: the last pixel. Below it:
+// the value above. `left` is as before predict(). (Takes single fields of Step: a
+// reference to Step would force it into memory.)
 HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
                                 const std::uint16_t* depth, const std::uint64_t* valid, V16 left,
                                 int lane) {
     const D16 d;
     const V16 lanes = hn::Iota(d, std::uint16_t(lane));
     V16 x = hn::Sub(hn::Set(d, std::uint16_t(position)), hn::ShiftLeft<2>(lanes));
-    // Lanes that have not yet ended their row of the group before.
+    // Lanes that are still in their row of the previous group.
     const V16 is_behind = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), x)));
     V16 rows = hn::Sub(hn::Set(d, std::uint16_t(layout.size.height - lane_count * group)), lanes);
     if (group > 0) {
@@ -342,14 +344,14 @@ HWY_NOINLINE Outside outside_of(const Layout& layout, int position, int group,
     return outside;
 }
 
-// What of a step's pixels is kept. `depth` is final also for holes and outside.
+// The values of a step that later steps read. `depth` has holes filled.
 struct Kept {
     V16 depth;
     V16 residual;            // 0 where nothing was measured
     hn::Mask<D16> measured;  // `valid` of the plane
 };
 
-// Where there is no pixel, no predictor is wrong.
+// Replaces values outside the image and sets all predictors' errors there to 0.
 HWY_INLINE void keep_outside(const Outside& outside, V16 (&candidate)[4], Kept& kept) {
     kept.depth = hn::IfThenElse(outside.is_pixel, kept.depth, outside.depth);
     kept.measured = hn::Or(hn::And(outside.is_pixel, kept.measured),
@@ -358,7 +360,7 @@ HWY_INLINE void keep_outside(const Outside& outside, V16 (&candidate)[4], Kept& 
         c = hn::IfThenElse(outside.is_pixel, c, kept.depth);
 }
 
-// Keeps what later steps need.
+// Stores what later steps read and advances the window.
 template <bool blend>
 HWY_INLINE void keep(const V16 (&candidate)[4], const Kept& kept, const Step& s, Traces& traces,
                      Window& w, int lane) {

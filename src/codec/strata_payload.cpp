@@ -17,8 +17,8 @@ constexpr std::uint8_t all_flags = 15;
 }  // namespace
 
 std::size_t max_payload_size(Size size) {
-    // Per pixel a token of 11 bits and 15 more. Side information: per level at
-    // most 25 binary choices, each at most 8.1 bits; per value at most 33.
+    // Per pixel an 11-bit token and 15 further bits. Side information: at most 25
+    // binary decisions of 8.1 bits per level, and 33 per value.
     constexpr std::size_t side = std::size_t(coded_contexts) * used_tokens * 26 + max_values * 34;
     constexpr std::size_t region = 3 + max_polygons * (1 + 4 * max_corners);
     return 16 + region + 2 * tap_count + 4 * lane_count + side + 4 * size.area();

@@ -10,7 +10,7 @@
 
 namespace theatron::codec::strata {
 
-// One image with what stands around it, in rows.
+// One image and the positions around it, in rows.
 class ReferenceModel {
 public:
     ReferenceModel(Size size, const Weights& weights, bool blend)
@@ -23,7 +23,7 @@ public:
         std::uint16_t extra = 0;
     };
 
-    // Codes a lossless image against `before`, which may be null.
+    // Encodes a lossless image against `before`, which may be null.
     std::vector<Coded> encode(DepthView depth, const ReferenceModel* before) {
         std::vector<Coded> coded;
         for (int y = 0; y < rows(); ++y) {
@@ -43,12 +43,13 @@ private:
         int residual = 0;
     };
 
-    // Rows of whole groups; those below the image repeat its last row.
+    // Rows of all groups; rows below the image repeat its last row.
     int rows() const { return (size_.height + lane_count - 1) / lane_count * lane_count; }
 
-    // Around the rows stand zeros; positions in front of and behind a row are
-    // steps of it. The row after the last group is one that repeats the row above, too,
-    // but lane 0 begins it only because lane 31 is 124 steps behind, and ends there.
+    // Everything around the rows is zero; the positions in front of and behind a row
+    // belong to it. The row after the last group repeats the row above as well, but
+    // only up to the position that lane 0 reaches while lane 31, 124 steps behind,
+    // ends the image.
     const Pixel& at(int x, int y) const {
         static const Pixel none;
         if (y == rows() && x + row_front < skew * (lane_count - 1))
@@ -149,8 +150,8 @@ private:
         for (int i = 0; i < 4; ++i)
             error[i] = at(x - 1, y - 1).error[i] + at(x, y - 1).error[i] +
                        at(x + 1, y - 1).error[i] + at(x - 1, y).error[i] + at(x - 2, y).error[i];
-        // Two pairs play, then their winners; the second is the better of the
-        // other finalist and the winner's first opponent. Ties go to the former.
+        // Two pairs compete, then their winners. The second best is the better of the
+        // losing finalist and the first opponent of the winner; ties go to the former.
         const int a = error[1] < error[0] ? 1 : 0, b = error[3] < error[2] ? 3 : 2;
         const bool later = error[b] < error[a];
         const int best = later ? b : a, finalist = later ? a : b;

@@ -7,9 +7,8 @@
 namespace theatron::codec::strata {
 namespace {
 
-// Where the edge from a to b crosses the line through the centres of row y: the
-// first pixel whose centre is not left of the crossing. In whole numbers, so that
-// both sides draw the same.
+// The intersection of the edge a-b with the line through the centres of row y: the
+// first pixel whose centre is not left of it. In integers, so that both sides agree.
 int first_right_of(Corner a, Corner b, int y) {
     if (a.y > b.y)
         std::swap(a, b);

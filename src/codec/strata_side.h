@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small adaptive binary range coder for Strata's side information: tables and
-// value lists, a few hundred bytes a frame. Slow and simple.
+// A small adaptive binary range coder for Strata's side information: probability
+// tables and value lists, a few hundred bytes a frame. Written for simplicity, not
+// for speed.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace theatron::codec::strata {
 
-// The probability that a bit is 0, in 4096, learnt while coding.
+// Adaptive probability of a 0 bit, in units of 1/4096.
 class AdaptiveBit {
 public:
     std::uint32_t zero() const { return zero_; }
@@ -42,15 +43,15 @@ public:
             shift();
         }
     }
-    // Ends the sequence; nothing may be put after it.
+    // Ends the sequence. No put() may follow.
     void finish() {
         for (int i = 0; i < 5; ++i)
             shift();
     }
 
 private:
-    // Moves the top byte of `low_` out. A run of 0xff waits until it is known
-    // whether a carry passes through it.
+    // Outputs the top byte of `low_`. A run of 0xff bytes is held back until a later
+    // byte decides whether a carry passes through it.
     void shift() {
         if (low_ < 0xff000000u || low_ > 0xffffffffu) {
             const auto carry = std::uint8_t(low_ >> 32);
@@ -74,7 +75,7 @@ private:
     bool has_byte_ = false;
 };
 
-// Reads what SideWriter wrote. Past the end it reads zeros; check ok() after.
+// Reads the output of SideWriter. Past the end it reads zeros; ok() is then false.
 class SideReader {
 public:
     explicit SideReader(ByteView in) : in_(in) {
@@ -98,7 +99,7 @@ public:
         }
         return bit;
     }
-    // True if exactly the bytes given were needed.
+    // True if exactly the bytes given were consumed.
     bool ok() const { return !past_end_ && at_ == in_.size(); }
 
 private:
@@ -117,7 +118,7 @@ private:
     bool past_end_ = false;
 };
 
-// Whole numbers up to 2^16 - 1: the number of bits in unary, then the bits.
+// Integers up to 2^16 - 1: the number of binary digits in unary, then the digits.
 class NumberModel {
 public:
     void put(unsigned value, SideWriter& side) {

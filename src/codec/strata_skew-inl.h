@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strata: from rows to steps and back, and samples for the linear predictor.
-// Included once per instruction set.
+// Strata: conversion between rows and step order, and the sampled equations of the
+// linear predictor. Included once per instruction set.
 
 // No include guard: the namespace differs from one inclusion to the next.
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr int tile = 8;
 
 #if HWY_TARGET != HWY_SCALAR
-// Transposes 8 by 8 values: `load(i)` gives row i, `store(i, v)` takes column i.
+// Transposes 8 by 8 values: `load(i)` returns row i, `store(i, v)` takes column i.
 template <class Load, class Store>
 HWY_INLINE void transpose_tile(Load load, Store store) {
     const hn::Full128<std::uint16_t> d;
@@ -47,8 +47,9 @@ HWY_INLINE void transpose_tile(Load load, Store store) {
 
 #endif
 
-// Looks up pixels. Each is stored by itself: to put several together in a vector takes
-// compilers more instructions than all the rest. `to` may be `from`.
+// Maps pixels through a table. `to` may be `from`. The fence keeps compilers from
+// assembling vectors out of single look-ups, which costs more instructions than
+// separate stores.
 HWY_INLINE void look_up(const std::uint16_t* table, const std::uint16_t* from, int count,
                         std::uint16_t* to) {
     const auto one = [&](int i) HWY_ATTR {
@@ -64,9 +65,9 @@ HWY_INLINE void look_up(const std::uint16_t* table, const std::uint16_t* from, i
         one(i);
 }
 
-// Of 8 rows from y on: calls on_tile(x, at) for tiles whose first row starts at x, each
-// next row 4 pixels further left, and whose first step's first lane is at `at`;
-// on_pixel(x, row, at) for the pixels outside such tiles.
+// Visits 8 rows from y on in skewed tiles of 8 by 8 pixels. on_tile(x, at): the first
+// row of the tile starts at x, each next row 4 pixels further left; `at` is the index
+// of its first step and lane. on_pixel(x, row, at): each pixel outside such tiles.
 template <class OnTile, class OnPixel>
 HWY_INLINE void for_band(const Layout& layout, int y, OnTile on_tile, OnPixel on_pixel) {
     const auto [width, height] = layout.size;
@@ -91,7 +92,7 @@ HWY_INLINE void for_band(const Layout& layout, int y, OnTile on_tile, OnPixel on
     }
 }
 
-// `rows` are those from y on.
+// `rows` starts at row y.
 HWY_INLINE void band_to_steps(const Layout& layout, DepthView rows, int y, std::uint16_t* pixels) {
     for_band(
         layout, y,
@@ -106,7 +107,7 @@ HWY_INLINE void band_to_steps(const Layout& layout, DepthView rows, int y, std::
         [&](int x, int row, std::size_t at) { pixels[at] = rows.row(row)[x]; });
 }
 
-// What stands at positions outside the image must be 0.
+// Writes 0 to all positions outside the image.
 HWY_INLINE void clear_outside(const Layout& layout, std::uint16_t* pixels) {
     const int behind = row_front + layout.size.width;
     const int rows = layout.groups * lane_count;
@@ -135,7 +136,7 @@ void rows_to_steps(const Layout& layout, DepthView depth, std::uint16_t* pixels)
 
 void rows_to_ranks(const Layout& layout, DepthView depth, const std::vector<int>* bands,
                    std::uint16_t* ranks, std::uint16_t* pixels, NewDepths& found) {
-    constexpr std::uint16_t no_number = 0x6000;  // no rank has these bits, the others have
+    constexpr std::uint16_t no_number = 0x6000;  // in no rank, but in no_rank, seen_before, 65535
     constexpr std::uint16_t seen_before = no_rank - 1;
     const int width = layout.size.width, height = layout.size.height;
     found.band.resize(std::size_t(width) * tile + hn::MaxLanes(D16()));
@@ -198,14 +199,14 @@ void steps_to_rows(const Layout& layout, const std::uint16_t* pixels, const std:
 
 void sample_equations(const Model& model, const std::uint16_t* pixels, int limit,
                       Equations& equations) {
-    // Lanes whose neighbours above are lanes of the same group.
+    // The lanes sampled have their upper neighbours in the same group.
     constexpr int first = 8, sampled = 16;
     const hn::CappedTag<float, sampled> d;
     const hn::Rebind<std::int32_t, decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
     const std::size_t n = hn::Lanes(d);
     const bool temporal = model.reference_depth != nullptr;
-    // Key frames are rare, and ranks leave few samples of them.
+    // Key frames get more samples: they are rare, and ranks leave few usable pixels.
     const int stride = temporal ? 37 : 17;
     const int taps = temporal ? tap_count : intra_taps;
     alignas(64) float sums[equation_count][hn::MaxLanes(d)] = {};

@@ -7,8 +7,8 @@
 namespace theatron::codec::strata {
 namespace {
 
-// The mean over frames of time-of-flight, stereo and structured-light sensors.
-// A line per context, a letter per token: "." for level 0, "a" for 1, and so on.
+// Means over frames of time-of-flight, stereo and structured-light sensors.
+// One line per context, one letter per token: "." is level 0, "a" is 1, and so on.
 constexpr std::string_view lines[coded_contexts] = {
     "a..vqpkjiiihihhghggfgfgefeejifebaaa................",
     "a..ultjmijiihihigighfhfgfgekkhgdcaa................",

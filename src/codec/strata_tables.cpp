@@ -25,7 +25,7 @@ std::uint8_t nearest_level(std::uint32_t count, std::uint32_t total) {
     return std::uint8_t(1 + std::lround(2 * std::log2(frequency)));
 }
 
-// Gives one context frequencies that sum up to 2048, each at least 1.
+// Computes frequencies of one context that sum up to 2048, each at least 1.
 void spread(const std::array<std::uint8_t, used_tokens>& levels, std::uint32_t* frequency) {
     std::uint32_t sum = 0;
     for (const std::uint8_t level : levels)
@@ -40,7 +40,7 @@ void spread(const std::array<std::uint8_t, used_tokens>& levels, std::uint32_t* 
         frequency[t] = std::max(1u, share);
         given += frequency[t];
     }
-    // What rounding gave too much or too little concerns the most frequent.
+    // The most frequent token absorbs the rounding error of the sum.
     while (given != probability_sum) {
         std::uint32_t& most = *std::max_element(frequency, frequency + used_tokens);
         const std::uint32_t change = given < probability_sum
@@ -51,9 +51,9 @@ void spread(const std::array<std::uint8_t, used_tokens>& levels, std::uint32_t* 
     }
 }
 
-// Models for the change of one level, by what is known about its token.
+// Models for the change of one level, by its value before and its predecessor.
 struct LevelModels {
-    AdaptiveBit changed[3][2];  // level before: 0, 1, more; whether the last one changed
+    AdaptiveBit changed[3][2];  // by level before (0, 1, more) and by "the last token changed"
     AdaptiveBit rises[3];
     AdaptiveBit further[3][max_level];
     AdaptiveBit context_changed;
@@ -66,7 +66,7 @@ unsigned kind_of(std::uint8_t level) {
 }  // namespace
 
 void choose_levels(const Counts& counts, const Levels& before, Levels& levels) {
-    constexpr double cost_of_change = 3;  // bits, about
+    constexpr double cost_of_change = 3;  // bits, estimated
     levels = before;
     for (unsigned c = 0; c < coded_contexts; ++c) {
         const std::uint32_t* count = counts.data() + std::size_t(c) * token_count;
@@ -78,7 +78,7 @@ void choose_levels(const Counts& counts, const Levels& before, Levels& levels) {
         for (unsigned t = 0; t < used_tokens; ++t) {
             std::uint8_t& level = levels[c][t];
             if (count[t] == 0) {
-                // To keep a token that is not in use takes its share from the others.
+                // An unused token with a level above 0 takes probability from the others.
                 const double share = std::exp2((level - 1) * 0.5) / probability_sum;
                 if (level != 0 && total * share * 1.44 > cost_of_change)
                     level = 0;
@@ -166,7 +166,7 @@ void make_frequencies(const Levels& levels, Frequencies& frequencies) {
 const SlotTable& Slots::of(const Levels& levels) {
     constexpr std::uint32_t sum = probability_sum;
     if (!made_) {
-        // An idle lane's coder stays as it is, at a hole.
+        // The idle context keeps every state as it is and decodes a hole.
         std::uint32_t* slot = table_.data() + std::size_t(idle_context) * sum;
         for (std::uint32_t i = 0; i < sum; ++i)
             slot[i] = hole_token | i << 8 | sum << 20;
@@ -183,7 +183,7 @@ const SlotTable& Slots::of(const Levels& levels) {
                 slot[i] = t | i << 8 | of[t] << 20;
             slot += of[t];
         }
-        // Likewise a context without a table.
+        // A context without a table likewise.
         for (std::uint32_t i = 0; slot != end; ++i)
             *slot++ = hole_token | i << 8 | sum << 20;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strata's probability tables: one per context, sent as coarse logarithms.
 //
-// A level is 0 for a token that does not occur, else 1 + twice the base-2
-// logarithm of its frequency in 2048. Frequencies follow from the levels alone.
+// Level 0: the token does not occur. Level n > 0: n = 1 + 2 * log2(frequency), for
+// frequencies in units of 1/2048. The levels alone determine the frequencies.
 #pragma once
 
 #include <array>
@@ -21,16 +21,17 @@ inline constexpr unsigned max_level = 2 * probability_bits + 1;
 using Levels = std::array<std::array<std::uint8_t, used_tokens>, coded_contexts>;
 using Counts = std::array<std::uint32_t, std::size_t(context_count) * token_count>;
 
-// Per context and token: frequency, and the sum of those before it.
+// By context and token: frequency | start << 16, where start is the sum of the
+// frequencies of the tokens before. 0 for a token that does not occur.
 struct Frequencies {
-    // frequency | start << 16; for a token that does not occur 0.
     std::array<std::uint32_t, std::size_t(context_count) * token_count> of;
 };
 
-// For each slot of each context: token | (slot - start) << 8 | frequency << 20.
+// By context and slot: token | (slot - start) << 8 | frequency << 20.
 using SlotTable = std::array<std::uint32_t, std::size_t(context_count) * probability_sum>;
 
-// A slot table that is kept from frame to frame: most contexts keep their levels.
+// A slot table kept from frame to frame: only contexts whose levels changed are
+// rebuilt.
 class Slots {
 public:
     const SlotTable& of(const Levels& levels);
@@ -41,14 +42,15 @@ private:
     SlotTable table_;
 };
 
-// What intra frames start from.
+// The levels that intra frames are coded against.
 const Levels& standard_levels();
 
-// The levels that suit the counts. Contexts and tokens whose change would cost
-// more than it gains keep those of `before`.
+// Selects levels for the counts. A level of `before` is kept where coding its change
+// would cost more bits than it saves.
 void choose_levels(const Counts& counts, const Levels& before, Levels& levels);
 
-// Writes and reads levels as changes since `before`.
+// Writes and reads levels as changes since `before`. Reading returns false if the
+// bytes are no such changes.
 void put_levels(const Levels& levels, const Levels& before, SideWriter& side);
 bool get_levels(const Levels& before, Levels& levels, SideReader& side);
 

@@ -18,12 +18,12 @@ namespace {
 
 using namespace strata;
 
-// A chain of frames through an encoder and a decoder of their own.
+// An encoder and a decoder that process the same frames.
 struct Chain {
     explicit Chain(const StrataParams& params = {})
         : encoder(make_strata(params)), decoder(make_strata({})) {}
 
-    // Encodes and decodes; a frame that is not kept is one that was skipped.
+    // Encodes and decodes one frame. keep = false: no later frame refers to it.
     Status pass(const DepthImage& image, bool keep = true) {
         encoded.resize(encoder->max_encoded_size(image.size));
         encoded.resize(
@@ -117,7 +117,7 @@ TEST(Strata, DecodesTheVectorsOfItsSpecification) {
     }
 }
 
-// Of a height that is a multiple of 32 rows, and wider than what the row after them has.
+// Height: a multiple of 32. Width: more than the coded part of the row after it.
 TEST(Strata, DecodesTheVectorsOf32Rows) {
     const Size size{130, 32};
     DepthImage first(size), second(size);
@@ -138,7 +138,7 @@ TEST(Strata, DecodesTheVectorsOf32Rows) {
     EXPECT_EQ(out, second);
 }
 
-// Depths of a sensor that measures disparities.
+// Depths of a sensor that measures disparities: few distinct values.
 DepthImage disparities(Size size, unsigned frame) {
     DepthImage image = scene(size, frame);
     for (auto& pixel : image.pixels) {
@@ -173,7 +173,7 @@ TEST(Strata, RoundTripsImagesOfOneValue) {
             ASSERT_EQ(chain.pass(image), Status::ok);
             ASSERT_EQ(chain.decoded, image);
         }
-        // Parameters, states and tables remain.
+        // Only parameters, states and tables are left.
         EXPECT_LT(chain.encoded.size(), 400u);
     }
 }
@@ -188,7 +188,8 @@ TEST(Strata, FramesMayBeSkipped) {
     }
 }
 
-// Their scratch memory is the thread's: what one leaves in it must not reach another.
+// Scratch memory belongs to the thread; contents left by one codec must not affect
+// another.
 TEST(Strata, CodecsThatTakeTurnsOnAThreadGiveTheBytesThatEachGivesAlone) {
     const Size sizes[] = {{200, 90}, {140, 50}, {31, 70}};
     const auto image_of = [&](std::size_t stream, unsigned frame) {
@@ -319,7 +320,7 @@ TEST(Strata, KeepsToTheDeclaredErrorAndNeverChangesValidity) {
 TEST(Strata, StaysExactWhereTheRegionIs) {
     Chain chain({20, 0});
     const DepthImage image = scene({150, 70}, 0);
-    // Nothing drawn: the whole image is exact.
+    // Empty region: the whole image is exact.
     ASSERT_EQ(chain.pass(image), Status::ok);
     EXPECT_EQ(chain.decoded, image);
     EXPECT_TRUE(read_strata_exactness(chain.encoded)->whole_image);
@@ -380,7 +381,7 @@ TEST(Strata, EveryTargetDecodesTheBytesOfEveryOther) {
         if (encoded.empty())
             encoded = now;
     });
-    // What one target wrote, the others read.
+    // Each target decodes the bytes of all others.
     testing::on_every_target([&] {
         const auto decoder = make_strata({});
         Reference reference, next;

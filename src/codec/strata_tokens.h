@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alphabet of Strata: what can be said about one pixel.
+// The alphabet of Strata: one token per pixel.
 //
-// A token says that there is no measurement, or how far the pixel is from its
-// prediction: small differences exactly, large ones up to some bits that follow
-// as they are.
+// A token states that the pixel has no measurement, or gives its difference to the
+// prediction. Small differences have a token each; a token of a larger difference is
+// followed by its low bits, uncompressed.
 #pragma once
 
 #include <cstdint>
 
 namespace theatron::codec::strata {
 
-inline constexpr unsigned token_count = 64;       // room for one context; fewer are in use
+inline constexpr unsigned token_count = 64;       // table stride per context; fewer are in use
 inline constexpr unsigned hole_token = 0;         // depth 0
 inline constexpr unsigned top_token = 1;          // depth 65535
 inline constexpr unsigned literal_low_token = 2;  // the depth itself, in 15 bits
-inline constexpr unsigned first_token = 3;        // difference zigzag 0
+inline constexpr unsigned first_token = 3;        // zigzagged difference 0
 inline constexpr unsigned direct_tokens = 24;
 inline constexpr unsigned first_long_token = first_token + direct_tokens;
 inline constexpr unsigned literal_high_token = first_long_token + 23;  // 32768 + 15 bits
 inline constexpr unsigned used_tokens = literal_high_token + 1;
 
-// 0, -1, 1, -2, … as 0, 1, 2, 3, …
+// Maps 0, -1, 1, -2, … to 0, 1, 2, 3, … and back.
 constexpr std::uint16_t zigzag16(std::uint16_t difference) {
     return std::uint16_t((difference << 1) ^ (difference & 0x8000 ? 0xffff : 0));
 }
@@ -28,7 +28,7 @@ constexpr std::uint16_t unzigzag16(std::uint16_t code) {
     return std::uint16_t((code >> 1) ^ (code & 1 ? 0xffff : 0));
 }
 
-// Bits that follow a token.
+// The number of further bits of a token.
 constexpr unsigned extra_bits(unsigned token) {
     if (token == literal_low_token || token == literal_high_token)
         return 15;
@@ -40,6 +40,7 @@ struct Token {
     unsigned extra;
 };
 
+// The token and further bits of a zigzagged difference, and back.
 constexpr Token token_of(std::uint16_t code) {
     if (code < direct_tokens)
         return {first_token + code, 0};
@@ -61,14 +62,15 @@ static_assert(token_of(65535).token + 1 == literal_high_token);
 static_assert(code_of(token_of(54321).token, token_of(54321).extra) == 54321);
 static_assert(code_of(token_of(24).token, token_of(24).extra) == 24);
 
-// Contexts: ten of activity times three of how far another predictor is, where
-// all neighbours are measured; else one per kind of neighbourhood.
+// Contexts. Pixels whose neighbours were all measured: ten levels of activity times
+// three distances between the linear predictor and the prediction. Other pixels: one
+// context per pattern of measured neighbours.
 inline constexpr unsigned mixed_contexts = 30;
 inline constexpr unsigned idle_context = 57;  // no pixel at this position
 inline constexpr unsigned coded_contexts = 57;
 inline constexpr unsigned context_count = 58;
 
-// Activities from which on the next context applies.
+// Lower bounds of the activity levels 1 to 9.
 inline constexpr std::uint16_t activity_bounds[9] = {1, 2, 3, 6, 12, 24, 48, 96, 192};
 
 }  // namespace theatron::codec::strata

@@ -30,7 +30,7 @@ Values listed(const std::vector<std::uint8_t>& present) {
     return values;
 }
 
-// Each depth's rank, no_rank where it has none.
+// The rank of each depth; no_rank for depths that are no value.
 void make_ranks(const Values& values, std::vector<std::uint16_t>& ranks) {
     ranks.assign(all_depths, no_rank);
     ranks[0] = 0;
@@ -45,8 +45,8 @@ Values find_values(DepthView depth, Tolerance tolerance) {
     Values values = listed(presence(depth));
     if (values.empty() || values.size() > max_values)
         return {};
-    // Bits that ranks save: those of the distance to the next value. The tolerance
-    // would save those of its width. A sample of the pixels says how often.
+    // Estimated from a sample of the pixels: per pixel, ranks save the logarithm of the
+    // distance to the next value; the tolerance would save that of its width.
     std::vector<std::uint16_t> ranks;
     make_ranks(values, ranks);
     double saved = 0;
@@ -115,11 +115,11 @@ bool RankTables::to_ranks(const Layout& layout, DepthView depth, Values& values,
     const std::vector<std::uint16_t>& added = new_.depths;
     if (added.empty())
         return true;
-    forward_.clear();  // marked
+    forward_.clear();  // rows_to_ranks has marked entries in it
     if (values.size() + added.size() > max_values)
         return false;
 
-    // The others move on.
+    // Ranks of known values move up by the number of new values below them.
     const Values before = values;
     const auto middle = values.insert(values.end(), added.begin(), added.end());
     std::sort(middle, values.end());
@@ -141,7 +141,7 @@ const std::uint16_t* RankTables::depths_of(const Values& values) {
 }
 
 RankShift::RankShift(const Values& before, const Values& values) {
-    // Each new value moves all ranks from its place on by one.
+    // Each new value moves all ranks above it by one.
     std::size_t known = 0;
     for (const std::uint16_t v : values) {
         if (known < before.size() && before[known] == v)

@@ -15,7 +15,7 @@ Weights solve(const Equations& equations, int taps) {
                 a[j][i] = equations[at];
         }
     }
-    // Gauss-Jordan; a little on the diagonal keeps unused taps at 0.
+    // Gauss-Jordan elimination; the diagonal is regularised, so that unused taps get 0.
     for (int i = 0; i < taps; ++i)
         a[i][i] += 1 + a[i][i] * 1e-4;
     for (int i = 0; i < taps; ++i) {

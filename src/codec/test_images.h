@@ -17,7 +17,7 @@ inline Bytes bytes(std::initializer_list<int> values) {
     return result;
 }
 
-// Any value at any place.
+// Random values everywhere.
 inline DepthImage noise(Size size, unsigned seed) {
     DepthImage image(size);
     std::mt19937 random(seed);
@@ -26,8 +26,8 @@ inline DepthImage noise(Size size, unsigned seed) {
     return image;
 }
 
-// A sloping wall with sensor noise, a step in depth, holes and a few pixels at
-// the ends of the range. `frame` changes the noise and moves the step.
+// A sloping wall with sensor noise, a depth edge, holes, and a few pixels at the ends
+// of the range. `frame` seeds the noise and moves the edge.
 inline DepthImage scene(Size size, unsigned frame) {
     DepthImage image(size);
     std::mt19937 random(frame + 1);
