@@ -53,7 +53,7 @@ void write_file(const std::filesystem::path& path, ByteView bytes) {
         refuse("write", path, std::strerror(errno));
     const bool written =
         bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Closing may be what finds the disk full.
+    // A full disk may only be reported by fclose().
     const bool closed = std::fclose(file.release()) == 0;
     if (!written || !closed || std::rename(draft.c_str(), path.c_str()) != 0) {
         const int reason = errno;

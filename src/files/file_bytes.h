@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files as bytes. Throws Error with one sentence that names the file.
+// Whole files as bytes. The functions throw Error, one sentence that names the file.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace theatron::files {
 
-// Reads a regular file of at most `max_bytes`.
+// Reads a regular file of at most `max_bytes` bytes.
 Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t(1) << 30);
 
-// Writes beside `path` first and renames, so that a reader never sees half a file.
+// Writes a draft beside `path` and renames it, so that readers never see a partial file.
 void write_file(const std::filesystem::path& path, ByteView bytes);
 
 }  // namespace theatron::files

@@ -107,7 +107,7 @@ TEST(Png, SaysInOneSentenceWhatIsWrong) {
 }
 
 TEST(Png, RefusesPicturesBeyondTheLimit) {
-    // The header alone of a picture 8193 wide, with its right checksum.
+    // Only the header of a picture 8193 pixels wide, with a correct checksum.
     Bytes png = encode_png(noise({1, 1}).view());
     png[18] = std::byte{0x20};
     const auto sum = crc32(0, reinterpret_cast<const unsigned char*>(&png[12]), 17);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON as text, whatever names of files and people it holds.
+// JSON as text, for values that contain names of files and people in any encoding.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace theatron::files {
 
-// Bytes that are no UTF-8 become U+FFFD. `indent` as in nlohmann::json::dump().
+// Bytes that are not UTF-8 become U+FFFD. `indent` as in nlohmann::json::dump().
 inline std::string json_text(const nlohmann::json& json, int indent = -1) {
     return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG pictures: 16-bit grey for depth, 8-bit RGB for colour.
 //
-// The path functions throw Error with one sentence that names the file; for
+// Functions that take a path throw Error, one sentence that names the file; they are for
 // set-up, tools and tests. The decoding functions are safe for untrusted bytes.
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace theatron::files {
 
-// Decodes a 16-bit grey picture, value by value, without gamma. Returns what
-// is wrong, as the end of a sentence ("is not a PNG picture"), or nothing.
-// `out` keeps its memory; after a failure its content is unspecified.
+// Decodes a 16-bit grey picture, value by value, without gamma. Returns an empty string,
+// or the problem as the end of a sentence ("is not a PNG picture"). The memory of `out`
+// is reused; after a failure its content is unspecified.
 std::string decode_png(ByteView png, DepthImage& out);
 // Any PNG as RGB: grey and palettes are expanded, 16 bits cut to 8, alpha dropped.
 std::string decode_png(ByteView png, ColorImage& out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes end in a sentence or in an image; an image survives a round trip.
+// Any bytes give a sentence or an image; re-encoding and decoding an image preserves it.
 #include <cstdlib>
 
 #include "files/png_file.h"
@@ -21,7 +21,7 @@ void check(theatron::ByteView input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
     const auto input = std::as_bytes(std::span(data, size));
-    // Width and height lie at fixed places; large pictures only make the search slow.
+    // Limits width and height, at fixed offsets, to 255: large pictures slow the search.
     if (size >= 24 && (data[16] | data[17] | data[18] | data[20] | data[21] | data[22]) != 0)
         return 0;
     check<DepthImage>(input);

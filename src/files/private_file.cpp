@@ -92,7 +92,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
     struct stat info {};
     if (!file.is_open() || fstat(file.get(), &info) != 0)
         refuse("read", path);
-    // A pipe has been handed over by whoever wrote the command.
+    // A pipe is not checked: the user passed it on the command line.
     if (S_ISREG(info.st_mode)) {
         require_own(info, path);
         if (info.st_mode & (S_IWGRP | S_IWOTH))
@@ -124,7 +124,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
 void write_private_file(const fs::path& path, const std::string& text) {
     fs::path draft = path;
     draft += ".part";
-    // A crash may have left one; O_EXCL never writes into what somebody else put there.
+    // A crash may have left a draft. O_EXCL refuses a file that another user puts there.
     unlink(draft.c_str());
     Descriptor file(open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     if (!file.is_open())
@@ -136,7 +136,7 @@ void write_private_file(const fs::path& path, const std::string& text) {
         errno = reason;
         refuse("write", path);
     }
-    // The new name is on the disk once its folder is.
+    // The new name is durable only after its folder has been synchronised.
     const fs::path parent = path.parent_path();
     const Descriptor folder(
         open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

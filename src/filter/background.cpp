@@ -26,7 +26,7 @@ bool add_frame(Background& background, DepthView frame) {
     for (int y = 0; y < frame.size.height; ++y) {
         const std::uint16_t* in = frame.row(y);
         std::uint16_t* out = nearest.view().row(y);
-        // One less wraps "no measurement" to the largest number.
+        // Subtracting one turns 0, no measurement, into the largest number.
         for (int x = 0; x < frame.size.width; ++x)
             out[x] =
                 std::uint16_t(std::min(std::uint16_t(out[x] - 1), std::uint16_t(in[x] - 1)) + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recorded empty scene: for each pixel the nearest that was measured there
-// while nobody was in the picture, and its file (docs/formats/background.md).
+// The recorded empty scene: for each pixel the nearest depth measured while nobody was in
+// the picture. docs/formats/background.md specifies its file.
 #pragma once
 
 #include "base/bytes.h"
@@ -11,14 +11,14 @@ namespace theatron::filter {
 
 struct Background {
     DepthImage nearest;        // in the camera's unit; 0 = never measured
-    double depth_unit_mm = 1;  // of the camera that it was recorded with
-    int frames = 0;            // that it was made of
+    double depth_unit_mm = 1;  // of the camera that recorded it
+    int frames = 0;            // number of recorded frames
 
     bool operator==(const Background&) const = default;
 };
 
-// Adds a frame of the empty scene. The first one gives the size; a frame of
-// another size is left out and false returned.
+// Adds a frame of the empty scene. The first frame sets the size; a frame of another size
+// is ignored, and false is returned.
 bool add_frame(Background& background, DepthView frame);
 
 Bytes encode_background(const Background& background);

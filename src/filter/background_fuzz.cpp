@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: reading stays inside its buffers. Bytes it accepts come back equal.
+// Any bytes: reading stays inside its buffers. Accepted bytes are encoded to equal bytes.
 #include <algorithm>
 #include <cstdlib>
 

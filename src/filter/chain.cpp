@@ -13,7 +13,7 @@
 namespace theatron::filter {
 namespace {
 
-// One filter with all that it remembers.
+// Each stage is one filter with its state.
 struct FlyingPixels {
     FlyingPixelRule rule;
 };
@@ -27,7 +27,7 @@ struct Kalman {
     KalmanRule rule;
     KalmanState state;
 };
-// What one filter hands to the next.
+// The input and output of one filter; swapped after each.
 struct Planes {
     explicit Planes(Size size) : current(size), next(size) {}
     DepthPlane current, next;
@@ -56,7 +56,7 @@ private:
         stages_.push_back(Kalman{rule_of(params, camera_), KalmanState(camera_.size)});
     }
 
-    // Neighbouring steps that only compare share one comparison.
+    // Consecutive filters that only compare depths share one stage.
     Limits& limits() {
         if (stages_.empty() || !std::holds_alternative<Limits>(stages_.back()))
             stages_.push_back(Limits(camera_.size));
@@ -80,7 +80,7 @@ public:
     Size size;
     std::vector<Stage> stages;
     FrameGap gap;
-    std::optional<DepthPlane> result;  // where the last stage keeps none
+    std::optional<DepthPlane> result;  // if the last stage does not store its result
 
     DepthView apply(DepthView in, Duration since_last_frame) {
         if (stages.empty())
@@ -88,7 +88,7 @@ public:
         const FrameGap::Meaning now = gap.next(since_last_frame);
         Planes& planes = scratch_of_this_thread<Planes>(size);
 
-        // The first stage reads the frame, a Kalman filter at the end keeps the result.
+        // The first stage may read the frame itself; a final Kalman filter stores the result.
         std::size_t begin = 0;
         if (auto* limits = std::get_if<Limits>(&stages.front())) {
             apply_limits(in, *limits, planes.current);
@@ -99,7 +99,7 @@ public:
         auto* const last = std::get_if<Kalman>(&stages.back());
         const std::size_t end = stages.size() - (last != nullptr ? 1 : 0);
         for (std::size_t i = begin; i < end; ++i) {
-            // The two in one go where nothing comes in between.
+            // Two consecutive stages that run as one pass over the image.
             const auto* flying = std::get_if<FlyingPixels>(&stages[i]);
             if (flying && last && i + 1 == end) {
                 apply_kalman_to_supported(planes.current, flying->rule, last->rule,

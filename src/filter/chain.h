@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters of one camera, one after the other.
+// A sequence of filters for one camera's depth.
 //
-// A chain keeps what its filters remember of earlier frames. It allocates when
-// it is made and never again, has no threads and reads no clock. To change the
-// settings of a running camera make a new chain and drop the old one: it is
-// settled again after a few frames.
+// A chain stores the state that its filters need of earlier frames. It allocates in the
+// constructor only, has no threads and reads no clock. To change the settings of a running
+// camera, make a new chain and drop the old one; its filters adapt within a few frames.
 #pragma once
 
 #include <memory>
@@ -24,14 +23,13 @@ public:
     Chain& operator=(Chain&&) noexcept;
 
     Size size() const;
-    bool off() const;  // apply() returns its input
+    bool off() const;  // true: apply() returns its input
 
-    // Filters one frame, which has the chain's size, and returns what became of it. The
-    // result is the chain's, where a filter remembers it for the next frame anyway: it is
-    // valid until the next call and as long as the chain, or, if the chain is off, `in`.
-    // `since_last_frame` is the time since the frame of the call before, by the
-    // frames' capture times: after a pause the past counts less, after a second
-    // or a step back in time nothing. It does not matter for the first frame.
+    // Filters one frame, which has the chain's size. The result refers to the chain's own
+    // memory and is valid until the next call and as long as the chain exists; if the chain
+    // is off, it is `in`. `since_last_frame` is the difference of the capture times of this
+    // frame and the previous one: earlier frames lose weight in a gap, and are dropped after
+    // a second or if time runs backwards. It is ignored for the first frame.
     DepthView apply(DepthView in, Duration since_last_frame);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the filters must know of a camera.
+// The properties of a camera that its filters depend on.
 #pragma once
 
 #include "filter/background.h"
@@ -11,8 +11,8 @@ namespace theatron::filter {
 struct ChainCamera {
     Size size;
     double depth_unit_mm = 1;
-    // The recorded empty scene, for the step `background`; read while the chain is
-    // made. Without one of the camera's size that step does nothing.
+    // The recorded empty scene, for the filter `background`; read only while the chain is
+    // made. Null or of another size: that filter does nothing.
     const Background* background = nullptr;
     NoiseModel noise;
 };

@@ -12,12 +12,12 @@ namespace {
 
 using nlohmann::json;
 
-// The default chain is chosen by the measurements in docs/filters.md.
+// The default chain follows from the measurements in docs/filters.md.
 std::vector<Step> preset(std::string_view name) {
     if (name == "paper")
         return {RangeParams{}, HoleParams{}, KalmanParams{}};
     if (name == "default") {
-        // Holes first: where a flying pixel was there is an edge, and nothing to fill.
+        // Holes before flying pixels: a removed flying pixel is at an edge and must stay empty.
         return {HoleParams{}, FlyingPixelParams{}, KalmanParams{}};
     }
     return {};
@@ -31,7 +31,7 @@ constexpr const char* known =
     "there are range, background, flying_pixels, speckles, holes and kalman, and the presets off, "
     "paper and default";
 
-// Calls `use` with the default parameters of the step of this name.
+// Calls `use` with the default parameters of the filter of this name.
 template <std::size_t index = 0, class Use>
 bool with_step(std::string_view name, Use use) {
     if constexpr (index < std::variant_size_v<Step>) {
@@ -50,8 +50,8 @@ bool removes_far(const Step& step) {
            std::holds_alternative<BackgroundParams>(step);
 }
 
-// A step behind a preset changes the preset's step of that kind; a new one that
-// removes what is far away goes first, as it leaves less to do for the others.
+// A filter added to a preset replaces the preset's filter of the same kind. A new filter
+// that removes distant pixels goes first, because the others then have less to do.
 void add_to_preset(std::vector<Step>& steps, const Step& step) {
     const auto same = std::find_if(steps.begin(), steps.end(),
                                    [&](const Step& s) { return s.index() == step.index(); });
@@ -80,7 +80,7 @@ public:
 
     void set_background_file(std::string file) { parsed_.settings.background_file = file; }
 
-    // Keeps the first.
+    // Records a problem. Only the first one is reported.
     void note(std::string problem) {
         if (parsed_.problem.empty())
             parsed_.problem = std::move(problem);
@@ -122,7 +122,7 @@ void read_step(const std::string& text, Reader& reader) {
         reader.note(options.problem());
 }
 
-// A short form of outside text for a message.
+// Shortens text from outside for a message.
 std::string shown(const std::string& text) {
     return text.size() <= 40 ? text : text.substr(0, 40) + "...";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text: it gives settings or a sentence. Settings spell and read back as
-// themselves, and parameters are within their ranges, so that a chain can be made.
+// Any text gives settings or a sentence. Settings survive spelling() and parsing, and their
+// parameters are within the ranges that a chain accepts.
 #include <cstdlib>
 #include <string_view>
 

@@ -45,7 +45,7 @@ TEST(Chain, TakesViewsWithAnyStride) {
     }
 }
 
-// Whoever encodes a frame reads it where the chain keeps it.
+// An encoder reads the result in the chain's memory.
 TEST(Chain, TheResultStaysUntilTheNextFrameWhateverTheThreadDoesMeanwhile) {
     const Size size{40, 30};
     for (const char* filters : {"holes", "range:max_mm=2000", "kalman+holes", "default"}) {
@@ -59,7 +59,7 @@ TEST(Chain, TheResultStaysUntilTheNextFrameWhateverTheThreadDoesMeanwhile) {
 }
 
 TEST(Chain, StepsRunInTheirOrder) {
-    // A hole in front of a wall that goes: filled first, it goes with the wall.
+    // A hole in a wall that the next filter removes: filled first, it is removed as well.
     DepthImage image = wall({9, 9}, 3000);
     image.view().row(4)[4] = 0;
     Chain fill_first = make_chain("holes+range:min_mm=2000", image.size);
@@ -111,11 +111,11 @@ TEST(Chain, ASecondChainWithTheSameFramesGivesTheSame) {
     }
 }
 
-// Their scratch memory is the thread's: what one leaves in it must not reach another.
+// Scratch memory belongs to the thread; contents left by one chain must not affect another.
 TEST(Chain, ChainsThatTakeTurnsOnAThreadGiveWhatEachGivesAlone) {
     constexpr const char* steps = "holes+flying_pixels+speckles+kalman";
     std::vector<Size> sizes;
-    // More of them than a thread keeps memory for.
+    // More cameras than a thread keeps scratch memory for.
     for (int i = 0; i < 11; ++i)
         sizes.push_back({40 + 7 * (i / 2), 30 + 5 * (i % 3)});
     const auto image_of_camera = [&](std::size_t camera, unsigned frame) {

@@ -9,7 +9,7 @@
 namespace theatron::filter {
 namespace {
 
-// What is no further behind the nearest surface belongs to it.
+// A depth pixel this close behind the nearest surface belongs to that surface.
 constexpr float same_surface_m = 0.02f;
 constexpr float same_surface_share = 0.02f;
 
@@ -58,7 +58,7 @@ void ColorRegistration::apply(DepthView depth, ColorView color, MutableColorView
             seen.row(y)[x] = 0;
             if (place->x < 0)
                 continue;
-            // The neighbouring cells too: a surface near the cell's border hides as well.
+            // Includes the neighbouring cells: a surface may hide pixels across a cell's border.
             const float limit = place->z - same_surface_m - same_surface_share * place->z;
             bool hidden = false;
             for (int cy = std::max(0, place->y / cell_ - 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour of each depth pixel, for programs that want both in one raster.
+// The colour of each depth pixel, for programs that need both in one raster.
 //
-// Depth and colour cameras stand some centimetres apart. What the colour camera
-// cannot see, because something nearer hides it, gets no colour; without that the
-// foreground's colours are painted on the background beside it.
+// Depth and colour cameras are some centimetres apart. A depth pixel that the colour camera
+// cannot see, because a nearer surface hides it, gets no colour; otherwise the foreground's
+// colours would appear on the background beside it.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@
 
 namespace theatron::filter {
 
-// One camera. Made once; applying allocates nothing. Used by one thread at a time.
+// For one camera. apply() does not allocate. One thread at a time.
 class ColorRegistration {
 public:
-    // The calibration has colour.
+    // Precondition: the calibration has a colour camera.
     explicit ColorRegistration(const Calibration& calibration);
 
-    // Writes the colour of each depth pixel to `out`, and 255 to `seen`, or black
-    // and 0 where there is no depth or the colour camera does not see it. Sizes
-    // are those of the calibration; `out` and `seen` have the depth's.
+    // Writes the colour of each depth pixel to `out` and 255 to `seen`; black and 0 if the
+    // pixel has no depth or is hidden from the colour camera. `depth` and `color` have the
+    // calibration's sizes; `out` and `seen` have the size of `depth`.
     void apply(DepthView depth, ColorView color, MutableColorView out, View<std::uint8_t> seen);
 
 private:
@@ -34,10 +34,10 @@ private:
 
     Calibration calibration_;
     Image<Ray> rays_;
-    int cell_;  // pixels of colour that one depth pixel covers, and more
+    int cell_;  // side in colour pixels, slightly more than a depth pixel covers
     Size cells_;
     std::vector<Place> places_;
-    std::vector<float> nearest_;  // of each cell
+    std::vector<float> nearest_;  // per cell, metres
 };
 
 }  // namespace theatron::filter

@@ -19,7 +19,7 @@ __global__ void for_each_pixel(int left, int top, int right, int bottom, Body bo
         body(x, y);
 }
 
-// One stream, one camera. The first error is kept and ends everything.
+// One stream for one camera. The first error is stored, and all later calls do nothing.
 class CudaLauncher {
 public:
     struct Atomics {
@@ -115,7 +115,7 @@ class GpuChain final : public CudaChain {
 public:
     GpuChain(const ChainSettings& settings, const ChainCamera& camera)
         : chain_(settings, camera, launcher_) {
-        // The background may be gone when this returns.
+        // The caller may destroy the background after the constructor returns.
         launcher_.wait();
     }
 

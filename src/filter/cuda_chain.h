@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters of one camera on an NVIDIA GPU, pixel for pixel those of chain.h.
+// The filters of one camera on an NVIDIA GPU; its results equal those of chain.h.
 //
-// In builds without CUDA, and where no device answers, there is none; the caller
-// then uses Chain.
+// make() fails in builds without CUDA and if no device responds; the caller then uses Chain.
 #pragma once
 
 #include <memory>
@@ -16,12 +15,12 @@ namespace theatron::filter {
 
 class CudaChain {
 public:
-    // Null, and one sentence in `problem`, where that cannot be.
+    // On failure: null, and one sentence in `problem`.
     static std::unique_ptr<CudaChain> make(const ChainSettings& settings, const ChainCamera& camera,
                                            std::string& problem);
     virtual ~CudaChain() = default;
 
-    // As Chain::apply. False if the device failed: the chain is of no use any more.
+    // As Chain::apply. False if the device failed: discard the chain.
     virtual bool apply(DepthView in, MutableDepthView out, Duration since_last_frame) = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds without CUDA.
+// CudaChain in builds without CUDA.
 #ifndef THEATRON_HAS_CUDA
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GPU's chain: its functions in a plain loop, and, where a device answers, there.
+// The GPU's chain: its functions in a plain loop and, if a device responds, on the device.
 #include "filter/cuda_chain.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ constexpr const char* chains[] = {
     "background+flying_pixels+holes:max_size=31,iterations=9+speckles+kalman:hold_frames=3",
 };
 
-// The device of the tests: this CPU, one pixel after the other.
+// A launcher for the tests: runs on this CPU, one pixel after the other.
 class HostLauncher {
 public:
     struct Atomics {
@@ -62,7 +62,7 @@ private:
     std::deque<std::vector<std::byte>> memories_;
 };
 
-// Runs a chain and `other` over the same frames, with a pause among them.
+// Runs a chain and `other` on the same frames, with a time gap among them.
 template <class Apply>
 void expect_equal_frames(const ChainSettings& settings, const ChainCamera& camera, Apply other) {
     Chain chain(settings, camera);

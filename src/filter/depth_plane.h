@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth between two filters, with a margin of "no measurement" around it, so that
-// kernels read neighbours and whole vectors without asking where the image ends.
+// Depth between two filters, with a margin of "no measurement" around it, so that kernels
+// read neighbours and whole vectors without tests for the image's borders.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace theatron::filter {
 
-// Rows -1 to height may be read, and of each row the pixels -margin to
-// padded_width + margin. All outside the image stays 0.
+// Readable: rows -1 to height, and in each row the pixels -margin to padded_width + margin.
+// Everything outside the image is 0.
 class DepthPlane {
 public:
     static constexpr int margin = 32;  // the longest vector of 16-bit lanes
 
     static int padded_width_of(Size size) { return (size.width + margin - 1) / margin * margin; }
-    // Whole words of a bit per pixel: those of HoleScratch have the same shape.
+    // A multiple of 64 pixels: the bit arrays of HoleScratch have the same shape.
     static std::ptrdiff_t pitch_of(Size size) {
         return (padded_width_of(size) + 2 * margin + 63) / 64 * 64;
     }
@@ -43,7 +43,7 @@ public:
     void clear() { std::fill(pixels_.begin(), pixels_.end(), std::uint16_t(0)); }
 
 private:
-    // Rows begin where a vector begins: one that lies across two cache lines costs two.
+    // Aligns rows to vectors: a vector that crosses cache lines costs two accesses.
     template <class T>
     struct VectorAllocator {
         using value_type = T;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Removes pixels that hang between two surfaces: too few of their neighbours are
-// at about their distance.
+// Removes flying pixels, which a sensor reports between two surfaces: too few of their
+// neighbours are at a similar distance.
 #pragma once
 
 #include "filter/depth_plane.h"
@@ -9,7 +9,7 @@
 namespace theatron::filter {
 
 struct FlyingPixelRule {
-    Tolerance tolerance;  // neighbours this close support a pixel
+    Tolerance tolerance;  // a neighbour supports a pixel up to this difference
     int min_support = 3;  // of eight
 };
 
@@ -25,7 +25,7 @@ THEATRON_HD inline std::uint16_t supported_or_none(const std::uint16_t* pixel, s
     const int center = *pixel;
     if (center == none)
         return none;
-    // Always less than the distance itself, so that nothing measured supports nothing.
+    // Below the distance itself, so that neighbours without measurement never support.
     const int tolerance = smaller(tolerance_at(rule.tolerance, center), center - 1);
     int support = 0;
     for (int dy = -1; dy <= 1; ++dy)

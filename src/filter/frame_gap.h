@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the time between two frames means for filters that remember.
+// The effect of the time between two frames on filters with memory.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,15 @@
 
 namespace theatron::filter {
 
-// The gains of the Kalman filter are those of 30 frames a second.
+// The Kalman filter's gains are meant for 30 frames a second.
 inline constexpr Duration nominal_period = std::chrono::microseconds(33'333);
 inline constexpr Duration longest_memory = std::chrono::seconds(1);
 
 class FrameGap {
 public:
     struct Meaning {
-        bool forgets = false;  // the past is of no use
-        int missed = 0;        // frames
+        bool forgets = false;  // true: earlier frames are discarded
+        int missed = 0;        // frames that are missing, at the nominal rate
     };
     Meaning next(Duration since_last_frame) {
         const bool forgets =

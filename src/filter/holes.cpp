@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace theatron::filter::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-// Bits come by the byte: one lane is too few.
+// A single lane has too few mask bits for whole bytes: the scalar build uses the reference.
 void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch&) {
     fill_holes_reference(depth, rule);
 }
@@ -30,7 +30,7 @@ using Words = std::uint64_t*;
 constexpr hn::ScalableTag<std::uint64_t> dw;
 constexpr hn::ScalableTag<std::uint16_t> d;
 
-// Pixels to fill are scattered: vectors are put together from groups of eight.
+// Pixels to fill are scattered, so vectors are gathered from groups of eight pixels.
 #if HWY_HAVE_SCALABLE
 constexpr hn::CappedTag<std::uint16_t, 8> dg;
 #else
@@ -38,12 +38,12 @@ constexpr hn::CappedTag<std::uint16_t, 32> dg;
 #endif
 constexpr std::size_t groups_per_vector = hn::MaxLanes(dg) / 8;
 
-// From the row of the image's first pixel on, margin included.
+// The bits from row 0 on, margin included, as bytes.
 std::uint8_t* bytes_of(const HoleScratch& s, HoleScratch::Bits& bits) {
     return reinterpret_cast<std::uint8_t*>(bits.data() + HoleScratch::slack +
                                            HoleScratch::margin_rows * s.words_per_row());
 }
-// The same pixel.
+// The pixel that belongs to the first of these bits.
 std::uint16_t* pixels_of(DepthPlane& depth) {
     return depth.row(0) - DepthPlane::margin;
 }
@@ -51,13 +51,13 @@ const std::uint16_t* pixels_of(const DepthPlane& depth) {
     return depth.row(0) - DepthPlane::margin;
 }
 
-// A range of whole rows of bits, margins included.
+// A range of whole rows of bits, margins included, in words.
 struct Range {
     std::ptrdiff_t begin, end;
 };
 
-// Calls each(i) for vectors of words of the range, upwards or downwards. The last
-// vector may reach beyond the range.
+// Calls each(i) for all vectors of words in the range, upwards or downwards. The last vector
+// may exceed the range.
 template <class Each>
 HWY_INLINE void upwards(Range range, Each each) {
     for (std::ptrdiff_t i = range.begin; i < range.end; i += std::ptrdiff_t(hn::Lanes(dw)))
@@ -71,7 +71,7 @@ HWY_INLINE void downwards(Range range, Each each) {
         each(i);
 }
 
-// The words at i, seen `bits` pixels further right, or left.
+// The words at i with all pixels moved left by `bits`, or right.
 HWY_INLINE auto from_right(const std::uint64_t* words, std::ptrdiff_t i, int bits) {
     return hn::Or(hn::ShiftRightSame(hn::LoadU(dw, words + i), bits),
                   hn::ShiftLeftSame(hn::LoadU(dw, words + i + 1), 64 - bits));
@@ -81,8 +81,8 @@ HWY_INLINE auto from_left(const std::uint64_t* words, std::ptrdiff_t i, int bits
                   hn::ShiftRightSame(hn::LoadU(dw, words + i - 1), 64 - bits));
 }
 
-// Leaves the pixels that a square of set pixels covers. The square is looked for
-// by its top left pixel, with a window that doubles.
+// Morphological opening: keeps the pixels that a square of set pixels covers. Squares are
+// found by their top left pixel; the window's size doubles in each pass.
 HWY_NOINLINE void open_by_square(HoleScratch& s, Words bits, int side, Range image) {
     const std::ptrdiff_t row = s.words_per_row();
     const std::ptrdiff_t above = row * (HoleScratch::margin_rows - 1);
@@ -111,7 +111,7 @@ HWY_NOINLINE void open_by_square(HoleScratch& s, Words bits, int side, Range ima
     }
 }
 
-// Finds what may be filled. False if nothing.
+// Marks the pixels that may be filled. False if there are none.
 HWY_NOINLINE bool mark_fillable(const DepthPlane& depth, int side, HoleScratch& s, Range image) {
     const int lanes = int(hn::Lanes(d));
     const auto zero = hn::Zero(d);
@@ -146,7 +146,7 @@ HWY_INLINE void sort_pair(Pixels& a, Pixels& b) {
     a = low;
 }
 
-// The pixels of the groups of one vector, `offset` pixels beside them.
+// Loads the pixels of one vector's groups; `pixels` may be offset to load neighbours.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> load_groups(Tag tag, const std::uint16_t* pixels,
                                     const HoleScratch::Group* groups) {
@@ -174,7 +174,7 @@ public:
           n7_(load_groups(dg, pixels + pitch + 1, groups)) {
         furthest_ = hn::Max(hn::Max(hn::Max(n0_, n1_), hn::Max(n2_, n3_)),
                             hn::Max(hn::Max(n4_, n5_), hn::Max(n6_, n7_)));
-        // One less puts "no measurement" behind all others.
+        // Subtracting one turns "no measurement" into the largest number for sorting.
         const auto one = hn::Set(dg, 1);
         n0_ = hn::Sub(n0_, one);
         n1_ = hn::Sub(n1_, one);
@@ -186,23 +186,23 @@ public:
         n7_ = hn::Sub(n7_, one);
     }
 
-    // Without neighbours there are neither near nor far ones.
+    // Masks pixels with an edge among their neighbours; false without neighbours.
     HWY_INLINE auto edge(Tolerance tolerance) const {
         return beyond(tolerance, hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
                                          hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))));
     }
 
-    // Once, as the last: the median, or 0 at an edge.
+    // The median, or 0 at an edge. Destroys the neighbours: call it last.
     HWY_INLINE Pixels median_off_edge(Tolerance tolerance) {
-        // The best network for eight. Of what it does for the last of them the compiler
-        // leaves out what is not used.
+        // The optimal sorting network for eight inputs. The compiler removes the last
+        // comparators' unused outputs.
         sort_pair(n0_, n2_), sort_pair(n1_, n3_), sort_pair(n4_, n6_), sort_pair(n5_, n7_);
         sort_pair(n0_, n4_), sort_pair(n1_, n5_), sort_pair(n2_, n6_), sort_pair(n3_, n7_);
         sort_pair(n0_, n1_), sort_pair(n2_, n3_), sort_pair(n4_, n5_), sort_pair(n6_, n7_);
         sort_pair(n2_, n4_), sort_pair(n3_, n5_);
         sort_pair(n1_, n4_), sort_pair(n3_, n6_);
         sort_pair(n1_, n2_), sort_pair(n3_, n4_), sort_pair(n5_, n6_);
-        // Where there are more than 2, 4, 6 neighbours the third, fifth, seventh is one.
+        // The lower median is the second, third or fourth for more than 2, 4 or 6 neighbours.
         const auto no_neighbour = hn::Set(dg, 0xffff);
         auto median = hn::IfThenElse(hn::Eq(n2_, no_neighbour), n0_, n1_);
         median = hn::IfThenElse(hn::Eq(n4_, no_neighbour), median, n2_);
@@ -222,7 +222,7 @@ private:
     Pixels furthest_;
 };
 
-// Lists the groups in which a bit is set, without branches: they follow no pattern.
+// Lists the groups that contain a set bit. Branch-free, because they follow no pattern.
 HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range image,
                               HoleScratch::Groups& groups) {
     const hn::CappedTag<HoleScratch::Group, 16> dp;
@@ -232,7 +232,7 @@ HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range ima
     const std::ptrdiff_t size = 8 * (image.end - image.begin);
     HoleScratch::Group* next = groups.places.data();
     auto places = hn::Iota(dp, 0);
-    // Beyond the image's last row is a margin without bits.
+    // Reads beyond the last row, where the margin has no set bits.
     for (std::ptrdiff_t i = 0; i < size; i += lanes) {
         const auto listed = hn::Ne(hn::PromoteTo(dp, hn::LoadU(db, bytes + i)), hn::Zero(dp));
         hn::StoreU(hn::Compress(places, listed), dp, next);
@@ -240,11 +240,11 @@ HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range ima
         places = hn::Add(places, hn::Set(dp, HoleScratch::Group(lanes)));
     }
     groups.count = std::size_t(next - groups.places.data());
-    // The last vector is filled up with the image's first pixels.
+    // Fills the last vector with the image's first group.
     std::fill_n(next, groups_per_vector, HoleScratch::Group(DepthPlane::margin / 8));
 }
 
-// Numbers of two bits, one for each pixel.
+// Two-bit numbers, one per pixel, as bit planes.
 struct Count {
     hn::Vec<decltype(dw)> ones, twos;
 };
@@ -253,7 +253,7 @@ HWY_INLINE Count sum(hn::Vec<decltype(dw)> a, hn::Vec<decltype(dw)> b, hn::Vec<d
     return {hn::Xor(either, c), hn::Or(hn::And(a, b), hn::And(either, c))};
 }
 
-// Counts the neighbours that are known: which open pixels have enough of them.
+// Counts known neighbours and selects the open pixels that have enough of them.
 void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
     const std::ptrdiff_t row = s.words_per_row();
     const std::uint64_t* known = s.known.data();
@@ -283,7 +283,7 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
         const auto bit4 = hn::Xor(twos.twos, carry);
         const auto bit8 = hn::And(twos.twos, carry);
 
-        // From the lowest bit on: whether the count is at least the least so far.
+        // From the lowest bit on: true if the count is at least the minimum so far.
         auto enough = hn::Or(bit1, hn::Not(least1));
         const auto next = [&](auto bit, auto least) HWY_ATTR {
             enough = hn::Or(hn::AndNot(least, bit), hn::And(hn::Not(hn::Xor(bit, least)), enough));
@@ -296,8 +296,8 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
     });
 }
 
-// Fills one ring of pixels: the candidates. Those at an edge stay as they are, as
-// more neighbours leave an edge an edge. False if nothing was filled.
+// Fills one ring of pixels, the candidates. Pixels at an edge are skipped for good: an edge
+// remains one when more neighbours become known. False if nothing was filled.
 bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
     std::uint16_t* pixels = pixels_of(depth);
     const HoleScratch::Groups& groups = s.some;
@@ -322,7 +322,7 @@ bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
     return any != 0;
 }
 
-// Marks what sees an edge. False if nothing does.
+// Marks the fillable pixels that have an edge among their neighbours. False if there are none.
 HWY_NOINLINE bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
     for (std::size_t i = 0; i < s.all.count; i += groups_per_vector) {
         const RimLanes rim(pixels_of(depth), depth.pitch(), &s.all.places[i]);
@@ -340,7 +340,7 @@ HWY_NOINLINE bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleS
     return any != 0;
 }
 
-// One step from the edge through what may be filled.
+// Spreads the edge marks by one pixel, within the fillable pixels.
 HWY_NOINLINE void spread_edges(HoleScratch& s, Range image) {
     const std::uint64_t* edge = s.edge.data();
     const std::uint64_t* may_fill = s.may_fill.data();
@@ -406,7 +406,7 @@ HoleScratch::HoleScratch(Size size) : words_per_row_(DepthPlane::pitch_of(size) 
     hole.assign(words, ~std::uint64_t(0));
     for (Bits* bits : {&may_fill, &open, &known, &candidate, &edge, &work})
         bits->assign(words, 0);
-    // Whole vectors are written.
+    // Slack, because whole vectors are written.
     constexpr std::size_t more = 16;
     const std::size_t most_groups =
         std::size_t(8 * words_per_row_) * std::size_t(size.height) + more;

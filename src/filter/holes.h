@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fills small holes by iterated median-based morphology.
 //
-// Which pixels may be filled follows from the shape of the holes alone: the
-// closing of the measured pixels by a square. They are filled from the rim
-// inwards, a ring an iteration, with the median of what is there. A hole that
-// touches a depth edge stays as it is, for nobody knows where in it the edge runs.
+// The shape of the holes alone decides which pixels may be filled: the closing of the
+// measured pixels by a square. They are filled from the rim inwards, one ring per iteration,
+// with the median of their known neighbours. A hole that touches a depth edge is not filled,
+// because the position of the edge inside the hole is unknown.
 #pragma once
 
 #include <vector>
@@ -15,45 +15,45 @@
 namespace theatron::filter {
 
 struct HoleRule {
-    int iterations = 4;  // rings; also how far from an edge nothing is filled
-    // A pixel is left if it lies in a square without measurements that is wider
-    // than this. What lies outside the image is not measured. At most 31.
+    int iterations = 4;  // rings; also the distance from an edge within which nothing is filled
+    // A pixel stays empty if it lies in a square without measurements that is wider than
+    // this. Pixels outside the image count as not measured. At most 31.
     int max_size = 8;
     int min_neighbours = 3;  // measured or filled, of eight
-    Tolerance tolerance;     // neighbours further apart than this are an edge
+    Tolerance tolerance;     // neighbours that differ by more are an edge
 };
 
-// What fill_holes needs while it runs, for planes of one size.
+// Working memory of fill_holes, for planes of one size.
 class HoleScratch {
 public:
     explicit HoleScratch(Size size);
 
-    // A bit per pixel of a plane, margins at both sides included, and of `margin_rows`
-    // above and below. The whole is one array of words: what a shift brings in from
-    // the row before or after comes from a margin.
+    // One bit per pixel of a plane, including the margins on both sides and `margin_rows`
+    // rows above and below. The rows form one array of words: bits shifted in from a
+    // neighbouring row come from its margin, and are 0.
     static constexpr int margin_rows = 32;
     std::ptrdiff_t words_per_row() const { return words_per_row_; }
     static constexpr std::ptrdiff_t slack = 8;  // words, readable before and after
     using Bits = std::vector<std::uint64_t>;
 
-    Bits hole;       // not measured; the margins too
-    Bits may_fill;   // by the shape of the holes
-    Bits open;       // of these, not yet looked at
+    Bits hole;       // not measured, margins included
+    Bits may_fill;   // allowed by the shape of the holes
+    Bits open;       // of these, not yet processed
     Bits known;      // measured or filled
-    Bits candidate;  // what an iteration looks at
-    Bits edge;       // what is near an edge
+    Bits candidate;  // processed in the current iteration
+    Bits edge;       // near an edge
     Bits work;
 
-    // Eight pixels side by side, a byte of bits, in which a bit is set: the byte's
-    // place from the row of the image's first pixel on. The pixels' is eight times that.
+    // Eight adjacent pixels, one byte of bits, at least one of them set. The number is the
+    // byte's index from row 0 of the image on; times eight, it is the index of the pixels.
     using Group = std::uint32_t;
     struct Groups {
         std::vector<Group> places;
         std::size_t count = 0;
     };
-    Groups all, some;                  // all that may be filled; what one iteration looks at
-    std::vector<std::uint16_t> depth;  // of some groups: what they may be filled with, and
-    std::vector<std::uint8_t> filled;  // where
+    Groups all, some;                  // all fillable; those of the current iteration
+    std::vector<std::uint16_t> depth;  // new values of the groups' pixels, and
+    std::vector<std::uint8_t> filled;  // a bit per pixel that gets one
 
 private:
     std::ptrdiff_t words_per_row_;
@@ -63,11 +63,10 @@ private:
 void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& scratch);
 void fill_holes_reference(DepthPlane& depth, const HoleRule& rule);
 
-// What a hole's pixel sees around it; `pixel` points into an image with a margin
-// of one.
+// The neighbourhood of a pixel in a hole; `pixel` points into an image with a margin of one.
 struct HoleRim {
-    int count = 0;   // measured or filled neighbours
-    int median = 0;  // the lower one of an even number
+    int count = 0;   // neighbours that are measured or filled
+    int median = 0;  // of these; the lower one for an even count
     bool edge = false;
 };
 

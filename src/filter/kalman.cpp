@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace theatron::filter::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// kalman_step() for vectors of pixels; the names are the same. Where all pixels of a
-// vector have long been still less is to be done.
+// kalman_step() for vectors of pixels, with the same names. Vectors whose pixels have all
+// been static for long take a shorter path.
 class KalmanLanes {
 public:
     KalmanLanes(const KalmanRule& rule, int boost)
@@ -38,7 +38,7 @@ public:
           least_gain_(i(rule.least_gain)),
           most_gain_(i(255)),
           shifted_gain_at_rest_(i(larger(rule.least_gain, gain_at_rest) << 7)),
-          // With a boost no gain is at rest.
+          // With a boost, no gain counts as being at rest.
           gains_at_rest_(u(boost > 0 ? 0xffff : larger(rule.least_gain, gain_at_rest))),
           twice_least_gain_(u(2 * rule.least_gain)),
           most_hold_(u(rule.most_hold << 12)),
@@ -57,9 +57,9 @@ public:
             floor_[times - 1] = i(larger(rule.least_gain, trend_gain(times)));
     }
 
-    // Advances the state of row `y`. `measured` may be read to the row's padded width.
-    // Not inlined: compilers would make the constants anew for each vector, which takes
-    // as long as the work itself.
+    // Advances the state of row `y`. `measured` is readable up to the row's padded width.
+    // Not inlined: compilers would otherwise recompute the constants for each vector, which
+    // doubles the time.
     HWY_NOINLINE void step(const std::uint16_t* measured, KalmanState& state, int y) const {
         std::uint16_t* depth = state.depth.row(y);
         std::uint16_t* estimate = state.estimate.row(y);
@@ -85,14 +85,14 @@ private:
     using VI = hn::Vec<DI>;
     static VU u(int value) { return hn::Set(du, std::uint16_t(value)); }
     static VI i(int value) { return hn::Set(di, std::int16_t(value)); }
-    // With it the threshold is at most that of the largest trend: 127.
+    // Keeps the threshold at most at that of the largest trend, 127.
     static constexpr int most_trend_at_rest = (128 << 16) / most_noise - 1;
 
-    // True if all gains are at rest now. If they `were_at_rest` they are not read.
+    // True if all gains are at rest afterwards. With `were_at_rest` gains are not loaded.
     HWY_INLINE bool step(VU measured, std::uint16_t* depth_at, std::uint16_t* estimate_at,
                          std::uint16_t* gain_at, bool were_at_rest) const {
         const auto depth = hn::LoadU(du, depth_at);
-        // The sensor's blind corners, and where the background is gone.
+        // Empty vectors: the sensor's blind corners, and removed background.
         const auto absent = hn::Eq(hn::Or(measured, depth), hn::Zero(du));
         if (hn::AllTrue(du, absent))
             return true;
@@ -102,11 +102,11 @@ private:
         const auto noise = hn::Min(
             hn::SaturatedAdd(noise_constant_, hn::MulHigh(squared, noise_squared_)), most_noise_);
         const auto noise_i = hn::BitCast(di, noise);
-        // (reset_sigmas * noise + 16) >> 5. Shifts with rounding are multiplications.
+        // (reset_sigmas * noise + 16) >> 5. Rounding shifts are done by multiplications.
         const auto reset = hn::MulFixedPoint15(noise_i, reset_sigmas_);
         const auto difference = hn::BitCast(di, hn::Sub(measured, depth));
-        // From here on for a measured pixel that is no jump; what becomes of others is
-        // thrown away.
+        // From here on, values are valid for measured pixels that do not jump. Those of
+        // other pixels are not used.
         const auto rest = hn::ShiftRight<8>(hn::BitCast(di, estimate));
         const auto innovation = hn::Sub(hn::ShiftLeft<estimate_bits>(difference), rest);
         const auto trend = hn::Add(
@@ -114,9 +114,9 @@ private:
             hn::MulFixedPoint15(innovation, new_trend_share_));
         const auto dead_band = hn::ShiftRight<2>(hn::Max(noise_i, least_dead_band_noise_));
 
-        // Most often all pixels that are there were there before, and go on. Their depths are
-        // neither so small nor so large that 15 bits do not suffice. Absent pixels are all 0
-        // and stay it.
+        // The usual case: all pixels were measured before and now, and follow. Their depths
+        // fit into 15 bits and are not too small. Absent pixels are 0 in all numbers and
+        // remain so.
         const auto usual = hn::RebindMask(
             du,
             hn::Gt(hn::Min(hn::BitCast(di, measured), hn::BitCast(di, depth)), least_usual_depth_));
@@ -153,7 +153,7 @@ private:
 
         const Follow follow(*this, innovation, rest, trend, noise, gains, dead_band);
         const auto zero = hn::Zero(du);
-        // Numbers of frames stay where they are: in the highest bits.
+        // Frame counts are processed in place, in the highest bits.
         const auto missing = hn::And(hn::ShiftLeft<4>(gains), hold_bits_);
         const auto hold = hn::And(gains, hold_bits_);
         const auto longer =
@@ -162,14 +162,14 @@ private:
             hn::AndNot(hn::Gt(hn::And(gains, low_byte_), twice_least_gain_), hn::Ne(missing, zero));
         const auto next_hold = hn::IfThenElse(grows, longer, hold);
 
-        // One of four: followed, begun anew, held, gone. What was not known has no hold.
+        // Each pixel is followed, reset, held or cleared. An unknown pixel has no hold.
         const auto is_measured = hn::Ne(measured, zero);
         const auto distance =
             hn::Or(hn::SaturatedSub(measured, depth), hn::SaturatedSub(depth, measured));
         const auto follows = hn::AndNot(hn::Gt(distance, hn::BitCast(du, reset)),
                                         hn::Ne(hn::Min(measured, depth), zero));
         const auto held = hn::AndNot(is_measured, hn::Lt(missing, hold));
-        // Less half the range, to add signed numbers with saturation.
+        // Subtracts half the range, so that signed addition saturates.
         const auto stepped =
             hn::Max(hn::SaturatedAdd(hn::BitCast(di, hn::Xor(depth, half_range_)), follow.step),
                     least_signed_);
@@ -184,7 +184,7 @@ private:
         return false;
     }
 
-    // followed(), with any gain.
+    // followed(), for any gain.
     struct Follow {
         HWY_INLINE Follow(const KalmanLanes& k, VI innovation, VI rest, VI any_trend, VU noise,
                           VU gains, VI still_dead_band) {

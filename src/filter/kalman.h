@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Averages each pixel over time where nothing moves: a Kalman filter per pixel,
-// adapted to depth images.
+// Averages each pixel over time where nothing moves: one Kalman filter per pixel, adapted to
+// depth images.
 //
-// Measurement noise grows with the distance. The gain starts at one half after a
-// change and falls towards that of a still pixel, as the filter's uncertainty
-// would. What the filter is told about motion:
-// - a measurement far from the estimate is motion: the pixel starts anew, at once;
-// - measurements that keep lying on one side are slow motion: the longer and the
-//   further, the higher the gain, so that the estimate follows closely;
-// - otherwise it is noise, and the output changes only when the estimate has left
-//   it by more than a part of the noise, so that still surfaces stand still.
-// A pixel without measurement keeps its depth for a frame, and longer where it has
-// come and gone before at the same distance, as the limits of the sensor's range
-// make it flicker.
+// Measurement noise grows with the distance. The gain is one half after a reset and falls
+// towards that of a static pixel, as the filter's uncertainty would. Process noise depends
+// on the measurements:
+// - a measurement far from the estimate is motion: the pixel is reset to it;
+// - measurements that stay on one side of the estimate are slow motion: the gain rises with
+//   the duration and the distance, so that the estimate follows closely;
+// - all else is noise. The output changes only when the estimate differs from it by more
+//   than a part of the noise, so that static surfaces have constant depth.
+// A pixel without measurement keeps its depth for one frame. It does so for longer if it
+// disappeared and returned at the same distance before, as pixels at the limits of the
+// sensor's range do.
 //
-// 16-bit integers throughout, so that all variants agree.
+// All numbers are 16-bit integers, so that all variants give equal results.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace theatron::filter {
 
-// Parts of a depth unit in which the estimate is kept: 1/32.
+// The estimate is stored in units of 1/32 of a depth unit.
 inline constexpr int estimate_bits = 5;
 
 struct KalmanRule {
@@ -41,9 +41,9 @@ struct KalmanRule {
 
 // The state of a pixel, packed into three numbers.
 struct KalmanPixel {
-    std::uint16_t depth = 0;     // as given out
-    std::uint16_t estimate = 0;  // less depth, in 1/32 (high byte); trend (low byte); both signed
-    std::uint16_t gain = 0;      // of 256 (low byte); frames missing and to hold (4 bits each)
+    std::uint16_t depth = 0;     // the output
+    std::uint16_t estimate = 0;  // minus depth, in 1/32 (high byte); trend (low byte); both signed
+    std::uint16_t gain = 0;      // of 256 (low byte); frames missing, frames to hold (4 bits each)
 };
 
 class KalmanState {
@@ -61,9 +61,9 @@ public:
     }
     DepthPlane depth, estimate, gain;
 
-    // For each block of so many pixels of a row, whether their gains are known to have
-    // fallen as far as they do: then these need not be fetched. Only apply_kalman() keeps
-    // this, so that it does not take turns with the reference on one state.
+    // One flag per block of pixels of a row: all gains are known to have reached their
+    // minimum and need not be loaded. Only apply_kalman() maintains it: do not mix it with
+    // the reference on one state.
     static constexpr int block = DepthPlane::margin;
     std::uint8_t* at_rest_row(int y) {
         return at_rest_.data() + std::ptrdiff_t(y) * (depth.padded_width() / block);
@@ -73,28 +73,27 @@ private:
     std::vector<std::uint8_t> at_rest_;
 };
 
-// One frame; the result is the state's depth. `boost` is added to all gains: what was
-// missed meanwhile.
+// Filters one frame; the result is the state's depth. `boost` is added to all gains, for
+// frames that were missed.
 void apply_kalman(const DepthPlane& in, const KalmanRule& rule, int boost, KalmanState& state);
 void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int boost,
                             KalmanState& state);
 
-// The same behind remove_flying_pixels(), in one go over the image.
+// Equals remove_flying_pixels() followed by apply_kalman(), in one pass.
 void apply_kalman_to_supported(const DepthPlane& in, const FlyingPixelRule& flying,
                                const KalmanRule& rule, int boost, KalmanState& state);
 
 inline constexpr int most_noise = 448;        // in 1/32 unit
 inline constexpr int gain_after_reset = 128;  // of 256
 inline constexpr int hold_after_reset = 1;
-// The least gain, of 256, where the mean innovation is beyond 1, 2, 3, 4 times the
-// trend.
+// The minimum gain, of 256, if the mean innovation exceeds 1, 2, 3 or 4 times the trend.
 THEATRON_HD constexpr int trend_gain(int times) {
     return times == 1 ? 40 : times == 2 ? 90 : times == 3 ? 160 : 230;
 }
 inline constexpr int trend_steps = 4;
-// A gain falls to this, if not to the rule's least: its square over 512 is 0.
+// Gains fall to this value, or to the rule's minimum: its square divided by 512 is 0.
 inline constexpr int gain_at_rest = 22;
-// The dead band is a part of the noise, but of no less than this, in 1/32 unit.
+// The dead band is a share of the noise, where the noise counts at least this, in 1/32 unit.
 inline constexpr int least_dead_band_noise = 96;
 inline constexpr int dead_band_share = 4;
 inline constexpr int moving_dead_band = 16;
@@ -105,7 +104,7 @@ THEATRON_HD inline int noise_at(const KalmanRule& rule, int depth) {
                    most_noise);
 }
 
-// A measured pixel that is no jump.
+// The update of a measured pixel that does not jump.
 THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int difference, int noise,
                                         const KalmanRule& rule, int boost) {
     const int rest = std::int8_t(before.estimate >> 8);
@@ -130,9 +129,9 @@ THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int differenc
     const int dead_band =
         moving ? moving_dead_band : larger(noise, least_dead_band_noise) / dead_band_share;
     const int step = (moved < 0 ? -moved : moved) > dead_band ? (moved + 16) >> estimate_bits : 0;
-    const int left = moved - step * (1 << estimate_bits);  // at most the dead band: fits a byte
+    const int left = moved - step * (1 << estimate_bits);  // at most the dead band, fits a byte
 
-    // Only what has long been still may be missing for long.
+    // Only pixels that were static for long may be missing for long.
     if (missing > 0 && (before.gain & 0xff) <= 2 * rule.least_gain)
         hold = smaller(larger(hold, missing + 2), rule.most_hold);
     const int next_gain = larger(gain - ((gain * gain) >> 9), rule.least_gain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every filter on every instruction set against its definition.
+// Every filter on every instruction set is compared with its definition.
 #include <gtest/gtest.h>
 
 #include "filter/flying_pixels.h"
@@ -138,8 +138,8 @@ TEST(FilterKernels, KalmanEqualsItsDefinition) {
     });
 }
 
-// Vectors of pixels that have long been still, at all distances; then some move, jump
-// or go.
+// Vectors of pixels that were static for long, at all distances; some then move, jump or
+// disappear.
 TEST(FilterKernels, KalmanAtRestEqualsItsDefinition) {
     constexpr int depths[] = {2000, 1,    2,    3,      4,      5,      80,     281, 3200, 7300,
                               7400, 7500, 8192, 0x7ffd, 0x7fff, 0x8001, 0xffff, 0,   1000};

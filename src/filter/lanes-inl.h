@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparisons of unsigned lanes that Highway lacks. Included once per instruction set.
+// Comparisons of unsigned lanes missing in Highway. Included once per instruction set.
 #if defined(THEATRON_FILTER_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef THEATRON_FILTER_LANES_INL_H
 #undef THEATRON_FILTER_LANES_INL_H

@@ -21,7 +21,7 @@ void limit_rows(DepthView in, const Limits& limits, DepthPlane& out) {
     const hn::ScalableTag<std::uint16_t> d;
     const int lanes = int(hn::Lanes(d));
     const auto nearest = hn::Set(d, limits.nearest);
-    // One number takes less memory bandwidth than an image of equal ones.
+    // A single number takes less memory bandwidth than an image of equal ones.
     const bool one_limit = limits.common.has_value();
     const auto common = hn::Set(d, limits.common.value_or(0));
     for (int y = 0; y < in.size.height; ++y) {

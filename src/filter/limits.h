@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first filter: what is too near, too far or part of the empty scene goes.
-// Both of background subtraction's ways come down to one comparison per pixel.
+// The first filter: removes pixels that are too near, too far or part of the empty scene.
+// Both ways of background subtraction reduce to one comparison per pixel.
 #pragma once
 
 #include <optional>
@@ -11,21 +11,21 @@
 
 namespace theatron::filter {
 
-// A measurement stays if it is at least `nearest` and less than its pixel's limit.
+// A measurement is kept if it is at least `nearest` and below its pixel's limit.
 struct Limits {
     explicit Limits(Size size);
 
     std::uint16_t nearest = 1;
-    DepthPlane furthest;                           // 0xffff in the image where there is no limit
-    std::optional<std::uint16_t> common = 0xffff;  // the limit, where all pixels have the same
+    DepthPlane furthest;                           // limit per pixel; 0xffff: none
+    std::optional<std::uint16_t> common = 0xffff;  // the limit, if all pixels share it
 
-    // Each narrows what stays. Lengths in the camera's unit.
+    // Each call narrows the limits. Lengths in the camera's unit.
     void keep_range(int first, int last);
     void remove_background(const Background& background, double margin, double sigmas,
                            const NoiseModel& noise, double unit_mm);
 };
 
-// Copies `in`, without what the limits remove, into the plane.
+// Copies `in` into the plane without the pixels that the limits remove.
 void apply_limits(DepthView in, const Limits& limits, DepthPlane& out);
 void apply_limits_reference(DepthView in, const Limits& limits, DepthPlane& out);
 

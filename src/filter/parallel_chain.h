@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chain as a sequence of launches: one function for every pixel, all at once.
+// The chain as a sequence of launches; each applies one function to all pixels in parallel.
 //
-// CUDA runs them on the GPU (cuda_chain.cu); the tests run the same functions in a
-// plain loop (HostLauncher) and compare every pixel with the chain of chain.h. All
-// decisions about a pixel are those of the reference.
+// CUDA runs them on the GPU (cuda_chain.cu). The tests run the same functions in a plain
+// loop (HostLauncher) and compare every pixel with the chain of chain.h. The decisions per
+// pixel are the functions of the reference.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace theatron::filter {
 
-// An image in the launcher's memory with a margin of one pixel, always 0.
+// An image in the launcher's memory with a margin of one pixel, which is always 0.
 struct ParallelImage {
     std::uint16_t* pixels = nullptr;  // the first pixel of the image itself
     int width = 0, height = 0;
@@ -22,7 +22,7 @@ struct ParallelImage {
     THEATRON_HD std::uint16_t* at(int x, int y) const { return pixels + y * pitch + x; }
 };
 
-// Flags of pixels and of `reach` more on each side.
+// Flags of the pixels and of a margin of `reach` pixels on each side.
 struct ParallelFlags {
     std::uint8_t* flags = nullptr;
     int width = 0, height = 0;
@@ -74,7 +74,7 @@ struct Copy {
     THEATRON_HD void operator()(int x, int y) const { *to.at(x, y) = *from.at(x, y); }
 };
 
-// Holes. Flags cover the margins, too, where nothing is measured.
+// Holes. The flags include the margins, where nothing is measured.
 struct FindHoles {
     ParallelImage depth;
     ParallelFlags hole;
@@ -84,16 +84,16 @@ struct FindHoles {
     }
 };
 
-// out = all (or any) of `side` flags in a row or column that begins (or ends) here.
+// out = all (or any) of `side` flags in a row or column that begins (or ends) at the pixel.
 struct Window {
     ParallelFlags in, out;
     int side, dx, dy;
-    bool all;  // eroding looks ahead, dilating back
+    bool all;  // true: erosion, window ahead; false: dilation, window behind
     THEATRON_HD void operator()(int x, int y) const {
         bool result = all;
         for (int i = 0; i < side; ++i) {
             const int u = all ? x + i * dx : x - i * dx, v = all ? y + i * dy : y - i * dy;
-            // Beyond the margin is more of the same as at its rim.
+            // Flags beyond the margin equal those at its rim.
             const bool flag = in.holds(u, v) ? in.at(u, v) != 0 : all;
             result = all ? result && flag : result || flag;
         }
@@ -156,7 +156,7 @@ struct EmptyAtEdge {
     }
 };
 
-// Speckles: each pixel points at an earlier one of its island, the first at itself.
+// Speckles: each pixel refers to an earlier one of its component, the root to itself.
 THEATRON_HD inline int root_of(const int* parent, int i) {
     while (parent[i] != i)
         i = parent[i];
@@ -175,7 +175,7 @@ struct JoinNeighbours {
             join(y * depth.width + x, (y - 1) * depth.width + x);
     }
     THEATRON_HD void join(int a, int b) const {
-        // Others join at the same time: what was a root may be none any more.
+        // Other threads join at the same time, so a root may lose its status.
         while (true) {
             a = root_of(parent, a);
             b = root_of(parent, b);
@@ -221,9 +221,9 @@ struct RemoveIslands {
 
 }  // namespace parallel
 
-// Runs a chain with a launcher, which owns the memory of its device:
-//   T* allocate<T>(count): zeroed, until the launcher ends; null: there is no more
-//   launch(left, top, right, bottom, body): body(x, y) for all pixels, then the next
+// Runs a chain with a launcher, which owns the memory of its device and provides:
+//   T* allocate<T>(count): zeroed memory for the launcher's lifetime; null if exhausted
+//   launch(left, top, right, bottom, body): calls body(x, y) for all pixels; in order
 //   clear(pointer, count), upload/download(view, ParallelImage), Atomics
 template <class Launcher>
 class ParallelChain {
@@ -259,7 +259,7 @@ public:
         }
     }
 
-    // As Chain::apply; `forgets` and `boost` are what follows from the time between frames.
+    // As Chain::apply; `forgets` and `missed` are computed from the time between frames.
     void apply(DepthView in, MutableDepthView out, bool forgets, int missed) {
         launcher_.upload(in, current_);
         for (std::size_t i = 0; i < settings_.steps.size(); ++i)

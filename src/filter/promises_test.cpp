@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the filters promise about scenes, on the chain as cameras use it.
+// Guarantees of the filters on scenes, tested on chains as cameras use them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr Duration frame_time = std::chrono::microseconds(33'333);
 constexpr Size size{64, 32};
 
-// A wall whose depth and noise the test says, frame by frame, behind `kalman`.
+// A wall with depth and noise set by the test, frame by frame, filtered by `kalman`.
 class Wall {
 public:
     explicit Wall(const char* filters = "kalman")
@@ -118,7 +118,7 @@ TEST(Kalman, ThePastCountsLessAfterAPauseAndNothingAfterASecond) {
 }
 
 TEST(Holes, NothingIsInventedAcrossAnEdge) {
-    // A gap of two to eight pixels between two surfaces: nobody knows whose it is.
+    // A gap of two to eight pixels between two surfaces belongs to neither.
     for (int gap = 2; gap <= 8; ++gap) {
         DepthImage image({60, 40});
         for (int y = 0; y < 40; ++y)

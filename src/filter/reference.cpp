@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The definitions of the filters, pixel by pixel. Compiled without automatic
-// vectorisation: what SIMD gains is measured against this.
+// The definitions of the filters, pixel by pixel. Compiled without automatic vectorisation,
+// as the baseline for the gain of SIMD.
 #include <vector>
 
 #include "filter/flying_pixels.h"
@@ -38,8 +38,8 @@ void for_each_pixel(Size size, Each each) {
             each(x, y);
 }
 
-// Pixels without measurement that no square of side `side` without measurements
-// covers.
+// Pixels without measurement that are not covered by any square of side `side` without
+// measurements.
 Flags outside_large_holes(const DepthPlane& depth, int side) {
     const Size size = depth.size();
     const auto is_hole = [&](int x, int y) {

@@ -32,7 +32,7 @@ TEST(Undistortion, OfALensWithoutDistortionChangesNothing) {
 }
 
 TEST(Undistortion, PutsEachDirectionWhereAPinholeSeesIt) {
-    // Depth that encodes the direction: columns of equal x/z.
+    // Depth that encodes the direction: each pixel's value is its x/z.
     const CameraModel lens = kinect_depth();
     const CameraModel plain = without_distortion(lens);
     DepthImage in(lens.size), out(lens.size);
@@ -48,7 +48,7 @@ TEST(Undistortion, PutsEachDirectionWhereAPinholeSeesIt) {
         }
 }
 
-// A red board in front of a green wall; the colour camera stands to the right.
+// A red board in front of a green wall; the colour camera is to the right.
 TEST(ColorRegistration, TheBoardsColourIsNotPaintedOnTheWall) {
     Calibration calibration;
     calibration.depth = pinhole({160, 120}, 70);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integer arithmetic that every variant of a filter shares: the plain reference,
-// the borders of the SIMD loops and CUDA.
+// Integer arithmetic shared by all variants of a filter: the plain reference, the borders of
+// the SIMD loops, and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ THEATRON_HD inline int distance(int a, int b) {
     return a < b ? b - a : a - b;
 }
 
-// A length that grows with the distance: constant + slope/65536 * distance.
+// A length that grows with the distance: constant + slope / 65536 * distance.
 struct Tolerance {
     std::uint16_t constant = 0;
     std::uint16_t slope = 0;

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace theatron::filter::HWY_NAMESPACE {
 
-// Which pixels of a row are measured, and hang on the one left of them and above.
+// Finds the measured pixels of a row, and their links to the pixel at the left and above.
 #if HWY_TARGET == HWY_SCALAR
 
 void link_row(const DepthPlane& depth, int y, Tolerance tolerance, SpeckleScratch& s) {
@@ -75,11 +75,11 @@ HWY_EXPORT(link_row);
 
 using Run = SpeckleScratch::Run;
 
-// Cuts the row into runs of pixels that hang together.
+// Splits the row into runs of linked pixels.
 void add_runs(SpeckleScratch& s) {
     std::size_t open = s.runs.size();
     for (std::size_t word = 0; word + 1 < s.measured.size(); ++word) {
-        // What lies right of the row hangs on nothing.
+        // Beyond the end of the row there are no links.
         const std::uint64_t next = s.to_left[word] >> 1 | s.to_left[word + 1] << 63;
         const auto base = unsigned(64 * word);
         for (std::uint64_t starts = s.measured[word] & ~s.to_left[word]; starts != 0;
@@ -116,7 +116,7 @@ std::uint32_t root_of(std::vector<Run>& runs, std::uint32_t run) {
     return run;
 }
 
-// The islands of two runs are one. Its root is the first of its runs.
+// Merges the components of two runs. The root is the first run of the component.
 void join(std::vector<Run>& runs, std::uint32_t a, std::uint32_t b) {
     a = root_of(runs, a);
     b = root_of(runs, b);
@@ -128,7 +128,7 @@ void join(std::vector<Run>& runs, std::uint32_t a, std::uint32_t b) {
     runs[a].pixels += runs[b].pixels;
 }
 
-// Joins the runs of a row with those above that they touch and hang on.
+// Merges runs of a row with those above that they touch and are linked with.
 void join_rows(SpeckleScratch& s, std::uint32_t above, std::uint32_t row, std::uint32_t end) {
     const std::uint32_t above_end = row;
     while (above < above_end && row < end) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Removes small islands: pixels that hang together, with nothing else at their
-// distance around them.
+// Removes speckles: small connected components of pixels at similar distances.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +11,23 @@
 namespace theatron::filter {
 
 struct SpeckleRule {
-    int max_pixels = 24;  // islands of at most so many go
-    Tolerance tolerance;  // neighbours, left, right, above, below, this close hang together
+    int max_pixels = 24;  // size of the largest component that is removed
+    Tolerance tolerance;  // direct neighbours that differ by at most this are linked
 };
 
-// What remove_speckles needs while it runs, for planes of one size.
+// Working memory of remove_speckles, for planes of one size.
 class SpeckleScratch {
 public:
     explicit SpeckleScratch(Size size);
 
-    struct Run {  // pixels of a row that hang together
+    struct Run {  // linked pixels of one row
         std::uint16_t begin, end;
-        std::uint32_t root;    // the run, itself or an earlier one, that stands for its island
-        std::uint32_t pixels;  // of the island, at its root
+        std::uint32_t root;    // a run of the component, itself or an earlier one
+        std::uint32_t pixels;  // of the component; valid at its root
     };
     std::vector<Run> runs;
-    std::vector<std::uint32_t> first_run;  // of each row, and behind the last
-    // A bit per pixel of one row: measured; hangs on the pixel left of it, or above.
+    std::vector<std::uint32_t> first_run;  // of each row, and one entry for the end
+    // One bit per pixel of a row: measured; linked to the pixel at the left; to the one above.
     std::vector<std::uint64_t> measured, to_left, to_above;
 };
 

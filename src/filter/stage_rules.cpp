@@ -32,8 +32,8 @@ HoleRule rule_of(const HoleParams& params, const ChainCamera& camera) {
 }
 
 KalmanRule rule_of(const KalmanParams& params, const ChainCamera& camera) {
-    const double steps = (1 << estimate_bits) / camera.depth_unit_mm;  // of a millimetre
-    const double metres = camera.depth_unit_mm / 1000;                 // of a depth unit
+    const double steps = (1 << estimate_bits) / camera.depth_unit_mm;  // estimate units per mm
+    const double metres = camera.depth_unit_mm / 1000;                 // metres per depth unit
     KalmanRule rule;
     rule.noise_constant = to_u16(camera.noise.constant_mm * steps);
     rule.noise_squared =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a step's parameters in millimetres to the integers of one camera's kernels.
+// Converts parameters in millimetres to the integers of one camera's kernels.
 #pragma once
 
 #include "filter/chain_camera.h"
@@ -17,7 +17,7 @@ SpeckleRule rule_of(const SpeckleParams& params, const ChainCamera& camera);
 HoleRule rule_of(const HoleParams& params, const ChainCamera& camera);
 KalmanRule rule_of(const KalmanParams& params, const ChainCamera& camera);
 
-// Narrows what the limits keep.
+// Narrow the limits.
 void narrow(Limits& limits, const RangeParams& params, const ChainCamera& camera);
 void narrow(Limits& limits, const BackgroundParams& params, const ChainCamera& camera);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps' names and parameters in one table, for reading and spelling them.
+// Names and parameters of all filters in one table, for parsing and spelling.
 #pragma once
 
 #include <span>

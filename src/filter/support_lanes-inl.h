@@ -31,7 +31,7 @@ public:
         const auto tolerance = hn::Min(hn::SaturatedAdd(constant_, hn::MulHigh(center, slope_)),
                                        hn::SaturatedSub(center, one));
         const auto nearest = hn::Sub(center, tolerance);
-        // What is nearer wraps around and is far beyond.
+        // Nearer neighbours wrap around to large numbers, beyond the width.
         const auto width = hn::Sub(hn::SaturatedAdd(center, tolerance), nearest);
         const auto lonely = [&](std::ptrdiff_t beside) HWY_ATTR {
             const auto beyond =

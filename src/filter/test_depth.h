@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: depth images like those of a sensor.
+// Depth images like those of a sensor, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace theatron {
 
-// A few numbers instead of all pixels where images differ.
+// Prints a few numbers instead of all pixels when images differ.
 inline void PrintTo(const Image<std::uint16_t>& image, std::ostream* out) {
     *out << image.size.width << "x" << image.size.height << ":";
     for (std::size_t i = 0; i < std::min<std::size_t>(image.pixels.size(), 40); ++i)
@@ -33,7 +33,7 @@ inline DepthImage image_of(const DepthPlane& plane) {
     return copy_of(plane.view());
 }
 
-// Two walls with a step between them, noise, and holes in clumps.
+// Two walls with a depth edge between them, noise, and clusters of holes.
 inline DepthImage two_walls(Size size, unsigned seed, int noise = 3, int holes_percent = 10) {
     std::mt19937 random(seed);
     const auto below = [&](int n) { return n > 0 ? int(random() % unsigned(n)) : 0; };
@@ -54,7 +54,7 @@ inline DepthImage two_walls(Size size, unsigned seed, int noise = 3, int holes_p
     return image;
 }
 
-// Any values, many of them at the ends of the range and next to each other.
+// Arbitrary values, many of them at the ends of the range and next to each other.
 inline DepthImage extremes(Size size, unsigned seed) {
     std::mt19937 random(seed);
     constexpr std::uint16_t values[] = {0,   0,   1,      2,      3,      500,
@@ -65,7 +65,7 @@ inline DepthImage extremes(Size size, unsigned seed) {
     return image;
 }
 
-// What breaks loops over vectors: every remainder, and more than one vector.
+// Sizes that break vector loops: every remainder, and more than one vector.
 inline std::vector<Size> awkward_sizes() {
     std::vector<Size> sizes = {{1, 1}, {1, 9}, {640, 3}, {129, 70}};
     for (int width = 2; width <= 70; width += 3)

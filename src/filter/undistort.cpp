@@ -27,7 +27,7 @@ Undistortion::Undistortion(const CameraModel& from, const CameraModel& to)
             if (!pixel || !(std::abs(pixel->x) <= from.size.width) ||
                 !(std::abs(pixel->y) <= from.size.height))
                 continue;
-            // The border belongs to the image on whichever side of it the last bit fell.
+            // Rounding may put border pixels outside; they still count as inside.
             const Source source{std::int32_t(std::lround(pixel->x * one)),
                                 std::int32_t(std::lround(pixel->y * one))};
             if (source.x >= 0 && source.x <= (from.size.width - 1) * one && source.y >= 0 &&
@@ -57,7 +57,7 @@ void Undistortion::apply(ColorView in, MutableColorView out) const {
             }
             const int left = source->x / one, top = source->y / one;
             const int u = source->x % one, v = source->y % one;
-            // Where the fraction is zero there need be no pixel beyond.
+            // With a fraction of zero, the next pixel is not read and may not exist.
             const Rgb* above = in.row(top) + left;
             const Rgb* below = in.row(v == 0 ? top : top + 1) + left;
             const int right = u == 0 ? 0 : 1;

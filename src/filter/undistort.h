@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resamples pictures to those of a lens without distortion, for programs that
-// know no other. Theatron itself keeps pictures as they are and corrects the rays
-// instead (geometry/ray_table.h), which loses nothing.
+// Resamples pictures to those of a lens without distortion, for programs that support no
+// other. Theatron itself leaves pictures unchanged and corrects the rays instead
+// (geometry/ray_table.h), without loss.
 #pragma once
 
 #include <vector>
@@ -11,23 +11,23 @@
 
 namespace theatron::filter {
 
-// The same camera with all distortion zero.
+// The same camera without distortion.
 CameraModel without_distortion(const CameraModel& camera);
 
-// From the pictures of one lens to those of another at the same place. Made once;
-// applying allocates nothing.
+// Maps pictures of one lens to those of another at the same position. apply() does not
+// allocate.
 class Undistortion {
 public:
     Undistortion(const CameraModel& from, const CameraModel& to);
 
-    // Each pixel is the nearest one: distances are never mixed. 0 where the lens
-    // saw nothing.
+    // Nearest neighbour: distances are never interpolated. 0 where the source lens has no
+    // picture.
     void apply(DepthView in, MutableDepthView out) const;
-    // Each pixel is mixed of four. Black where the lens saw nothing.
+    // Bilinear. Black where the source lens has no picture.
     void apply(ColorView in, MutableColorView out) const;
 
 private:
-    // Where a pixel comes from, in 1/256 pixel; x negative: from nowhere.
+    // The source position of a pixel, in 1/256 pixel; x negative: none.
     struct Source {
         std::int32_t x, y;
     };

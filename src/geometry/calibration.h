@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must be known of an RGB-D camera to turn its images into points, and the
-// bytes in which it travels and is recorded (docs/formats/calibration.md).
+// The parameters that turn the images of an RGB-D camera into points, and their encoding
+// in messages and recordings (docs/formats/calibration.md).
 #pragma once
 
 #include "base/bytes.h"
@@ -11,21 +11,21 @@ namespace theatron {
 
 struct Calibration {
     CameraModel depth;
-    // Size 0 x 0 where the camera gives no colour.
+    // Size 0 x 0 if the camera has no colour.
     CameraModel color;
     Pose color_from_depth;
-    double depth_unit_mm = 1;  // millimetres per step of a depth pixel
+    double depth_unit_mm = 1;  // millimetres per unit of a depth pixel
 
-    // Where the depth camera is in the room. Until it is `registered` that is a
-    // guess: at eye height above the origin, level, looking along -z.
+    // The pose of the depth camera in the room. Unless `registered`, it is a default: at eye
+    // height above the origin, level, facing -z.
     Pose room_from_camera{Quat{0, 1, 0, 0}, Vec3{0, 1.5, 0}};
     bool registered = false;
 
     bool operator==(const Calibration&) const = default;
 };
 
-// Pictures of more pixels than any camera gives are refused with their calibration: a few bytes
-// from outside must not make anybody take gigabytes.
+// Calibrations of larger pictures are refused: a few bytes from outside must not cause
+// gigabytes to be allocated.
 inline constexpr std::size_t max_depth_pixels = 2048 * 2048;
 inline constexpr std::size_t max_color_pixels = 4096 * 3072;
 

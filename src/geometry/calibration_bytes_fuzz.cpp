@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: decoding stays inside them. What is accepted encodes to the same bytes.
+// Any bytes: decoding stays inside them. Accepted bytes are encoded to equal bytes.
 #include <cstdlib>
 
 #include "geometry/calibration.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!calibration)
         return 0;
     const theatron::Bytes again = theatron::encode_calibration(*calibration);
-    // Version 0 is read as 1, and one NaN is like another; all else is canonical.
+    // Exceptions: version 0 is read as 1, and NaNs have several encodings.
     if (again.size() != size)
         std::abort();
     return 0;

@@ -6,7 +6,7 @@
 namespace theatron {
 namespace {
 
-// Distorts a direction; OpenCV's rational model.
+// Distorts a direction by OpenCV's rational model.
 Vec2 distort(const CameraModel& c, Vec2 d) {
     const double r2 = d.x * d.x + d.y * d.y;
     const double numerator = 1 + r2 * (c.k[0] + r2 * (c.k[1] + r2 * c.k[2]));
@@ -51,7 +51,7 @@ std::optional<Vec2> unproject(const CameraModel& camera, Vec2 pixel) {
         const Vec2 error{f.x - target.x, f.y - target.y};
         if (error.x * error.x + error.y * error.y < 1e-20)
             return beyond_radius(camera, d) ? std::nullopt : std::optional(d);
-        // The Jacobian by central differences: exact enough for quadratic convergence.
+        // Central differences are accurate enough for quadratic convergence.
         constexpr double h = 1e-6;
         const Vec2 right = distort(camera, {d.x + h, d.y}), left = distort(camera, {d.x - h, d.y});
         const Vec2 below = distort(camera, {d.x, d.y + h}), above = distort(camera, {d.x, d.y - h});

@@ -14,7 +14,7 @@ Rgb color_of(Vec3 point, ColorView color, const Calibration& calibration) {
     const auto pixel = project(calibration.color, calibration.color_from_depth * point);
     if (!pixel)
         return unseen_color;
-    // Compared before it is converted: far outside it would not fit an int.
+    // Compared before conversion: values far outside do not fit an int.
     const double x = std::floor(pixel->x + 0.5), y = std::floor(pixel->y + 0.5);
     if (!(x >= 0 && x < color.size.width && y >= 0 && y < color.size.height))
         return unseen_color;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coloured points, and the PLY files that hold them.
+// Coloured points, and PLY files of them.
 #pragma once
 
 #include <span>
@@ -21,16 +21,16 @@ struct ColoredPoint {
 // The colour of points that the colour camera does not see.
 inline constexpr Rgb unseen_color{128, 128, 128};
 
-// Appends a point in the depth camera's frame for each reading of `depth`.
-// `rays` is calibration.depth's table. `color` may be empty; each point has the
-// colour of the nearest pixel where it is imaged.
+// Appends a point in the depth camera's frame for each measured pixel of `depth`. `rays` is
+// the ray table of calibration.depth. A point gets the colour of the nearest pixel that it
+// is projected to, else unseen_color. `color` may be empty.
 void append_points(DepthView depth, const Image<Ray>& rays, ColorView color,
                    const Calibration& calibration, std::vector<ColoredPoint>& out);
 
-// The points moved by `a_from_b`, from `first` on.
+// Transforms the points in place.
 void transform_points(const Pose& a_from_b, std::span<ColoredPoint> points);
 
-// A whole binary little-endian PLY file: x, y, z as float, red, green, blue as uchar.
+// A complete binary little-endian PLY file: x, y, z as float, red, green, blue as uchar.
 Bytes encode_ply(std::span<const ColoredPoint> points);
 
 }  // namespace theatron

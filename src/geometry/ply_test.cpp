@@ -33,7 +33,7 @@ TEST(Ply, PointsLieOnTheirRaysAndHaveTheColourThatSeesThem) {
     append_points(depth.view(), make_ray_table(calibration.depth), color.view(), calibration,
                   points);
     ASSERT_EQ(points.size(), 1u);
-    // 2 m away, half a pixel left of and below the middle; a pixel is half as wide as far.
+    // 2 m away, half a pixel left of and below the centre; a pixel subtends half its distance.
     EXPECT_NEAR(points[0].x, -0.5, 1e-5);
     EXPECT_NEAR(points[0].y, 0.5, 1e-5);
     EXPECT_NEAR(points[0].z, 2, 1e-5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens correction without resampling: the direction that each depth pixel sees.
+// Lens correction without resampling: the direction of each depth pixel.
 #pragma once
 
 #include "geometry/camera_model.h"
@@ -13,10 +13,10 @@ struct Ray {
     bool operator==(const Ray&) const = default;
 };
 
-// Marks pixels that see nothing, outside the lens' valid circle.
+// Marks pixels outside the lens' valid circle.
 inline constexpr float no_ray = 1e9f;
 
-// One ray per pixel of `camera`. Costs some tens of milliseconds: make it once.
+// One ray per pixel of `camera`. Takes some tens of milliseconds: compute it once.
 Image<Ray> make_ray_table(const CameraModel& camera);
 
 }  // namespace theatron

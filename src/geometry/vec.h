@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors, rotations and rigid poses: the few operations the product needs.
+// Vectors, rotations and rigid poses, as far as the product needs them.
 //
 // Rotations are unit quaternions. Poses name both frames and read as they
 // multiply: room_from_camera * point_in_camera. Lengths are metres.
@@ -87,7 +87,7 @@ struct Mat3 {
 Quat quat_from_matrix(const Mat3& rotation);
 Mat3 matrix_from_quat(Quat q);
 
-// A rigid motion. `a_from_b` takes points of frame b to frame a.
+// A rigid motion. `a_from_b` maps points of frame b to frame a.
 struct Pose {
     Quat rotation;
     Vec3 translation;
@@ -105,8 +105,8 @@ constexpr Pose inverse(const Pose& a_from_b) {
     return {back, -rotate(back, a_from_b.translation)};
 }
 
-// The pose of a camera (x right, y down, z forward) at `eye` that looks at
-// `target`, with `up` up in its picture. `eye` != `target`, `up` not parallel.
+// The pose of a camera (x right, y down, z forward) at `eye` facing `target`, with `up`
+// pointing up in its picture. Precondition: `eye` != `target`, `up` not parallel to the view.
 Pose look_at(Vec3 eye, Vec3 target, Vec3 up);
 
 }  // namespace theatron

@@ -46,7 +46,7 @@ private:
     int number_;
 };
 
-// Memory whose size nobody can change any more: what is cut off would end its other users.
+// Shared memory with a sealed size: shrinking it would crash the other process on access.
 Descriptor make_area(std::size_t bytes) {
     Descriptor area(memfd_create("theatron", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (ftruncate(area.get(), off_t(bytes)) != 0 ||
@@ -101,7 +101,7 @@ Child::Child(const std::string& reader, int input, std::string subject, const Li
                       theirs.get(),
                       input,
                       area.get()});
-        // Held by the child alone, the channel tells of its end.
+        // Only the child has its end of the channel, so the channel closes when it ends.
         close(theirs.release());
         const ByteView ready = receive_within(limits_.start);
         if (ready.size() != 1 ||
@@ -173,7 +173,7 @@ void Child::refuse(const std::string& what) {
     fail("made its reader give an impossible answer (" + what + ")");
 }
 
-// Only its end closes a child's channel: it cannot do so by itself.
+// Called when the channel has closed, which only the end of the child causes.
 void Child::report_end() {
     const int status = end();
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
@@ -208,7 +208,7 @@ void Child::fail(const std::string& what) {
     throw Error(problem_);
 }
 
-// How it ended, as waitpid() says.
+// Ends the child; returns its status as of waitpid().
 int Child::end() {
     int status = 0;
     if (pid_ > 0) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parent's side of a sandbox: a child process that reads foreign bytes.
 //
-// Whatever the child does harms nobody else: it ends itself, or is ended, and the caller gets an
-// Error with one sentence. What it says is as foreign as what it reads: messages are at most
-// max_message_bytes long, the shared memory may change while it is looked at, so copy first, then
-// check. One thread at a time uses a Child.
+// A compromised child can only end or be ended; the caller then gets an Error, one sentence.
+// Output of the child is as untrusted as its input: messages have at most max_message_bytes,
+// and the shared memory may change while it is read, so copy first and check the copy. One
+// thread at a time.
 #pragma once
 
 #include <sys/types.h>
@@ -19,25 +19,25 @@ namespace theatron::sandbox {
 
 class Child {
 public:
-    // Starts the reader of this name (run_as_child()) on `input`, an open descriptor that stays the
-    // caller's. `subject`: what it reads, within a sentence, as "the file '/a/b'". Throws Error.
+    // Starts the reader of this name (run_as_child()) on `input`, an open descriptor owned by the
+    // caller. `subject` is its source within a sentence, as "the file '/a/b'". Throws Error.
     Child(const std::string& reader, int input, std::string subject, const Limits& limits = {});
-    ~Child();  // ends it
+    ~Child();  // ends the child
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // Throws Error if the child is gone.
+    // Throws Error if the child has ended.
     void send(ByteView message);
 
-    // The child's next message, valid until the next call. Throws Error if it ended, or was ended
-    // because none came in time.
+    // The child's next message, valid until the next call. Throws Error if the child ended, or was
+    // ended because no message came in time.
     ByteView receive();
 
-    // What the child wrote into the shared memory, and may still be writing.
+    // The shared memory. The child may write to it at any time.
     ByteView area() const { return area_; }
 
-    // Ends the child because it said what no honest one would say. `what` as in "a picture of 7
-    // GB".
+    // Ends the child because of output that a correct reader never sends, and throws. `what` as in
+    // "a picture of 7 GB".
     [[noreturn]] void refuse(const std::string& what);
 
     pid_t pid() const { return pid_; }
@@ -56,7 +56,7 @@ private:
     std::span<std::byte> area_;
     Bytes message_;
     int answers_ = 0;
-    std::string problem_;  // after the end
+    std::string problem_;  // set once the child has ended
 };
 
 }  // namespace theatron::sandbox

@@ -20,7 +20,7 @@ public:
             check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, 1));
     }
 
-    // The call is allowed if all conditions on its arguments hold.
+    // Allows the call if all conditions on its arguments are met.
     void allow(int call, std::initializer_list<scmp_arg_cmp> conditions = {}) {
         if (good_)
             check(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call,
@@ -40,7 +40,7 @@ private:
     bool good_ = false;
 };
 
-// Registers are wider than a descriptor or a flag, and what is above them means nothing.
+// The kernel ignores the upper half of a register that passes a descriptor or flags.
 constexpr scmp_datum_t low_half = 0xffffffff;
 
 scmp_arg_cmp is(unsigned argument, scmp_datum_t value) {
@@ -60,11 +60,11 @@ void allow_computing(Filter& filter) {
           SCMP_SYS(getpid), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(rt_sigreturn),
           SCMP_SYS(rt_sigprocmask), SCMP_SYS(restart_syscall)})
         filter.allow(call);
-    // Memory of its own, and none that can be executed.
+    // Private anonymous memory that is never executable.
     constexpr unsigned protection = 2, descriptor = 4;
     filter.allow(SCMP_SYS(mmap), {lacks(protection, PROT_EXEC), is(descriptor, low_half)});
     filter.allow(SCMP_SYS(mprotect), {lacks(protection, PROT_EXEC)});
-    // abort() tells the parent more than a forbidden call would.
+    // abort() is allowed: its signal tells the parent more than a forbidden call would.
     filter.allow(SCMP_SYS(tgkill), {is(0, scmp_datum_t(getpid())), is(2, SIGABRT)});
     filter.allow(SCMP_SYS(write), {is(0, STDERR_FILENO)});
     filter.allow(SCMP_SYS(writev), {is(0, STDERR_FILENO)});
@@ -83,7 +83,7 @@ void allow_file(Filter& filter) {
 void allow_source(Filter& filter) {
     filter.allow(SCMP_SYS(read), {is(0, input_descriptor)});
     filter.allow(SCMP_SYS(write), {is(0, input_descriptor)});
-    // With an address these would reach others than the parent chose.
+    // The address must be null: the call could otherwise reach other peers.
     constexpr unsigned address = 4;
     filter.allow(SCMP_SYS(recvfrom), {is(0, input_descriptor), is_null(address)});
     filter.allow(SCMP_SYS(sendto), {is(0, input_descriptor), is_null(address)});

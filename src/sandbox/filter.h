@@ -5,7 +5,7 @@
 
 namespace theatron::sandbox {
 
-// A sanitizer has threads of its own, and does more in a crash than the product's code may.
+// A sanitizer starts threads and makes system calls that the product's code must not make.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool has_sanitizer = true;
 #elif defined(__has_feature)
@@ -15,11 +15,11 @@ inline constexpr bool has_sanitizer =
 inline constexpr bool has_sanitizer = false;
 #endif
 
-// The only descriptors of a child besides three that lead to /dev/null.
+// The only descriptors of a child, besides three of /dev/null.
 inline constexpr int channel_descriptor = 3, input_descriptor = 4, area_descriptor = 5;
 
-// From now on this process ends at any system call that the profile does not name. False where the
-// system has no filters; then nothing has changed.
+// Installs the filter: any system call that the profile does not list ends this process. False,
+// without effect, if the system has no filters.
 bool load_filter(Profile profile);
 
 }  // namespace theatron::sandbox

@@ -23,20 +23,20 @@ namespace {
 
 bool may_start_children = false;
 
-// Only our own parent writes these arguments.
+// Input is trusted: only the parent writes these arguments.
 std::size_t number(const char* text) {
     std::size_t value = 0;
     std::from_chars(text, text + std::strlen(text), value);
     return value;
 }
 
-// True once this process cannot outlive the one that started it.
+// Ties this process to its parent's life. True on success.
 bool die_with(pid_t parent) {
-    // The parent may have ended before the first call: then somebody else is the parent by now.
+    // If the parent ended before the first call, another process is the parent by now.
     return prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
 }
 
-// Bytes of addresses that this process has taken. 0: not known.
+// The size of this process' address space in bytes. 0: unknown.
 std::size_t address_space() {
     const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
     char text[128] = {};
@@ -54,17 +54,17 @@ bool limit_resources(std::size_t memory, std::size_t cpu_seconds) {
     const std::size_t taken = address_space();
     const auto none = [](__rlimit_resource what) { return limit(what, 0, 0); };
     return taken > 0 && limit(RLIMIT_AS, taken + memory, taken + memory) &&
-           // The parent raises the lower one as long as answers come; the filter keeps the child
-           // from doing so.
+           // The parent raises the soft limit as long as answers come; the filter prevents the
+           // child from doing so.
            limit(RLIMIT_CPU, cpu_seconds, RLIM_INFINITY) &&
-           // No number is left for another descriptor.
+           // No further descriptor can be opened.
            limit(RLIMIT_NOFILE, area_descriptor, area_descriptor) && none(RLIMIT_CORE) &&
            none(RLIMIT_FSIZE) && none(RLIMIT_NPROC) && none(RLIMIT_MEMLOCK) &&
            none(RLIMIT_MSGQUEUE) && prctl(PR_SET_DUMPABLE, 0) == 0 &&
            prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
 }
 
-// The shared memory with a page behind it that ends whoever writes on. Empty: failed.
+// Maps the shared memory, followed by an inaccessible page that catches overruns. Empty: failed.
 std::span<std::byte> map_area(std::size_t bytes) {
     const auto page = std::size_t(sysconf(_SC_PAGESIZE));
     void* const place =
@@ -83,7 +83,7 @@ int run(const Reader& reader, char** argv) {
     const std::span<std::byte> area = map_area(number(argv[area_argument]));
     if (area.empty() || !limit_resources(number(argv[memory_argument]), number(argv[cpu_argument])))
         return ended_no_limits;
-    // Whoever formats a date looks for the file of a time zone, unless it is known already.
+    // A set time zone keeps date formatting from opening a file.
     setenv("TZ", "UTC", 1);
     tzset();
     const bool filtered = load_filter(reader.profile);
@@ -114,7 +114,7 @@ std::optional<Bytes> Inside::receive() {
 }
 
 void Inside::send(ByteView message) {
-    // Where nobody listens any more this process has been ended already, or will be.
+    // A failed write is ignored: the parent has ended this process or is about to.
     [[maybe_unused]] const ssize_t written =
         write(channel_descriptor, message.data(), message.size());
 }
@@ -132,7 +132,7 @@ void run_as_child(int argc, char** argv, std::span<const Reader> readers) {
         _exit(ended_no_limits);
     for (const Reader& reader : readers)
         if (std::string_view(argv[name_argument]) == reader.name)
-            // Nothing that the program would do at its end is the child's to do.
+            // No exit handler of the program may run in the child.
             _exit(run(reader, argv));
     _exit(ended_no_limits);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The child's side of a sandbox: code that reads foreign bytes with libraries that are not ours.
+// The child's side of a sandbox: code that reads foreign bytes with third-party libraries.
 //
-// A program that starts children calls run_as_child() first of all in main(): the child is the same
-// program, started again, and ends in there.
+// A program that starts children calls run_as_child() first in main(). The child is the same
+// program, started again, and ends inside that call.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace theatron::sandbox {
 
-// What a reader has: a descriptor to read from, memory that the parent sees, a channel.
+// The resources of a reader: a descriptor to read from, shared memory, a channel to the parent.
 class Inside {
 public:
     Inside(int input, std::span<std::byte> area) : input_(input), area_(area) {}
@@ -21,7 +21,7 @@ public:
     int input() const { return input_; }
     std::span<std::byte> area() const { return area_; }
 
-    // Waits for the parent's next message, at most max_message_bytes. Nothing: it wants no more.
+    // Waits for the parent's next message, at most max_message_bytes. Nullopt: end of work.
     std::optional<Bytes> receive();
     void send(ByteView message);
 
@@ -33,12 +33,12 @@ private:
 struct Reader {
     const char* name;
     Profile profile;
-    // Runs until receive() gives nothing. std::bad_alloc is told to the parent as too much memory.
+    // Runs until receive() returns nullopt. std::bad_alloc is reported as too much memory.
     void (*run)(Inside& inside);
 };
 
-// In a child: limits itself, runs the reader that the parent named, and does not return. Otherwise
-// returns, and Child may be used.
+// In a child: applies the limits, runs the reader that the parent named, and does not return. In
+// the parent: returns, and enables Child.
 void run_as_child(int argc, char** argv, std::span<const Reader> readers);
 
 }  // namespace theatron::sandbox

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a child process that reads foreign bytes may do and use.
+// The permissions and resource limits of a child process that reads foreign bytes.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,15 @@
 
 namespace theatron::sandbox {
 
-// Both: compute, take memory, read what the parent opened, answer the parent. No file, device or
-// connection can be opened, no process or thread started, no signal sent.
+// Allowed in both: compute, allocate, read the parent's descriptor, answer the parent. Not allowed:
+// open a file, device or connection, start a process or thread, send a signal.
 enum class Profile {
-    file,    // reads and seeks in a file
-    source,  // reads from and writes to one connection, and waits for it
+    file,    // may read and seek in a file
+    source,  // may read from, write to and poll one connection
 };
 
-// What goes beyond one of these ends the child. Memory is counted on top of the program and the
-// area, which parent and child share; processor time anew with every `answers_per_cpu_limit`
-// answers.
+// A child that exceeds a limit is ended. Memory excludes the program itself and the shared area;
+// processor time starts again every `answers_per_cpu_limit` answers.
 inline constexpr std::size_t max_memory_bytes = std::size_t(256) << 20;
 inline constexpr std::size_t max_area_bytes = std::size_t(32) << 20;
 inline constexpr int max_cpu_seconds = 30;
@@ -34,7 +33,7 @@ struct Limits {
     Duration answer = longest_answer;
 };
 
-// Where this is "1", a child also runs on a system that has no system-call filter.
+// An environment variable: with "1", a child also runs without a system-call filter.
 inline constexpr const char* unfiltered_variable = "THEATRON_UNFILTERED_READERS";
 
 }  // namespace theatron::sandbox

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Readers that do harm, each in a child of this test program. What they try is what somebody could
-// who has taken over a library through the bytes that it reads.
+// Malicious readers, each in a child of this test program. They attempt what an attacker could who
+// controls a library through the bytes that it reads.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 namespace fs = std::filesystem;
 
-// What each reader does when it has been asked.
+// The action of a reader when it receives a message.
 using Deed = void (*)(Inside&);
 
 template <Deed deed>
@@ -78,7 +78,7 @@ void kill_its_parent(Inside&) {
     kill(getppid(), SIGTERM);
 }
 void abort_its_parent(Inside&) {
-    // The one signal that may be sent must reach the child itself only.
+    // The one signal allowed must not reach other processes.
     syscall(SYS_tgkill, getpid() - 1, getpid() - 1, SIGABRT);
 }
 void trace_its_parent(Inside&) {
@@ -141,7 +141,7 @@ void talk_and_talk(Inside& inside) {
     for (int i = 0; i < 1'000'000; ++i)
         inside.send(as_bytes("more"));
 }
-// For the profile of sources: passes on what comes from the connection, and answers there.
+// A reader of profile `source`: relays bytes from the connection, and answers there.
 void pass_on(Inside& inside) {
     while (inside.receive()) {
         pollfd ready{inside.input(), POLLIN, 0};
@@ -217,7 +217,7 @@ protected:
     }
     ~Sandbox() override { close(file_); }
 
-    // What is said when the reader has been asked once.
+    // The Error's sentence after one message to the reader.
     std::string problem_with(const char* reader, const Limits& l = limits) {
         Child child(reader, file_, "the file 'x'", l);
         child.send(as_bytes("go"));
@@ -252,7 +252,8 @@ TEST_F(Sandbox, WhatAReaderMayNotDoEndsItAloneAndIsSaid) {
         SCOPED_TRACE(forbidden.reader.name);
         const std::string problem = problem_with(forbidden.reader.name);
         EXPECT_THAT(problem, StartsWith("The file 'x' "));
-        // A sanitizer that wants to report a crash, or needs memory for it, ends otherwise.
+        // A sanitizer's crash report makes other calls or needs memory, so the child ends
+        // otherwise.
         if (!has_sanitizer) {
             EXPECT_THAT(problem, HasSubstr(forbidden.said));
         }

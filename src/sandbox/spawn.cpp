@@ -25,7 +25,7 @@ extern char** environ;
 namespace theatron::sandbox {
 namespace {
 
-// PR_SET_PDEATHSIG means the thread that started the child, so one that never ends starts all.
+// PR_SET_PDEATHSIG refers to the thread that started the child, so a permanent thread starts all.
 class LastingThread {
 public:
     static LastingThread& instance() {
@@ -67,7 +67,7 @@ private:
     std::queue<std::packaged_task<pid_t()>> tasks_;
 };
 
-// What a program needs to load. Everything else in the environment is none of a reader's business.
+// The variables that a program needs to start. A reader gets no others.
 std::vector<char*> small_environment() {
     std::vector<char*> kept;
     for (char** entry = environ; *entry; ++entry) {
@@ -96,7 +96,7 @@ public:
     void to_null(int descriptor, int flags) {
         posix_spawn_file_actions_addopen(&actions_, descriptor, "/dev/null", flags, 0);
     }
-    // A copy far from the numbers that others are moved to.
+    // Copies to a high number first, so that later moves do not overwrite the descriptor.
     void move(int from, int to) {
         constexpr int above = 16;
         const int copy = fcntl(from, F_DUPFD_CLOEXEC, above);
@@ -107,7 +107,7 @@ public:
     }
     void close_from(int first) { posix_spawn_file_actions_addclosefrom_np(&actions_, first); }
 
-    // Ctrl-C in the terminal is the parent's to handle.
+    // Ctrl-C in the terminal is for the parent only.
     void detach_from_terminal() {
         sigset_t none, all;
         sigemptyset(&none);
@@ -142,7 +142,7 @@ pid_t spawn(const SpawnOptions& options) {
     Actions actions;
     actions.to_null(STDIN_FILENO, O_RDONLY);
     actions.to_null(STDOUT_FILENO, O_WRONLY);
-    // What a sanitizer says must be seen.
+    // Reports of a sanitizer must stay visible.
     if (!has_sanitizer)
         actions.to_null(STDERR_FILENO, O_WRONLY);
     actions.move(options.channel, channel_descriptor);

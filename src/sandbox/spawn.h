@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts this program again as a child that has nothing of its parent's but what it is given.
+// Starts this program again as a child that inherits only what it is given.
 #pragma once
 
 #include <sys/types.h>
@@ -11,10 +11,10 @@ namespace theatron::sandbox {
 
 struct SpawnOptions {
     std::vector<std::string> arguments;       // without the program's name
-    int channel = -1, input = -1, area = -1;  // stay the caller's
+    int channel = -1, input = -1, area = -1;  // owned by the caller
 };
 
-// The child's number. It ends with this process, not with the calling thread. Throws Error.
+// Returns the child's process id. It ends with this process, not with the thread. Throws Error.
 pid_t spawn(const SpawnOptions& options);
 
 }  // namespace theatron::sandbox
