@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Putting meshes together, and the soft darkening where things stand close.
+// Combines meshes, and precomputes ambient occlusion ("openness").
 #include "synthetic/noise.h"
 #include "synthetic/scene.h"
 
@@ -16,20 +16,20 @@ void MovingMesh::append(const Mesh& part, const std::vector<Influence>& bones) {
 }
 
 void bake_openness(Mesh& mesh, int directions) {
-    // Each direction is a camera far away with a narrow field: rays nearly parallel.
+    // Each direction is a distant camera with a narrow field: nearly parallel rays.
     constexpr int side = 420;
     constexpr double far_away = 60;
     const SampleGrid grid = make_grid(pinhole({side, side}, 7.6));
     std::vector<float> seen_weight(mesh.positions.size()), weight(mesh.positions.size());
     std::vector<F3> local;
     Visibility seen;
-    // What would hide everything: the walls and ceiling let the light in.
+    // The walls and the ceiling would hide everything, so they do not block light.
     std::vector<Triangle> hiding;
     for (const Triangle& t : mesh.triangles)
         if (t.look != Look::wall && t.look != Look::wall_panel && t.look != Look::ceiling)
             hiding.push_back(t);
     for (int i = 0; i < directions; ++i) {
-        // Spread evenly over the upper half and a little below the horizon.
+        // Spread evenly over the upper hemisphere and slightly below the horizon.
         const float y = 1 - 1.25f * (float(i) + 0.5f) / float(directions);
         const float turn = float(i) * 2.39996f;
         const float r = std::sqrt(1 - y * y);
@@ -54,7 +54,7 @@ void bake_openness(Mesh& mesh, int directions) {
                 seen_weight[v] += facing;
         }
     }
-    // Walls are too coarse for this, and bare: they stay as they are.
+    // Walls and ceiling keep their value: their meshes are too coarse for occlusion per vertex.
     for (const Triangle& t : mesh.triangles)
         if (t.look == Look::wall || t.look == Look::wall_panel || t.look == Look::ceiling)
             weight[t.a] = weight[t.b] = weight[t.c] = 0;

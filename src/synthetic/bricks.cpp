@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interlocking toy bricks: regular, sharp and small, a fine structure by which
-// cameras and codecs can be judged.
+// Interlocking toy bricks: a regular, sharp and fine structure that shows the quality of
+// cameras and codecs.
 #include "synthetic/noise.h"
 #include "synthetic/scene.h"
 

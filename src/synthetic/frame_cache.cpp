@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file: magic, key, number of frames; per frame two lengths, the RVL depth
-// and the JPEG colour; at the end a checksum of everything before it.
+// File format: magic, key, number of frames; for each frame two lengths, the RVL depth and
+// the JPEG colour; at the end a checksum of all bytes before it.
 #include "synthetic/frame_cache.h"
 
 #include <atomic>
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "THEATRON-LOOP-1\n";
 
-// Good enough to notice damage; not meant against intent.
+// Detects accidental damage, not manipulation.
 class Checksum {
 public:
     void add(ByteView bytes) {
@@ -78,7 +78,7 @@ std::string file_name(const std::string& key) {
     return name + ".loop";
 }
 
-// Writes pieces and the checksum of them all.
+// Writes byte ranges, and finally their checksum.
 class Writer {
 public:
     explicit Writer(const fs::path& path) : path_(path), out_(path, std::ios::binary) {}
@@ -111,7 +111,7 @@ private:
     Checksum sum_;
 };
 
-// Renders all frames with two threads and hands them over in order.
+// Renders all frames with two threads and delivers them in order.
 class LoopRenderer {
 public:
     LoopRenderer(const LoopOptions& options, std::size_t frames, const Progress& progress)
@@ -133,7 +133,7 @@ public:
         if (failure_)
             std::rethrow_exception(failure_);
         out.require_good();
-        // The second thread's last frames are written without a word.
+        // Progress of the last frames may come from the second thread, which does not report.
         tell("rendering the synthetic operating room", 1);
     }
 
@@ -157,7 +157,7 @@ private:
                     const std::lock_guard lock(mutex_);
                     ready_.emplace(i, std::move(frame));
                 }
-                if (out) {  // only the caller's thread writes and tells
+                if (out) {  // only the caller's thread writes and reports
                     write_ready(*out);
                     tell("rendering the synthetic operating room",
                          0.05 + 0.95 * double(written_) / double(frames_));
@@ -187,10 +187,10 @@ private:
     const Progress& progress_;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> failed_ = false;
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the members below
     std::map<std::size_t, EncodedFrame> ready_;
     std::exception_ptr failure_;
-    std::size_t written_ = 0;  // by the caller's thread alone
+    std::size_t written_ = 0;  // used by the caller's thread only
 };
 
 }  // namespace
@@ -232,7 +232,7 @@ FrameLoop::FrameLoop(const LoopOptions& options, const Progress& progress)
     if (problem)
         throw Error("Cannot make the cache folder '" + folder.string() + "': " + problem.message() +
                     ".");
-    // Another process may be rendering the same: each writes its own, the last one stays.
+    // Another process may render the same loop: each writes a draft, the last rename wins.
     const fs::path unfinished =
         path_.string() + "." +
         std::to_string(std::hash<std::thread::id>()(std::this_thread::get_id()) ^
@@ -297,7 +297,7 @@ bool FrameLoop::open(const std::string& key) {
         if (!take_number(entry.depth_bytes) || !take_number(entry.color_bytes))
             return false;
         entry.at = size - left;
-        // Two pieces, as they were written: the checksum steps in words of each.
+        // Two pieces as in the writer: the checksum runs in words from the start of each.
         if (!take(entry.depth_bytes) || !take(entry.color_bytes))
             return false;
         index_.push_back(entry);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop of one synthetic camera, rendered once and kept in a file, so that
-// playing it costs no more than reading.
+// The loop of one synthetic camera: rendered once and stored in a file, so that playback
+// only reads it.
 //
-// The file is keyed by everything that changes the pictures, written whole or
-// not at all, checked when it is opened and rendered again where it is damaged.
+// The file's key covers everything that changes the pictures. The file is written
+// atomically, checked when it is opened, and rendered again if it is damaged.
 #pragma once
 
 #include <filesystem>
@@ -23,30 +23,30 @@ struct LoopOptions {
     Variant variant = Variant::room;
     int camera = 0, cameras = 2;
     Size color{1280, 720};  // 0 x 0: no colour
-    // Depth at this share of full size, for tests and demonstrations: 1, 2, 4 or 8.
+    // Depth at a fraction of the full size, for tests and demonstrations: 1, 2, 4 or 8.
     int depth_divisor = 1;
     double frames_per_second = 30;
-    bool noise = true;             // as the sensor would measure; otherwise exact, in millimetres
+    bool noise = true;             // false: exact depth in millimetres, without sensor model
     std::filesystem::path folder;  // of the cache; empty: default_cache_folder()
 };
 
 // $XDG_CACHE_HOME/theatron, or .cache/theatron in the home folder.
 std::filesystem::path default_cache_folder();
 
-// Told about long preparations: what is being done, and how far (0 to 1).
+// Reports the progress of long preparations: the current activity, and its share done (0 to 1).
 using Progress = std::function<void(std::string_view what, double done)>;
 
 // The camera's calibration, without rendering anything.
 Calibration loop_calibration(const LoopOptions& options);
 
-// The file that holds this loop, there or not.
+// The file of this loop. It may not exist yet.
 std::filesystem::path loop_path(const LoopOptions& options);
 
-// An opened loop. Used by one thread at a time.
+// An opened loop. One thread at a time.
 class FrameLoop {
 public:
-    // Opens the cached loop, or renders it first, with two threads. Throws Error
-    // where the folder cannot be written.
+    // Opens the cached loop. If there is none, renders it first, with two threads. Throws
+    // Error if the folder cannot be written.
     explicit FrameLoop(const LoopOptions& options, const Progress& progress = {});
 
     const Calibration& calibration() const { return calibration_; }
@@ -54,13 +54,13 @@ public:
     bool was_cached() const { return was_cached_; }
     const std::filesystem::path& path() const { return path_; }
 
-    // Reads the images of frame `number` < frames() into `out`, whose old content
-    // is stale. Throws Error if the file has been damaged since it was opened.
+    // Reads the images of frame `number` < frames() into `out`, whose memory is reused.
+    // Throws Error if the file has been damaged since it was opened.
     void read(std::size_t number, Frame& out);
 
 private:
     struct Entry {
-        std::uint64_t at = 0;  // of the depth bytes; the colour's follow
+        std::uint64_t at = 0;  // file offset of the depth bytes, which the colour bytes follow
         std::uint32_t depth_bytes = 0, color_bytes = 0;
     };
     bool open(const std::string& key);

@@ -10,7 +10,7 @@
 
 namespace theatron::synthetic {
 
-// The model of the depth and colour sensors, with what it needs of the truth.
+// The models of the depth and colour sensors, with their input images.
 struct FrameMaker::Sensor {
     DepthSensor depth;
     std::uint32_t seed;

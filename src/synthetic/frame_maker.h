@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From exact ground truth to the compressed images of one camera's frame.
+// Converts exact ground truth to the compressed images of one camera's frame.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ struct EncodedFrame {
     Bytes color;  // JPEG; empty without colour
 };
 
-// Exact depth rounded to millimetres, inside the hexagon; 0 elsewhere.
+// Exact depth rounded to millimetres inside the hexagon, 0 elsewhere.
 void exact_depth_mm(const Image<float>& depth_m, DepthImage& out);
 
-// Used by one thread at a time. Frames may be made in any order.
+// One thread at a time. Frames may be made in any order.
 class FrameMaker {
 public:
     explicit FrameMaker(const LoopOptions& options);
@@ -28,7 +28,7 @@ public:
 
 private:
     struct Sensor;
-    std::unique_ptr<Sensor> sensor_;  // none: exact
+    std::unique_ptr<Sensor> sensor_;  // null: exact images
     std::unique_ptr<video::ColorEncoder> jpeg_;
     DepthImage depth_;
     ColorData color_;

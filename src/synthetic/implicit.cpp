@@ -36,8 +36,8 @@ Mesh make_surface(const Distance& distance, F3 low, F3 high, float cell, Look lo
     Mesh mesh;
     std::vector<float> below(layer), above(layer);
     std::vector<std::uint32_t> cells_below(layer, none), cells_here(layer, none);
-    // Where the field is far from zero the neighbours need not be asked: distances
-    // change by at most about one per length.
+    // Far from the surface neighbouring samples are skipped: the distance changes by at most
+    // about one per unit length.
     const auto sample_layer = [&](int z, std::vector<float>& out) {
         for (int y = 0; y < ny; ++y)
             for (int x = 0; x < nx;) {

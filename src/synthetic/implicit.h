@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodies given as signed distances, and the meshes of their surfaces.
+// Solids as signed distance functions, and meshes of their surfaces.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace theatron::synthetic {
 
-// Negative inside. Need not be exact, only smooth with a slope of about one.
+// Negative inside. Need not be exact, but smooth with a slope of about one.
 using Distance = std::function<float(F3)>;
 
 inline float ball(F3 p, F3 centre, float radius) {
@@ -19,7 +19,7 @@ inline float ellipsoid(F3 p, F3 centre, F3 radii) {
     const float k = length(q / radii), g = length(q / (radii * radii));
     return g > 1e-9f ? k * (k - 1) / g : -std::min({radii.x, radii.y, radii.z});
 }
-// A capsule whose radius goes from ra at a to rb at b. `along` gets 0 … 1.
+// A capsule with radius ra at a and rb at b. `along` receives the position along it, 0 to 1.
 inline float capsule(F3 p, F3 a, F3 b, float ra, float rb, float* along = nullptr) {
     const F3 d = b - a;
     const float t = clamp01(dot(p - a, d) / dot(d, d));
@@ -34,7 +34,7 @@ inline float rounded_box(F3 p, F3 centre, F3 half, float radius) {
     const F3 outside{std::max(q.x, 0.0f), std::max(q.y, 0.0f), std::max(q.z, 0.0f)};
     return length(outside) + std::min(std::max({q.x, q.y, q.z}), 0.0f) - radius;
 }
-// Union with a fillet of about k.
+// Union with a fillet of radius about k.
 inline float blend(float a, float b, float k) {
     const float h = std::max(k - std::abs(a - b), 0.0f) / k;
     return std::min(a, b) - h * h * k * 0.25f;
@@ -47,12 +47,12 @@ inline float without(float a, float b, float k) {
     return both(a, -b, k);
 }
 
-// The surface where `distance` is zero between `low` and `high`, in cells of
-// `cell`, by naive surface nets; vertices are moved onto the surface and get its
-// normals. The openness is read from the distances above each vertex.
+// Triangulates the surface where `distance` is zero between `low` and `high`, with cells of
+// size `cell`, by naive surface nets. Vertices are moved onto the surface and get its normals;
+// their openness is sampled from the distances above them.
 Mesh make_surface(const Distance& distance, F3 low, F3 high, float cell, Look look);
 
-// Distances sampled outwards tell how open the place is (0.3 … 1).
+// Estimates from distances along the normal how open the place is (0.3 to 1).
 float openness_of(const Distance& distance, F3 position, F3 normal, float reach);
 
 }  // namespace theatron::synthetic

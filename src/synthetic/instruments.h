@@ -9,8 +9,8 @@ namespace theatron::synthetic {
 
 Mesh make_scalpel();
 Mesh make_forceps(float opening);
-// One half of a pair of scissors or a clamp; `side` is -1 or 1. `angle`: how far
-// this half is turned about the joint.
+// One half of scissors or a clamp; `side` is -1 or 1, `angle` its rotation about the joint
+// in radians.
 Mesh make_scissor_half(int side, float angle);
 Mesh make_clamp(float opening);
 Mesh make_hand_retractor();

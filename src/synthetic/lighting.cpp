@@ -7,7 +7,7 @@ namespace {
 constexpr int map_side = 384;
 constexpr float map_fov = 84;  // degrees
 
-// Nearer than this is the lamp's own body.
+// Geometry nearer than this is the lamp's own body.
 constexpr float lamp_body = 0.3f;
 
 Affine from_lamp(const Lamp& lamp) {
@@ -23,7 +23,7 @@ const SampleGrid& map_grid() {
     return grid;
 }
 
-// A running mean over 2 * radius + 1 values along columns, then rows, twice: near a bell curve.
+// Two box filters of 2 * radius + 1 values along columns and rows: close to a Gaussian.
 void blur(std::vector<float>& image, int radius) {
     const float share = 1 / float(2 * radius + 1);
     std::vector<float> source, sums(map_side);
@@ -61,7 +61,7 @@ void blur(std::vector<float>& image, int radius) {
     }
 }
 
-// What a mirror sees: bright ceiling panels, walls, a darker floor.
+// The environment reflected by a mirror: bright ceiling panels, walls, a darker floor.
 F3 room_reflection(F3 d) {
     if (d.y > 0.05f) {
         const float x = d.x / d.y, z = d.z / d.y;
@@ -160,7 +160,7 @@ ShadowMap::Shadow ShadowMap::at(F3 room_point) const {
         const float from = i == 0 ? 0.008f : 0.015f, to = i == 0 ? 0.04f : 0.09f;
         hidden[i] = cover * smoothstep(from, to, behind[i]);
     }
-    // The farther the cover, the softer its shadow.
+    // Shadows get softer with the distance from their caster.
     const float soft = smoothstep(0.02f, 0.3f, behind[1]);
     const float shadow = mix(std::max(hidden[0], 0.8f * hidden[1]), hidden[1], soft);
     return {1 - shadow, 1 - 0.55f * hidden[2] - 0.2f * hidden[1]};
@@ -169,7 +169,7 @@ ShadowMap::Shadow ShadowMap::at(F3 room_point) const {
 LitPoint light_point(const Appearance& look, F3 p, F3 toward_eye, float openness) {
     LitPoint lit;
     const F3 n = look.normal;
-    // From above, the sides, and back from the floor.
+    // Ambient light from above, from the sides, and reflected by the floor.
     const float up = 0.5f + 0.5f * n.y;
     const F3 ambient = mix(F3{0.36f, 0.375f, 0.37f}, F3{0.74f, 0.77f, 0.77f}, up);
     const float shade = openness * openness * 0.5f + openness * 0.5f;
@@ -202,7 +202,7 @@ LitPoint light_point(const Appearance& look, F3 p, F3 toward_eye, float openness
             out += look.color * F3{1, 0.5f, 0.4f} *
                    (look.through * 0.3f * strength * clamp01(1 - std::abs(facing)));
         if (look.specular > 0 && facing > 0) {
-            // Lamps are half a metre wide: their highlights are broad.
+            // Lamps are half a metre wide, so their highlights are broad.
             const F3 half = normalized(l + toward_eye);
             const float h = clamp01(dot(n, half));
             const float peak = std::pow(h, look.gloss) * (look.gloss + 8) * 0.02f;

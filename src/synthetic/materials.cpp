@@ -19,7 +19,7 @@ using enum Material;
 std::array<LookTraits, std::size_t(Look::count)> make_table() {
     std::array<LookTraits, std::size_t(Look::count)> t;
     const auto set = [&](Look look, LookTraits v) { t[std::size_t(look)] = v; };
-    // Paint, vinyl and plastic send back more infrared light than their colour shows.
+    // Paint, vinyl and plastic reflect more infrared light than their colour suggests.
     //                      material, colour, infrared, specular, gloss, mirror
     set(Look::wall, {wall, srgb(196, 208, 204), 0.9f, 0.03f, 12});
     set(Look::wall_panel, {wall, srgb(150, 184, 178), 0.88f, 0.06f, 20});

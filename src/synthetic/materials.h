@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How surfaces look: colour, gloss and fine relief, made from noise.
+// Appearance of surfaces: colour, gloss and fine relief, computed from noise.
 #pragma once
 
 #include <vector>
@@ -67,7 +67,7 @@ enum class Look : std::uint8_t {
     count
 };
 
-// What does not change from place to place.
+// Properties that are constant over a surface.
 struct LookTraits {
     Material material = Material::none;
     F3 color;            // linear, 0 … 1
@@ -78,20 +78,20 @@ struct LookTraits {
 };
 const LookTraits& traits(Look look);
 
-// A surface point, ready to be lit.
+// A surface point, input of the lighting.
 struct Appearance {
     F3 color;
     F3 normal;
     float specular = 0, gloss = 16, mirror = 0;
-    F3 glow;            // light of its own
-    float through = 0;  // light that comes through from behind: skin, gloves, tissue
+    F3 glow;            // emitted light
+    float through = 0;  // share of light transmitted from behind: skin, gloves, tissue
 };
 
-// `footprint`: metres that one pixel covers there; finer detail is left out.
+// `footprint` is the width of one pixel on the surface in metres; finer detail is omitted.
 Appearance appearance(Look look, F3 texture, F3 normal, float footprint,
                       const std::vector<Picture>& pictures);
 
-// Diffuse infrared share at a place: the look's, with its pattern.
+// Share of infrared light reflected diffusely at a place: the look's, with its pattern.
 float infrared(Look look, F3 texture, const std::vector<Picture>& pictures);
 
 }  // namespace theatron::synthetic

@@ -11,7 +11,7 @@ void Mesh::append(const Mesh& other) {
 
 void Mesh::append(const Mesh& other, const Affine& placed) {
     const auto first = std::uint32_t(positions.size());
-    // Normals turn with the inverse transpose; cofactors serve for any scale.
+    // Normals transform by the inverse transpose; cofactors give it up to a factor.
     const F3 nx = cross(placed.y, placed.z), ny = cross(placed.z, placed.x),
              nz = cross(placed.x, placed.y);
     const bool mirrored = dot(placed.x, nx) < 0;
@@ -70,7 +70,7 @@ void split_long_edges(Mesh& mesh, float longest) {
             ++i;
             continue;
         }
-        // The neighbour across this edge splits it too: it is too long there as well.
+        // The neighbour splits this edge at the same point, because it is too long there too.
         const auto a = v[worst], b = v[(worst + 1) % 3], c = v[(worst + 2) % 3];
         const auto m = middle(a, b);
         mesh.triangles[i] = {a, m, c, t.look};
@@ -94,7 +94,7 @@ Mesh make_sheet(int nu, int nv, const std::function<F3(float u, float v)>& posit
 }
 
 Mesh make_box(F3 size, float bevel, Look look) {
-    // Each face is a grid whose outer cells are bent onto the rounded edges.
+    // Each face is a grid; its outer cells form the rounded edges.
     Mesh mesh;
     const F3 half = size * 0.5f;
     const float r = std::min({bevel, half.x, half.y, half.z});
@@ -104,7 +104,7 @@ Mesh make_box(F3 size, float bevel, Look look) {
         {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {}},
         {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {}}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}, {}},
         {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {}}};
-    // Steps along a side: the quarter circle's half, the flat, the other half.
+    // Positions along a side: half of the quarter circle, the flat part, the other half.
     float angles[2 * rounding + 2];
     int count = 0;
     const int steps = r > 0 ? rounding : 0;
@@ -161,7 +161,7 @@ Mesh make_tube(const std::vector<F3>& path, const std::vector<float>& radii, int
             x = cross(up, tangent);
             x = dot(x, x) > 1e-8f ? normalized(x) : any_perpendicular(tangent);
         } else {
-            x = normalized(x - tangent * dot(x, tangent));  // turned along, without twist
+            x = normalized(x - tangent * dot(x, tangent));  // transported without twist
             along += length(path[std::size_t(i)] - path[std::size_t(i - 1)]);
         }
         const F3 y = cross(tangent, x);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangle meshes and the shapes they are built from.
 //
-// Counter-clockwise triangles face the viewer. Each vertex carries `texture`, a
-// place in the object's own frame that its material's pattern is drawn from, so
-// that patterns stick to what moves. For materials with printed pictures,
-// texture is (u, v, picture number).
+// Triangles are counter-clockwise seen from outside. Each vertex has a `texture` coordinate:
+// a position in the object's own frame, from which its material computes the pattern, so that
+// patterns move with objects. For materials with printed pictures it is (u, v, picture number).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace theatron::synthetic {
 
-// How a patch of surface looks; see materials.h.
+// The appearance of a surface; see materials.h.
 enum class Look : std::uint8_t;
 
 struct Triangle {
@@ -28,7 +27,7 @@ struct Mesh {
     std::vector<F3> positions;
     std::vector<F3> normals;
     std::vector<F3> textures;
-    std::vector<float> openness;  // share of the surroundings' light that arrives
+    std::vector<float> openness;  // share of ambient light that arrives (ambient occlusion)
     std::vector<Triangle> triangles;
 
     std::uint32_t add_vertex(F3 position, F3 normal, F3 texture) {
@@ -49,18 +48,18 @@ struct Mesh {
     void append(const Mesh& other, const Affine& placed);
 };
 
-// Recomputes the normals from the triangles, smooth over shared vertices.
+// Recomputes smooth normals from the triangles, over shared vertices.
 void smooth_normals(Mesh& mesh);
 
-// Splits every triangle whose longest edge is longer than `longest`. Straight
-// edges stay straight only over short distances in a picture with distortion.
+// Splits all triangles with an edge longer than `longest`. Under lens distortion only short
+// edges can be drawn as straight lines.
 void split_long_edges(Mesh& mesh, float longest);
 
 // A box around the origin with edges rounded by `bevel`.
 Mesh make_box(F3 size, float bevel, Look look);
 
-// A surface over the unit square, `nu` x `nv` cells, with smooth normals. The
-// texture is the position unless the shape says otherwise.
+// A surface over the unit square, `nu` x `nv` cells, with smooth normals. The texture
+// coordinate is the position.
 Mesh make_sheet(int nu, int nv, const std::function<F3(float u, float v)>& position, Look look);
 
 // A tube along `path` with these radii (one for all, or one each), round, with
@@ -68,7 +67,7 @@ Mesh make_sheet(int nu, int nv, const std::function<F3(float u, float v)>& posit
 Mesh make_tube(const std::vector<F3>& path, const std::vector<float>& radii, int sides, Look look,
                float squash = 1, F3 up = {0, 1, 0});
 
-// `profile` (radius, height) from bottom to top, turned about the y axis.
+// A solid of revolution: `profile` (radius, height) from bottom to top, about the y axis.
 Mesh make_lathe(const std::vector<std::pair<float, float>>& profile, int sides, Look look);
 
 // A flat rectangle in the x-y plane, facing +z, showing picture `number` upright.

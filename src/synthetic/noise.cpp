@@ -25,7 +25,7 @@ float fractal(F3 p, int octaves) {
     float sum = 0, strength = 0.55f;
     for (int i = 0; i < octaves; ++i) {
         sum += strength * noise(p);
-        // Not exactly two, so that the lattices do not coincide.
+        // Not exactly 2, so that the lattices of the octaves do not coincide.
         p = F3{p.z, p.x, p.y} * 2.03f + F3{17.3f, 5.1f, 9.7f};
         strength *= 0.5f;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooth pseudo-random fields for textures and folds: the same for the same
-// place on every machine.
+// Smooth pseudo-random fields for textures and folds: pure functions of the position, equal
+// on every machine.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace theatron::synthetic {
 
-// Scrambles a number; neighbours become unrelated.
+// An integer hash; neighbouring inputs give unrelated outputs.
 constexpr std::uint32_t hash(std::uint32_t v) {
     v = (v ^ 61) ^ (v >> 16);
     v *= 9;
@@ -21,7 +21,7 @@ constexpr std::uint32_t hash(int x, int y, int z) {
     return hash(std::uint32_t(x) * 73856093u ^
                 hash(std::uint32_t(y) * 19349663u ^ hash(std::uint32_t(z) * 83492791u)));
 }
-// 0 to 1.
+// Uniform, 0 to 1.
 constexpr float hash01(std::uint32_t v) {
     return float(hash(v) >> 8) * (1.0f / 16777216.0f);
 }
@@ -29,11 +29,11 @@ constexpr float hash01(std::uint32_t v) {
 // Value noise, about -1 to 1, smooth, changes over a distance of about 1.
 float noise(F3 p);
 
-// Sum of `octaves` noises, each twice as fine and half as strong; about -1 to 1.
+// Sum of `octaves` noises, each with twice the frequency and half the amplitude; -1 to 1.
 float fractal(F3 p, int octaves);
 
-// Distance to the nearest of scattered points, about one per unit cube: 0 to 1.
-// `second` gets the distance to the second nearest.
+// Distance to the nearest of scattered points, about one per unit cube: 0 to 1. `second`
+// receives the distance to the second nearest.
 float cells(F3 p, float* second = nullptr);
 
 }  // namespace theatron::synthetic

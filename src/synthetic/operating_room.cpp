@@ -54,7 +54,7 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     add_tray(still, options.seed);
     add_bricks(still, options.seed);
     add_monitor(still);
-    Mesh cover;  // moves a little, but lies among what does not
+    Mesh cover;  // moves slightly, and is built among the static parts
     if (options.people) {
         add_patient(still, scene->moving, options.detail);
         cover = scene->moving.mesh;

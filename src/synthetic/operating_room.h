@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operating room that exists only here, with exact ground truth: a table with
-// a draped patient and an open situs, a surgeon and an assistant at work, lamps,
-// instruments, a monitor. It moves in a loop without a seam and looks the same
-// for the same options on every machine of one kind.
+// A generated operating room with exact ground truth: a table with a draped patient and an
+// open situs, a surgeon and an assistant at work, lamps, instruments, a monitor. Its motion is
+// a seamless loop. Equal options give equal pictures on all machines of one kind.
 //
-// OperatingRoom holds the scene. RoomMoment is the scene at one time, RoomView
-// one camera's eyes. Make one of each and combine them:
+// OperatingRoom is the scene, RoomMoment the scene at one time, RoomView the scene as one
+// camera sees it. Make one of each and combine them:
 //
 //     const OperatingRoom room({.seed = 3});
 //     const auto view = room.look_from(synthetic_camera(Variant::room, 0, 2, {1280, 720}));
@@ -34,14 +33,14 @@ enum class Variant : std::uint8_t {
 struct SceneOptions {
     std::uint32_t seed = 1;
     Duration loop = 20s;  // 2 s to 2 min; hands move at a natural speed near 20 s
-    // 1: full quality. Smaller values make coarser meshes, faster (tests use 0.3).
+    // Mesh resolution; 1 is full quality. Smaller values are faster (tests use 0.3).
     double detail = 1;
-    // Without them nothing moves: no team, no patient, no sheets over the table, none
-    // of the tools that pass from hand to hand.
+    // False: no team, no patient, no sheets over the table and none of the tools that are
+    // handed over, so that nothing moves.
     bool people = true;
 };
 
-// What a pixel shows. The numbers are stable: they are stored and compared.
+// The material of a pixel. The numbers are stable, because they are stored and compared.
 enum class Material : std::uint8_t {
     none,  // the ray hits nothing
     wall,
@@ -73,23 +72,23 @@ enum class Material : std::uint8_t {
 
 std::string_view to_text(Material material);
 
-// What a pixel's surface is like, for a model of the depth sensor.
+// Surface properties of a pixel, the input of a depth sensor model.
 struct SurfaceSample {
-    // Unit normal in the camera's frame, towards the camera (dot with the ray < 0).
+    // Unit normal in the camera's frame, facing the camera (dot with the ray < 0).
     float nx = 0, ny = 0, nz = 0;
-    // Share of near infrared light (850 nm) that is sent back diffusely, 0 to 1.
+    // Share of near infrared light (850 nm) reflected diffusely, 0 to 1.
     float infrared = 0;
-    // Share of mirror-like reflection, 0 to 1: high on metal, glass and wet tissue.
+    // Share reflected specularly, 0 to 1: high on metal, glass and wet tissue.
     float specular = 0;
     Material material = Material::none;
 };
 
-// Exact images of one moment. Images that were not asked for are empty.
+// Exact images of one moment. Images that were not requested are empty.
 struct GroundTruth {
-    // Distance along the axis (z, as depth cameras give it) in metres at each
-    // depth pixel's centre ray; 0 where the lens images nothing.
+    // Distance along the optical axis (z, as of depth cameras) in metres, at the ray through
+    // each depth pixel's centre; 0 outside the lens' valid circle.
     Image<float> depth_m;
-    Image<SurfaceSample> surface;  // beside each depth pixel
+    Image<SurfaceSample> surface;  // of each depth pixel
     ColorImage color;              // noise-free, sRGB, as the colour camera sees it
 };
 
@@ -100,26 +99,26 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
-// The scene at one time. Immutable; may be shared by threads.
+// The scene at one time. Immutable; threads may share it.
 class RoomMoment {
 public:
     virtual ~RoomMoment() = default;
     virtual Duration time() const = 0;
 };
 
-// One camera in the room. Keeps a picture of all that never moves, so the first
-// picture is slow and the others fast. Used by one thread at a time.
+// One camera in the room. Caches the static parts, so the first picture is slow and all
+// others are fast. One thread at a time.
 class RoomView {
 public:
     virtual ~RoomView() = default;
     virtual const Calibration& calibration() const = 0;
     virtual GroundTruth render(const RoomMoment& moment) = 0;
-    // The same view for another thread; what never moves is kept once for both.
+    // The same view for another thread; both share the static parts.
     virtual std::unique_ptr<RoomView> share() const = 0;
 };
 
-// Immutable after construction, which takes some seconds at full detail. Safe to
-// use from several threads; must outlive its views and moments.
+// Immutable after construction, which takes some seconds at full detail. Thread-safe. Must
+// outlive its views and moments.
 class OperatingRoom {
 public:
     explicit OperatingRoom(const SceneOptions& options = {});
@@ -131,12 +130,12 @@ public:
     // The scene `time` after the start; times beyond the loop wrap around.
     std::shared_ptr<const RoomMoment> at(Duration time) const;
 
-    // `camera.room_from_camera` is where its depth camera is. Any camera model
-    // will do; colour is rendered only where `camera.color` has a size.
+    // `camera.room_from_camera` is the pose of the depth camera. Any camera model is allowed.
+    // Colour is rendered only if `camera.color` has a size.
     std::unique_ptr<RoomView> look_from(const Calibration& camera,
                                         const RenderOptions& options = {}) const;
 
-    // Both in one step, for a single picture.
+    // A view and a moment for a single picture.
     GroundTruth render(const Calibration& camera, Duration time,
                        const RenderOptions& options = {}) const;
 
@@ -145,21 +144,21 @@ private:
     std::unique_ptr<const Scene> scene_;
 };
 
-// The pose, lenses and offsets of camera `index` of `count`: an Azure Kinect in
-// its narrow field of view, 640x576, mask by inside_hexagon(),
-// and a colour camera of this size, {0, 0} for none. Registered.
+// Pose, lenses and offsets of camera `index` of `count`: an Azure Kinect in its narrow field
+// of view, 640x576, masked by inside_hexagon(), with a colour camera of size `color`,
+// {0, 0} for none. Registered.
 inline constexpr int max_cameras = 12;
 Calibration synthetic_camera(Variant variant, int index, int count, Size color);
 
-// A pinhole without distortion for depth and colour at the same place, looking
-// from `eye` at `target` (room frame).
+// A pinhole camera without distortion, depth and colour at the same place, at `eye` facing
+// `target` (room frame).
 Calibration free_viewpoint(Vec3 eye, Vec3 target, Size size, double horizontal_fov_degrees);
 
-// Whether the depth camera's pixel lies inside the illuminated hexagon. The
-// ground truth has depth everywhere the lens images; the sensor only here.
+// True if the depth camera's pixel is inside the illuminated hexagon. The ground truth has
+// depth in the lens' whole circle, the sensor only here.
 bool inside_hexagon(Size image, int x, int y);
 
-// Changes whenever the pictures do: part of the key of anything that is cached.
+// Incremented when the pictures change; part of all cache keys.
 inline constexpr int scene_version = 2;
 
 }  // namespace theatron::synthetic

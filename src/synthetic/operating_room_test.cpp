@@ -12,7 +12,7 @@ namespace {
 
 const SceneOptions small_scene{.seed = 3, .loop = 20s, .detail = 0.12};
 
-// Building the scene takes about a second: once for all tests.
+// Shared by all tests, because construction takes about a second.
 const OperatingRoom& small_room() {
     static const OperatingRoom room(small_scene);
     return room;
@@ -49,9 +49,8 @@ TEST(OperatingRoom, TheFloorIsFlatToATenthOfAMillimetreInEveryCamera) {
     EXPECT_GT(seen, 1000);
 }
 
-// Two cameras, one surface: from a point that one sees, a narrow camera at the
-// other's place looks exactly there, and must see the same point or something
-// before it. Most points must be the same.
+// For points seen by the first camera, a narrow camera at the second's position is aimed at
+// the point. It must see that point or an occluder in front; most points must be visible.
 TEST(OperatingRoom, TwoCamerasSeeTheSamePointOfAStillSurface) {
     const Calibration first = small_camera(0), second = small_camera(1);
     const Image<Ray> rays = make_ray_table(first.depth);
@@ -119,7 +118,7 @@ TEST(OperatingRoom, TheLoopClosesAndMovesInBetween) {
         moved += std::abs(start.pixels[i] - later.pixels[i]) > 0.005f;
     EXPECT_GT(moved, 100);
 
-    // No jump over the seam: hardly more changes than between any two frames.
+    // The seam changes hardly more pixels than any other pair of frames.
     const auto changes = [&](Duration a, Duration b) {
         const auto one = view->render(*small_room().at(a)).depth_m;
         const auto two = view->render(*small_room().at(b)).depth_m;
@@ -160,7 +159,7 @@ TEST(OperatingRoom, ShowsPeopleSitusAndTools) {
           Material::drape, Material::liver, Material::fat, Material::polished, Material::brick,
           Material::paper, Material::screen})
         EXPECT_GT(pixels[std::size_t(m)], 3) << to_text(m);
-    // The room is closed: every ray that the lens images meets something.
+    // The room is closed: every ray inside the lens' circle hits a surface.
     EXPECT_EQ(pixels[std::size_t(Material::none)], 0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The covered patient: a sheet over the body, up over the frame at the head and
+// The draped patient: a sheet over the body, raised over the frame at the head and hanging
 // down the table's sides in folds, with a window over the situs.
 #include "synthetic/patient.h"
 
@@ -11,11 +11,11 @@ namespace theatron::synthetic {
 namespace {
 
 constexpr float table_top = 0.925f;
-constexpr float half_width = 0.30f;  // where the sheet leaves the table
+constexpr float half_width = 0.30f;  // from the middle to the edge of the table
 
 float cover_height(float x, float z) {
     float h = body_height(x, z) + 0.006f;
-    // Up to the frame before the patient's head.
+    // Rises to the frame in front of the patient's head.
     const float up = smoothstep(-0.50f, -0.665f, x);
     h = mix(h, 1.5f - 0.03f * smoothstep(0.15f, 0.42f, std::abs(z)), up);
     // Cloth spans hollows and wrinkles, calmer near the window where it is glued.
@@ -45,7 +45,7 @@ F3 cover_point(float u, float v) {
     };
     if (along > 0)
         x = leave(along, 1.11f, 0.05f, drop_x);
-    // Where the sheet rises to the frame it hangs from farther out.
+    // Where the sheet rises to the frame, it hangs from further out.
     const float raised = smoothstep(-0.5f, -0.66f, x);
     z = leave(across, mix(half_width, 0.4f, raised), 0.045f, drop_z);
     const float drop = std::max(drop_x, drop_z) + 0.25f * std::min(drop_x, drop_z);
@@ -100,7 +100,7 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
         nu, nv,
         [&](float u, float v) {
             F3 p = cover_point(clamp01(warp_u(u)), 1 - clamp01(warp_v(v)));
-            // Vertices just inside the window's border move onto it: a clean hem.
+            // Vertices just inside the window's border are moved onto it, for a clean hem.
             const float d = window_distance(p.x, p.z);
             if (p.y > 1.0f && d < 1 && d > 0.86f) {
                 p.x /= d;
@@ -116,7 +116,7 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
     for (F3& n : back.normals)
         n = -n;
 
-    Mesh low, high;  // what never moves, and what the breath moves
+    Mesh low, high;  // static part, and part moved by the breath
     low.positions = high.positions = sheet.positions;
     low.normals = high.normals = sheet.normals;
     low.textures = high.textures = sheet.textures;
@@ -149,7 +149,7 @@ void add_patient(Mesh& still, MovingMesh& moving, double detail) {
         back.positions[i] += back.normals[i] * 0.002f;
     std::erase_if(back.triangles, [&](const Triangle& t) {
         const F3 p = back.positions[t.a];
-        return p.x > -0.5f && p.y > 0.9f;  // lies on the body: never seen from below
+        return p.x > -0.5f && p.y > 0.9f;  // on the body: never visible from below
     });
     still.append(drop_unused(back));
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A person at work: a skeleton, and the skinned parts that follow it.
+// A person at work: a skeleton, and skinned meshes that follow it.
 //
-// The body's rest pose stands on the floor at the origin and looks along +z; its
-// left is +x. Heads and hands have rest poses in their own frames: a head around
-// the top of its neck, a hand with the wrist at the origin, fingers along +z, the
-// back of the hand up (+y) and, for the right hand, the thumb at +x.
+// In the rest pose the body stands on the floor at the origin, facing +z; its left is +x.
+// Heads and hands have rest poses in their own frames: the head around the top of its neck;
+// the hand with the wrist at the origin, fingers along +z, the back of the hand up (+y) and,
+// for the right hand, the thumb at +x.
 #pragma once
 
 #include "synthetic/scene.h"
@@ -23,7 +23,7 @@ enum PersonBone : std::uint16_t {
     hand_right = hand_left + 16,
     eye_left = hand_right + 16,
     eye_right,
-    cuff_left,  // the glove's end over the sleeve
+    cuff_left,  // the end of the glove over the sleeve
     cuff_right,
     person_bones_used
 };
@@ -57,7 +57,7 @@ struct Finger {
 };
 const Finger& finger(int number);  // 0: thumb … 4: little finger
 
-// How far each finger is bent, 0 straight … 1 fist.
+// Flexion of each finger, 0 straight to 1 fist.
 struct Grip {
     float bend[5];
 };

@@ -19,7 +19,7 @@ struct Gown {
         const float belly = ellipsoid(p, {0, 1.06f, 0.008f}, {0.172f, 0.23f, 0.142f});
         float d = blend(blend(yoke, ribs, 0.1f), belly, 0.1f);
         d = blend(d, skirt(p), 0.09f);
-        // Where the neck comes out.
+        // The opening for the neck.
         const float collar = capsule(p, {0, 1.43f, -0.012f}, {0, 1.505f, 0.0f}, 0.088f, 0.066f);
         d = blend(d, collar, 0.04f);
         // A belt draws the cloth in.
@@ -40,7 +40,7 @@ struct Gown {
             k * std::min(rx, rz) * 0.95f - folds * 0.014f * smoothstep(0.05f, 0.8f, t);
         return both(side, std::abs(p.y - 0.65f) - 0.37f, 0.03f);
     }
-    // 0 … 1 from shoulder to wrist in `along`.
+    // `along` receives the position from shoulder to wrist, 0 to 1.
     float sleeve(F3 p, float side, float& along) const {
         const F3 a{rest::shoulder.x * side, rest::shoulder.y, rest::shoulder.z};
         const F3 d = rest::arm_direction(side);

@@ -78,7 +78,7 @@ Mesh right_hand(float cell, Look look, std::vector<Influence>& influences, std::
             if (finger_shape(p, finger(i)) < finger_shape(p, finger(nearest)))
                 nearest = i;
         const Finger& f = finger(nearest);
-        // Along the finger each joint hands over to the next.
+        // Weights change from joint to joint along the finger.
         const F3 d = normalized(f.joint[3] - f.joint[0]);
         const float along = dot(p - f.joint[0], d);
         const auto passed = [&](int joint) {
@@ -96,7 +96,7 @@ Mesh right_hand(float cell, Look look, std::vector<Influence>& influences, std::
     return m;
 }
 
-// The cuff's vertices turn with the forearm.
+// The cuff's vertices follow the forearm.
 Influence with_cuff(const Influence& in, F3 p, std::uint16_t cuff) {
     const float share = smoothstep(0.002f, -0.045f, p.z);
     if (share <= 0)

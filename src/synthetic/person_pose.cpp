@@ -4,7 +4,7 @@
 namespace theatron::synthetic {
 namespace {
 
-// The least turn that takes unit vector a to unit vector b.
+// The rotation by the smallest angle that maps unit vector a to unit vector b.
 Affine turn_between(F3 a, F3 b) {
     const F3 axis = cross(a, b);
     const float s = length(axis);
@@ -32,7 +32,8 @@ void pose_arm(const Affine& torso, float side, Affine& palm, Affine& upper, Affi
         to_wrist = normalized(to_wrist) * longest;
         palm.origin = shoulder + to_wrist;
     }
-    // The elbow lies on a circle around the line; down and outwards is natural.
+    // The elbow is on a circle around the line from shoulder to wrist; down and outwards is
+    // the natural side.
     const float d = std::max(length(to_wrist), 0.12f);
     const F3 line = to_wrist * (1 / d);
     constexpr float a = rest::upper_arm, b = rest::forearm;
@@ -72,7 +73,7 @@ void pose_person(const PersonPose& pose, Affine* bones, std::array<Affine, 2>& p
     bones[lower] = pose.root;
     bones[chest] = torso;
     const F3 neck = torso * rest::neck;
-    // The head turns most of the way, the eyes do the rest.
+    // The head turns by most of the angle, the eyes by the rest.
     const F3 eyes = neck + F3{0, 0.11f, 0};
     const F3 ahead = normalized(torso.turn({0, -0.05f, 1}));
     const F3 wanted = normalized(pose.look_at - eyes);

@@ -6,8 +6,8 @@
 namespace theatron::synthetic {
 namespace {
 
-// Strokes of a simple capital alphabet on a grid 4 wide and 6 high: pairs of
-// digits are points, '-' lifts the pen.
+// Strokes of a simple capital alphabet on a grid of 4 by 6: pairs of digits are points, '-'
+// lifts the pen.
 struct Glyph {
     char letter;
     const char* strokes;

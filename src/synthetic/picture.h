@@ -10,17 +10,17 @@
 
 namespace theatron::synthetic {
 
-// An sRGB picture that can be sampled at any size without flicker.
+// An sRGB picture that can be sampled at any scale without aliasing.
 class Picture {
 public:
     explicit Picture(ColorImage image);
 
-    // Linear colour at (u, v), v down; `blur` is the share of the width that one
-    // sample covers.
+    // Linear colour at (u, v), v down; `blur` is the width of a sample as a share of the
+    // picture's width.
     F3 sample(float u, float v, float blur) const;
 
 private:
-    std::vector<ColorImage> levels_;  // each half as large as the one before
+    std::vector<ColorImage> levels_;  // each half as large as the one before (mipmap)
 };
 
 // The pictures of the room, in this order.
@@ -36,7 +36,7 @@ enum class PictureNumber {
 };
 std::vector<Picture> make_pictures();
 
-// A canvas for drawing such pictures, with smooth edges.
+// A canvas for drawing such pictures, with antialiasing.
 class Canvas {
 public:
     Canvas(Size size, Rgb background);
@@ -46,8 +46,8 @@ public:
     void rectangle(float x0, float y0, float x1, float y1, Rgb color);
     void line(float x0, float y0, float x1, float y1, float width, Rgb color);
     void ellipse(float cx, float cy, float rx, float ry, float turn, Rgb color);
-    // Capital letters, digits and some signs of this height; (x, y) is the top
-    // left. Returns the x after the text.
+    // Draws capital letters, digits and some signs of this height; (x, y) is the top left.
+    // Returns the x after the text.
     float text(float x, float y, float height, std::string_view text, Rgb color);
 
 private:

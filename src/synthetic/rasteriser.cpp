@@ -10,8 +10,8 @@ struct P2 {
     float x, y;
 };
 
-// Where a point comes to lie in the picture, only to bound what is tested. Points
-// beyond the lens' limit are pulled to the limit.
+// The approximate image of a point, used only to bound the pixels to test. Points beyond the
+// lens' limit are moved to the limit.
 P2 bound_projection(const CameraModel& c, F3 p, float& pulled) {
     float x = p.x / p.z, y = p.y / p.z;
     float r2 = x * x + y * y;
@@ -37,7 +37,7 @@ struct Raster {
         const float spread =
             std::max({std::abs(pa.x - pb.x), std::abs(pb.x - pc.x), std::abs(pc.x - pa.x),
                       std::abs(pa.y - pb.y), std::abs(pb.y - pc.y), std::abs(pc.y - pa.y)});
-        // Straight edges bulge under distortion, by a share of their length.
+        // Distortion bends straight edges by a share of their length.
         margin += 0.05f + grid.shift + 0.0004f * spread * spread;
         const Size size = seen.depth.size;
         const auto low = [&](float v) { return int(std::ceil((v - margin + 0.5f) * s - 0.5f)); };
@@ -51,8 +51,8 @@ struct Raster {
 
         const F3 n = cross(b - a, c - a);
         const float distance = dot(n, a);
-        // Each edge plane is computed in one order whichever triangle it bounds,
-        // so that neighbours agree to the last bit and no ray slips between them.
+        // Each edge plane is computed in the same order for both triangles of the edge, so
+        // that they agree to the last bit and no ray passes between them.
         const F3 ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
         const float zmin = std::min({a.z, b.z, c.z}), zmax = std::max({a.z, b.z, c.z});
         for (int y = y0; y <= y1; ++y) {
@@ -64,7 +64,7 @@ struct Raster {
                 const float wa = ea.x * r.x + ea.y * r.y + ea.z;
                 const float wb = eb.x * r.x + eb.y * r.y + eb.z;
                 const float wc = ec.x * r.x + ec.y * r.y + ec.z;
-                // All three against the normal: the ray passes through a front face.
+                // All three edges against the normal: the ray hits the front face.
                 if (wa > 0 || wb > 0 || wc > 0 || r.x == no_ray)
                     continue;
                 const float across = n.x * r.x + n.y * r.y + n.z;
@@ -84,7 +84,7 @@ struct Raster {
         return swap ? -cross(q, p) : cross(p, q);
     }
 
-    // The part of the triangle before the near plane, as a fan.
+    // Draws the part of the triangle beyond the near plane, as a fan.
     void draw_clipped(const F3 (&corners)[3], std::uint32_t id) {
         F3 kept[4];
         int count = 0;

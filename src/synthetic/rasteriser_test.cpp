@@ -31,8 +31,8 @@ double cast(Vec3 a, Vec3 b, Vec3 c, Ray ray, double& nearest_edge) {
     return inside ? z : INFINITY;
 }
 
-// Small and large triangles, near the lens and partly behind it, through a
-// distorting lens: each pixel must have the depth that its own ray finds.
+// Small and large triangles, near the lens and partly behind it, under distortion: each pixel
+// must have the depth of its own ray.
 TEST(Rasteriser, EqualsRayCastingUnderDistortion) {
     CameraModel camera = scaled(synthetic_camera(Variant::room, 0, 2, {}).depth, {80, 72});
     const SampleGrid grid = make_grid(camera);
@@ -68,7 +68,7 @@ TEST(Rasteriser, EqualsRayCastingUnderDistortion) {
                 doubtful = std::min(doubtful, edge);
         }
         if (doubtful < 1e-5)
-            continue;  // on an edge: either side is right
+            continue;  // on an edge: both triangles are correct
         if (best == INFINITY) {
             EXPECT_EQ(seen.depth.pixels[i], nothing_seen) << i;
         } else {
@@ -79,8 +79,8 @@ TEST(Rasteriser, EqualsRayCastingUnderDistortion) {
     EXPECT_GT(hits, 2000);
 }
 
-// Neighbouring triangles share their edges exactly: a surface of them has no holes,
-// in grids of any density and shift.
+// Neighbouring triangles share their edges exactly, so a closed surface has no holes, for
+// grids of any density and shift.
 TEST(Rasteriser, AClosedSurfaceHasNoHoles) {
     const CameraModel camera =
         scaled(synthetic_camera(Variant::room, 1, 2, {1280, 720}).color, {64, 36});

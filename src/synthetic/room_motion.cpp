@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens in the loop, on a clock of 24 beats that starts again without a
-// seam: the surgeon clamps, gives the clamp back, gets scissors, cuts, returns
-// them, steps back to look at the monitor, and is handed the clamp again. All
-// small motions are sums of sines that fit whole into the loop.
+// The motion of the loop, on a clock of 24 beats without a seam: the surgeon clamps, returns
+// the clamp, gets scissors, cuts, returns them, steps back to see the monitor, and is handed
+// the clamp again. All small motions are sums of sines with whole periods in the loop.
 #include <span>
 
 #include "synthetic/instruments.h"
@@ -17,10 +16,10 @@ constexpr float beats = 24;
 struct Key {
     float at;  // beats
     HandPose hand;
-    float busy;  // how much it moves by itself, metres
+    float busy;  // amplitude of the small motion, metres
 };
 
-// Between keys, smoothly; the last leads to the first.
+// Interpolates smoothly between keys; the first follows the last.
 Key between(std::span<const Key> keys, float beat) {
     std::size_t next = 0;
     while (next < keys.size() && keys[next].at <= beat)
@@ -40,7 +39,7 @@ Key between(std::span<const Key> keys, float beat) {
     return k;
 }
 
-// Swings `times` per loop.
+// A sine with `times` periods per loop.
 float swing(double phase, int times, float shift) {
     return std::sin(2 * pi * (float(phase * times - std::floor(phase * times)) + shift));
 }
@@ -52,7 +51,7 @@ F3 wander(double phase, std::uint32_t seed) {
             0.6f * swing(phase, 8, s + 0.5f) + 0.4f * swing(phase, 15, s + 0.2f)};
 }
 
-// A tool's frame in a hand's: its tip `reach` beyond the grip point along `direction`.
+// A tool's frame in the hand's frame: its tip is `reach` beyond the grip point along `direction`.
 Affine held(F3 direction, float reach, float side) {
     const F3 grip{grip_point.x * -side, grip_point.y, grip_point.z};
     const F3 d = normalized(F3{direction.x * -side, direction.y, direction.z});
@@ -68,12 +67,12 @@ Affine mixed(const Affine& a, const Affine& b, float t) {
 
 const F3 clamp_place{0.538f, 1.177f, -0.045f}, scissors_place{0.574f, 1.177f, -0.045f};
 
-// The assistant's grip near the tip of what lies on the tray.
+// The assistant's grip point for a tool on the tray with its tip at `place`.
 F3 picking(F3 place) {
     return place + F3{0, 0.008f, 0.03f};
 }
 
-const F3 exchange{0.19f, 1.262f, -0.05f};  // where the assistant's hand offers
+const F3 exchange{0.19f, 1.262f, -0.05f};  // position where the assistant hands over tools
 
 constexpr float carry_pitch = 0.5f;
 
@@ -129,7 +128,7 @@ std::array<Key, A + B> joined(const std::array<Key, A>& a, const std::array<Key,
     return all;
 }
 
-// Who has a tool at this beat, as shares that add up to one.
+// The owner of a tool at this beat, as shares that sum up to one.
 struct Holders {
     float tray = 0, assistant = 0, surgeon = 0;
 };
@@ -176,13 +175,13 @@ void add_tools(MovingMesh& moving) {
 std::vector<Affine> pose_bones(double phase, double, std::uint32_t seed) {
     std::vector<Affine> bones(bone_count);
     const float beat = float(phase) * beats;
-    // Ventilated: six breaths a loop, a faster rise than fall.
+    // Ventilation: six breaths per loop; inspiration is faster than expiration.
     const float fill = 0.5f - 0.5f * std::cos(2 * pi * float(phase * 6 - std::floor(phase * 6)) +
                                               0.5f * swing(phase, 6, 0.1f));
     bones[breath] = translation({0, 0.007f * fill, 0});
     bones[organ] = translation({0.004f * fill, 0.006f * fill, 0.001f * swing(phase, 6, 0.3f)});
 
-    // The step back, with a look at the monitor.
+    // A step back, facing the monitor.
     const float back = smoothstep(18.6f, 20.0f, beat) - smoothstep(21.6f, 23.2f, beat);
     const F3 situs{0.0f, 1.04f, 0.01f}, monitor{0.3f, 1.7f, -1.8f};
 

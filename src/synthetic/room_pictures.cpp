@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is printed and shown in the room.
+// The contents of printed sheets and screens in the room.
 #include <string>
 
 #include "synthetic/noise.h"

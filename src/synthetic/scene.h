@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene's parts and how they are put together.
+// The parts of the scene, and their builders.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Influence {
     std::array<float, 4> weight{1, 0, 0, 0};
 };
 
-// Everything that moves, as one mesh in its rest pose.
+// All moving parts as one mesh in its rest pose.
 struct MovingMesh {
     Mesh mesh;
     std::vector<Influence> influences;  // one for each vertex
@@ -25,7 +25,7 @@ struct MovingMesh {
     void append(const Mesh& part, const std::vector<Influence>& bones);
 };
 
-// Numbers of the bones. Each person has person_bones in a row, see person.h.
+// Bone numbers. Each person has person_bone_count consecutive bones, see person.h.
 inline constexpr std::uint16_t person_bone_count = 48;
 enum Bone : std::uint16_t {
     still = 0,       // never moves
@@ -36,10 +36,10 @@ enum Bone : std::uint16_t {
     bone_count = first_person + 2 * person_bone_count,
 };
 
-// Things held in hands; each is one bone.
+// Things held in hands; each has one bone.
 enum Tool { scissors_a, scissors_b, forceps, hemostat, retractor, tool_count };
 
-// Builders. Each adds its own part; all in the room's frame.
+// Builders. Each appends one part in the room's frame.
 void add_room_shell(Mesh& still);
 void add_room_furniture(Mesh& still);
 void add_lamps(Mesh& still);
@@ -52,12 +52,11 @@ void add_situs(Mesh& still, MovingMesh& moving, double detail);
 void add_people(MovingMesh& moving, double detail, std::uint32_t seed);
 void add_tools(MovingMesh& moving);
 
-// The bones' places at `phase` (0 … 1 through the loop): they take rest-pose
-// points to the room.
+// Transforms of the bones at `phase` (0 to 1 through the loop), from the rest pose to the room.
 std::vector<Affine> pose_bones(double phase, double loop_seconds, std::uint32_t seed);
 
-// Darkens what stands close to other things: looks from many directions at the
-// whole and counts for each vertex how often it is seen.
+// Computes ambient occlusion: renders the mesh from many directions and counts how often each
+// vertex is visible.
 void bake_openness(Mesh& mesh, int directions);
 
 }  // namespace theatron::synthetic

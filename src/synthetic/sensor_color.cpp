@@ -19,16 +19,16 @@ float srgb_from_linear(float v) {
     return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
 }
 
-// How one channel answers to each value.
+// The response of one colour channel to each value.
 class Response {
 public:
     Response(float gain, float noise) {
         for (int v = 0; v < 256; ++v) {
             const float light = std::min(gain * linear_from_srgb(float(v) / 255), 1.0f);
-            // Half a step, so that cutting rounds.
+            // Plus one half, so that truncation rounds.
             mean_[std::size_t(v)] = 255 * srgb_from_linear(light) + 0.5f;
-            // Shot noise grows with the root of the light, which the sRGB curve
-            // nearly cancels; clipped pixels have none.
+            // Shot noise grows with the square root of the light, which the sRGB curve nearly
+            // cancels. Clipped pixels have none.
             deviation_[std::size_t(v)] = light < 1 ? noise : 0;
         }
     }

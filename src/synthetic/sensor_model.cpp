@@ -10,20 +10,20 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr int multipath_cell = 8;  // pixels a side
-// The relative change of 1/z from one cell to the next that can still be a wall, of
-// some 57 degrees; more is an occlusion.
+// The largest relative change of 1/z from one cell to the next on a wall, at an angle of
+// about 57 degrees. A larger change is an occlusion.
 constexpr float steepest_wall = 0.025f;
-constexpr float table_step_mm = 10;  // of distance_error_
+constexpr float table_step_mm = 10;  // resolution of distance_error_
 constexpr int table_size = 1024;     // to 10 m
-constexpr float max_phase_mm = 300;  // a surface further away adds no further error
+constexpr float max_phase_mm = 300;  // limit of the distance between mixed surfaces
 
-// The middle of a surface is left alone; only here the neighbours are looked at.
+// A depth edge. Neighbours are examined only there, not inside surfaces.
 constexpr float step_at(float depth_mm) {
     return 15 + 0.02f * depth_mm;
 }
 
-// A mirror-like surface dazzles where the light meets it head on: the lobe of
-// instruments and wet tissue, wide enough to be hit by some pixels.
+// The specular lobe of instruments and wet tissue at normal incidence, wide enough to cover
+// some pixels.
 float glint(float specular, float cos_incidence) {
     const float c4 = std::pow(cos_incidence, 4.0f);
     const float c16 = c4 * c4 * c4 * c4;
@@ -31,7 +31,7 @@ float glint(float specular, float cos_incidence) {
     return specular * 60 * c64 * c64 * c64 * c64;
 }
 
-// Random values on a coarse grid, blended in between.
+// Random values on a coarse grid, interpolated.
 class SlowField {
 public:
     explicit SlowField(std::uint32_t key) : key_(key) {}
@@ -93,12 +93,12 @@ DepthSensorParams nfov_binned() {
     DepthSensorParams params;
     params.counts_at_1m *= 4;
     params.max_counts *= 4;
-    params.read_mm2 *= 4;  // four pixels are read for one
+    params.read_mm2 *= 4;  // four pixels are read per output pixel
     return params;
 }
 
-// Measured on the infrared image of an unbinned 640x576 frame, to within two pixels;
-// the edges of binned frames lie at half of it.
+// Measured on the infrared image of an unbinned 640x576 frame, accurate to two pixels. Edges
+// of binned frames are at half of these coordinates.
 bool inside_mask(Size size, int x, int y) {
     const float px = (float(x) + 0.5f) * 640 / float(size.width);
     const float py = (float(y) + 0.5f) * 576 / float(size.height);
@@ -170,10 +170,10 @@ void DepthSensor::receive_light(const DepthTruth& truth) {
     }
 }
 
-// Light that bounces between the walls of a corner arrives late: the corner reads
-// longer and looks rounded. Found in screen space on a coarse grid: on a plane
-// 1/z is linear over the image, inside a corner it is below the mean of
-// opposite neighbours.
+// Multipath: light that is reflected between the walls of a corner arrives late, so that the
+// corner reads too far and looks rounded. Detected in screen space on a coarse grid: on a
+// plane 1/z is linear over the image; inside a corner it is below the mean of opposite
+// neighbours.
 void DepthSensor::add_multipath() {
     const int columns = size_.width / multipath_cell, rows = size_.height / multipath_cell;
     if (columns < 2 || rows < 2)
@@ -227,7 +227,7 @@ void DepthSensor::add_multipath() {
     }
 }
 
-// Copies depth and counts, and mixes them where pixels see two surfaces.
+// Copies depth and amplitudes, and mixes them in pixels that see two surfaces.
 void DepthSensor::mix_at_edges(std::uint32_t frame) {
     seen_counts_ = counts_;
     seen_mm_ = depth_mm_;
@@ -252,9 +252,9 @@ void DepthSensor::mix_at_edges(std::uint32_t frame) {
     }
 }
 
-// One pixel whose light comes from two surfaces, a near and a far one. The
-// stronger one is measured, pulled towards the other by its share of the light;
-// the camera notices when its modulation frequencies disagree too much, and gives up.
+// One pixel with light of a near and a far surface. The stronger surface is measured, with an
+// error towards the other by its share of the light. If the modulation frequencies would
+// disagree too much, the camera rejects the pixel.
 void DepthSensor::mix_pixel(int x, int y, float jitter) {
     const float blur[5] = {params_.blur_second, params_.blur_next,
                            1 - 2 * (params_.blur_next + params_.blur_second), params_.blur_next,
@@ -311,8 +311,8 @@ void DepthSensor::capture(const DepthTruth& truth, std::uint32_t frame, MutableD
     for (int y = 0; y < size_.height; ++y) {
         const std::size_t row = std::size_t(y) * std::size_t(size_.width);
         const float* random = noise.row(y);
-        // Phase and amplitude have independent noise of one kind: the same field upside
-        // down saves drawing another.
+        // Phase and amplitude noise are independent and of the same kind: the field upside
+        // down serves as the second one.
         const float* amplitude_noise = noise.row(size_.height - 1 - y);
         std::uint16_t* depth = out.row(y);
         for (int x = 0; x < size_.width; ++x) {
@@ -331,8 +331,8 @@ void DepthSensor::capture(const DepthTruth& truth, std::uint32_t frame, MutableD
     }
 }
 
-// Whether this amplitude is measured at all, for one drawn value of `noise`: dark and
-// dazzling surfaces flicker.
+// True if this amplitude is measured, for one random value `noise`. The limits are noisy, so
+// that dark and dazzling surfaces flicker.
 bool DepthSensor::measurable(float counts, float noise) const {
     const float jitter = params_.counts_jitter * noise;
     return counts + jitter * params_.min_counts >= params_.min_counts &&

@@ -28,8 +28,8 @@ Scene flat_scene(Size size, float depth_m, float reflectivity, float cos_inciden
     return scene;
 }
 
-// A wall with rows of boxes in front of it, and a dark stripe whose amplitude
-// crosses the limit.
+// A wall with rows of boxes in front of it, and a dark stripe with amplitudes around the
+// limit.
 Scene boxes_scene() {
     Scene scene = flat_scene(nfov, 1.8f, 0.5f);
     for (int y = 0; y < nfov.height; ++y) {
@@ -62,7 +62,7 @@ PairStatistics two_frames(const Scene& scene, const DepthSensorParams& params = 
     return measure_pair(captured(sensor, scene, 0), captured(sensor, scene, 1));
 }
 
-// Whether pixels around this one lie on another surface or are dark.
+// True if a pixel around this one is on another surface or dark.
 bool near_trouble(const Scene& scene, int x, int y) {
     const float own = scene.depth_m.view().row(y)[x];
     for (int dy = -2; dy <= 2; ++dy) {
@@ -91,7 +91,7 @@ TEST(DepthSensor, NoiseFollowsDistanceReflectivityAndIncidence) {
     const DepthSensorParams params;
     double previous = 0;
     for (const float depth : {0.6f, 1.0f, 1.5f, 2.2f, 3.0f}) {
-        // Middle of the image, where the light is even.
+        // In the middle of the image, where the light is even.
         const Size size{64, 64};
         DepthSensorParams even = params;
         even.corner_falloff = 0;
@@ -111,7 +111,7 @@ TEST(DepthSensor, NoiseFollowsDistanceReflectivityAndIncidence) {
             }
         }
         const double sigma = std::sqrt(squares / n / 2);
-        // Rounding adds a twelfth of a square millimetre.
+        // Rounding adds a variance of 1/12 mm^2.
         EXPECT_NEAR(sigma, std::sqrt(expected + 1 / 12.0), 0.07 * sigma) << depth << " m";
         EXPECT_GT(sigma, previous);
         previous = sigma;
@@ -147,7 +147,7 @@ TEST(DepthSensor, ValidityFlickersAtEdgesAndOnDarkSurfaces) {
             invalid_elsewhere += a.view().row(y)[x] == 0;
         }
     }
-    // In the darkest corners of the image even the wall comes near the limit.
+    // In the darkest corners of the image even the wall is close to the limit.
     EXPECT_LT(elsewhere, 20);
     EXPECT_LT(invalid_elsewhere, 20);
 }
@@ -162,7 +162,7 @@ TEST(DepthSensor, MeasuresOnlyInsideTheHexagon) {
             valid += depth.view().row(y)[x] != 0;
         }
     }
-    // The real camera's infrared image: 82.4 % of the pixels.
+    // As in the real camera's infrared image: 82.4 % of the pixels.
     EXPECT_NEAR(double(valid) / double(nfov.area()), 0.824, 0.01);
     EXPECT_FALSE(inside_mask(nfov, 140, 0));
     EXPECT_TRUE(inside_mask(nfov, 160, 0));
@@ -220,8 +220,8 @@ TEST(DepthSensor, MixesSurfacesThatShareAPixel) {
 }
 
 TEST(DepthSensor, InnerCornersReadLonger) {
-    // Two walls that meet at x = 320, 2 m away, at right angles, seen along the
-    // line that halves the angle; focal length 504 pixels.
+    // Two walls that meet at a right angle at x = 320, 2 m away, seen along the bisector;
+    // focal length 504 pixels.
     Scene scene = flat_scene(nfov, 2, 0.5f, 0.7f);
     Scene outer = scene;
     for (int y = 0; y < nfov.height; ++y) {
@@ -252,7 +252,7 @@ TEST(DepthSensor, EveryCameraHasItsOwnSmoothBias) {
         EXPECT_NE(sensor.distance_error_mm(1500), next.distance_error_mm(1500));
         for (float mm = 500; mm < 4000; mm += 10) {
             const float error = sensor.distance_error_mm(mm);
-            // The maker states less than 11 mm + 0.1 % of the distance.
+            // The manufacturer specifies less than 11 mm + 0.1 % of the distance.
             EXPECT_LT(std::abs(error), 11 + mm / 1000);
             EXPECT_LT(std::abs(sensor.distance_error_mm(mm + 10) - error), 0.3f);
             squares += error * error / (20 * 350);
@@ -315,7 +315,7 @@ TEST(ColorSensor, GivesEachCameraItsGainsAndNoise) {
     EXPECT_NEAR(mean1, 120, 25);
     EXPECT_GT(std::abs(mean1 - mean2), 0.5);
 
-    // A camera without deviations gives the picture as it is.
+    // A camera without deviations returns the picture unchanged.
     ColorImage out(small);
     apply_color_sensor({.exposure_stops = 0, .white_balance = 0, .noise = 0}, 1, 0, picture.view(),
                        out.view());

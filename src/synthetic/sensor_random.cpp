@@ -17,7 +17,7 @@ NoiseField::NoiseField(Size size, float radius_px, float white_share)
         taps_[i + reach] = tap;
         energy += tap * tap;
     }
-    // Two passes, each leaving sqrt(share) of the deviation.
+    // Two passes, each with the square root of the scale.
     const float scale = std::sqrt(std::sqrt(1 - white_share) / energy);
     for (float& tap : taps_)
         tap *= scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers that are a function of place and frame, not of order: pixel 17
-// of frame 3 gets the same noise whether or not anything else was drawn before.
+// Random numbers as functions of place and frame, not of a sequence: pixel 17 of frame 3 gets
+// the same noise regardless of what was computed before.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace theatron::synthetic {
 
-// Mixes 32 bits so that neighbouring inputs give unrelated outputs. Constants:
+// An integer hash; neighbouring inputs give unrelated outputs. Constants:
 // "lowbias32" of C. Wellons' hash-prospector (public domain).
 constexpr std::uint32_t mix_bits(std::uint32_t x) {
     x ^= x >> 16;
@@ -21,7 +21,7 @@ constexpr std::uint32_t mix_bits(std::uint32_t x) {
     return x;
 }
 
-// What a family of random numbers is for.
+// The use of a random number, part of its key.
 enum NoiseUse : std::uint32_t {
     depth_noise,
     mixing_noise,
@@ -37,8 +37,7 @@ constexpr std::uint32_t noise_key(std::uint32_t seed, std::uint32_t frame, Noise
     return mix_bits(mix_bits(mix_bits(seed + 0x9e3779b9u) + frame) + use * 0x85ebca6bu);
 }
 
-// Close to a normal distribution of variance 1, never beyond 3.45: the sum of
-// four bytes.
+// Approximately normal with variance 1, at most 3.45 in size: the sum of four bytes.
 constexpr float normal_from_bits(std::uint32_t bits) {
     const int sum =
         int(bits & 0xff) + int(bits >> 8 & 0xff) + int(bits >> 16 & 0xff) + int(bits >> 24);
@@ -49,20 +48,20 @@ constexpr float normal_at(std::uint32_t key, std::uint32_t index) {
     return normal_from_bits(mix_bits(key + index));
 }
 
-// Even between 0 and 1.
+// Uniform between 0 and 1.
 constexpr float uniform_at(std::uint32_t key, std::uint32_t index) {
     return float(mix_bits(key + index) >> 8) * (1.0f / 16777216.0f);
 }
 
-// An image of normal noise with variance 1 whose neighbours are alike, as after
-// the smoothing that a depth camera does itself.
+// An image of normal noise with variance 1 and correlated neighbours, as after the smoothing
+// inside a depth camera.
 class NoiseField {
 public:
-    // `white_share` of the variance is independent from pixel to pixel, the rest
-    // passed a Gaussian of `radius_px` standard deviation.
+    // `white_share` of the variance is independent per pixel. The rest is filtered by a
+    // Gaussian with a standard deviation of `radius_px`.
     NoiseField(Size size, float radius_px, float white_share);
 
-    // Draws the field of this key. The view is valid until the next call.
+    // Computes the field of this key. The view is valid until the next call.
     View<const float> draw(std::uint32_t key);
 
 private:

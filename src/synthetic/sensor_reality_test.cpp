@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensor model beside real frames: their scenes, smoothed, go through the
-// model, and what comes out must have the statistics of what really came out.
+// The sensor model compared with real frames: their scenes, smoothed, are the model's input;
+// its output must have the statistics of the real frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_P(RealPair, LooksLikeTheModelOfItsScene) {
     const DepthSensorParams params = nfov_binned();
     const Scene scene = scene_from_pair(first, second, params);
 
-    // Pairs of several cameras, one below the other, so that chance averages out.
+    // Pairs of several cameras, stacked vertically, so that random errors average out.
     constexpr int cameras = 4;
     const Size stacked{first.size.width, cameras * first.size.height};
     DepthImage frames[2] = {DepthImage(stacked), DepthImage(stacked)};
@@ -71,7 +71,7 @@ TEST_P(RealPair, LooksLikeTheModelOfItsScene) {
     for (std::size_t bin = 0; bin < distance_bins; ++bin) {
         const std::string name = "sigma mm, " + std::to_string(distance_bounds_mm[bin]) + "-" +
                                  std::to_string(distance_bounds_mm[bin + 1]) + " mm";
-        // Below half a per cent of the image there is too little to compare.
+        // Bins with less than half a per cent of the image are too small to compare.
         if (real.pixels[bin] > 0.45)
             compare(name.c_str(), real.sigma[bin], model.sigma[bin]);
     }
@@ -80,8 +80,8 @@ TEST_P(RealPair, LooksLikeTheModelOfItsScene) {
 INSTANTIATE_TEST_SUITE_P(Azure, RealPair, ::testing::Values("room", "person"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-// How far a depth image is from locally flat, along rows: a second difference over
-// two pixels, which slopes do not change. By infrared counts.
+// Deviation of a depth image from locally flat, along rows, by infrared counts: a second
+// difference over two pixels, which slopes do not change.
 constexpr int counts_bounds[] = {60, 100, 150, 250, 400, 700, 1200};
 
 double roughness(const DepthImage& depth, const DepthImage& infrared, int from, int to) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: turns recorded frames into exact scenes that a model can be run on.
+// Converts recorded frames to exact scenes, the input of a sensor model. For tests.
 #pragma once
 
 #include "image/image.h"
@@ -15,13 +15,13 @@ struct Scene {
     }
 };
 
-// Two frames of a static scene: depth from their mean, smoothed. No infrared
-// image exists, so reflectivity is what the noise in the surroundings suggests
-// for these parameters, and just about the limit where validity flickers.
+// From two frames of a static scene. Depth is their mean, smoothed. There is no infrared
+// image, so reflectivity is estimated from the noise around each pixel for these parameters,
+// and lies near the limit where validity flickers.
 Scene scene_from_pair(const DepthImage& first, const DepthImage& second,
                       const DepthSensorParams& params);
 
-// One frame with its infrared image, which is the amplitude.
+// From one frame with its infrared image, which gives the amplitude.
 Scene scene_from_infrared(const DepthImage& depth, const DepthImage& infrared,
                           const DepthSensorParams& params);
 

@@ -11,8 +11,8 @@ namespace theatron::synthetic {
 namespace {
 
 constexpr float mm_per_m = 1000;
-// A hole in a surface that sends back so many times the least amplitude is dazzling,
-// not dark.
+// Amplitude around a hole, as a multiple of min_counts, from which on the hole counts as
+// dazzling, not dark.
 constexpr float bright = 9;
 
 // Solves the normal equations m p = r of six parameters; false if they are singular.
@@ -34,10 +34,10 @@ bool solve(double (&m)[6][7]) {
     return true;
 }
 
-// The depth of one pixel, from a curved surface fitted to those around it that
-// belong to the same surface.
+// The depth of one pixel on a curved surface fitted to the surrounding pixels of the same
+// surface.
 float smoothed(View<const float> depth, int x, int y) {
-    // Every second pixel will do: neighbours share most of their noise.
+    // Every second pixel suffices: neighbours share most of their noise.
     constexpr int radius = 4, step = 2;
     const float own = depth.row(y)[x];
     const float same_surface = 15 + 0.012f * own;
@@ -86,7 +86,7 @@ Image<float> neighbourhood_mean(const Image<float>& in) {
     return out;
 }
 
-// Holes of three pixels across and more: dark or dazzling surfaces, not edges.
+// Holes of at least three pixels: dark or dazzling surfaces, not edges.
 Mask wide_holes(const Image<float>& valid) {
     Image<float> inner(valid.size);
     const Image<float> mean = neighbourhood_mean(valid);
@@ -99,14 +99,14 @@ Mask wide_holes(const Image<float>& valid) {
     return wide;
 }
 
-// What is known of a scene before it becomes surfaces.
+// Measured properties of a scene, from which its surfaces are derived.
 struct Estimate {
     Image<float> depth_mm;  // 0 = not measured
     Image<float> valid;     // share of the frames in which it was measured
     Image<float> counts;    // amplitude
 };
 
-// Gives narrow holes the surface beside them: the model has to find edges itself.
+// Fills narrow holes with the surface beside them: the model has to find the edges itself.
 void fill_holes(Estimate& e) {
     const auto [width, height] = e.depth_mm.size;
     for (int pass = 0; pass < 3; ++pass) {
@@ -116,7 +116,7 @@ void fill_holes(Estimate& e) {
                 const int at = y * width + x;
                 if (before.depth_mm.pixels[std::size_t(at)] > 0)
                     continue;
-                // In turn from either side, so that neither surface grows.
+                // Alternating sides, so that neither surface grows.
                 const int side = (x + y) % 2 ? 1 : -1;
                 for (const int offset : {side, side * width, -side, -side * width}) {
                     const std::size_t from = std::size_t(at + offset);
@@ -147,7 +147,7 @@ bool at_step(const Image<float>& depth_mm, int x, int y) {
     return farthest - nearest > 60 + 0.03f * nearest;
 }
 
-// Beyond the hexagon nothing is known; that is no reason to call its rim dark.
+// Beyond the hexagon nothing is known, so its rim must not be classified as dark.
 void trust_rim(Estimate& e) {
     Image<float> lit(e.valid.size);
     for (int y = 0; y < lit.size.height; ++y) {
@@ -200,7 +200,7 @@ Scene scene_from(Estimate e, const DepthSensorParams& params) {
     return scene;
 }
 
-// The variance of the noise around a pixel, from those on the same surface.
+// The variance of the noise around a pixel, from pixels of the same surface.
 float variance_around(const DepthImage& first, const DepthImage& second, int x, int y) {
     constexpr int radius = 6;
     const int own = std::max(first.view().row(y)[x], second.view().row(y)[x]);
@@ -217,7 +217,7 @@ float variance_around(const DepthImage& first, const DepthImage& second, int x, 
             ++n;
         }
     }
-    // Both frames are rounded to millimetres, which adds 1/12 each.
+    // Rounding of both frames to millimetres adds a variance of 1/12 each.
     return n > 8 ? std::max(float(sum / n) / 2 - 1 / 12.0f, 0.03f) : 4.0f;
 }
 
@@ -236,7 +236,7 @@ Scene scene_from_pair(const DepthImage& first, const DepthImage& second,
                 continue;
             e.valid.pixels[i] = float(frames) / 2;
             e.depth_mm.pixels[i] = (a + b) / float(frames);
-            // The model's variance, solved for the amplitude.
+            // The model's variance law, solved for the amplitude.
             const float v = variance_around(first, second, x, y);
             const float root =
                 std::sqrt(params.shot_mm2 * params.shot_mm2 + 4 * v * params.read_mm2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: the figures by which a depth sensor, real or modelled, is described.
+// The statistics that characterise a depth sensor, real or modelled. For tests.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct PairStatistics {
     double flips = 0;                // of all pixels: valid in one frame only
     double changed = 0;              // of all pixels
     std::array<double, 5> shares{};  // of valid differences: 0, +1, -1, +2, -2
-    double correlation = 0;          // of the differences of horizontal neighbours
-    double correlation_2 = 0;        // and of those two pixels apart
+    double correlation = 0;          // between differences of horizontal neighbours
+    double correlation_2 = 0;        // between differences two pixels apart
     std::array<double, distance_bins> sigma{};
     std::array<double, distance_bins> pixels{};  // of all pixels
     double rvl_bits = 0;                         // per pixel, second frame
@@ -28,7 +28,7 @@ struct PairStatistics {
 
 PairStatistics measure_pair(const DepthImage& first, const DepthImage& second);
 
-// Size in bits as Wilson's RVL, or as the change since a reference.
+// Size in bits under Wilson's RVL, and under RVL of the change since a reference.
 double rvl_bits(const DepthImage& depth);
 double trvl_bits(const DepthImage& depth, const DepthImage& reference);
 

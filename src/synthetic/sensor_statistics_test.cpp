@@ -15,7 +15,7 @@
 namespace theatron::synthetic {
 namespace {
 
-// Differences beyond this are movement or another surface, not noise.
+// Larger differences are motion or another surface, not noise.
 constexpr int max_noise_mm = 12;
 
 }  // namespace

@@ -2,8 +2,8 @@
 // The open belly: stained skin, the wound's edge with fat and muscle, a frame
 // with retractors, and in the depth liver, gall bladder, bowel and vessels.
 //
-// The surgeon stands at the patient's right, +z; the head is at -x. So the liver
-// comes in from -x and +z.
+// The surgeon stands on the patient's right, at +z; the head is at -x. The liver therefore
+// extends from -x and +z.
 #include "synthetic/implicit.h"
 #include "synthetic/noise.h"
 #include "synthetic/patient.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr float skin_y = 1.094f;  // the belly at the wound
 
-// A point of the wound: `turn` around it, `scale` of the window, `depth` below the skin.
+// A point of the wound: angle `turn`, `scale` relative to the window, `depth` below the skin.
 F3 wound_point(float turn, float scale, float depth) {
     const float c = std::cos(turn), s = std::sin(turn);
     const float reach = 1 / window_distance(c, s);
@@ -51,7 +51,7 @@ Mesh wound_wall(double detail) {
                                    {0.02f, 0.125f, Look::peritoneum, 0.0f}};
     constexpr int count = int(std::size(rows));
     const int around = int(300 * std::sqrt(detail));
-    constexpr int between = 3;  // smaller strips between the rows
+    constexpr int between = 3;  // additional strips between the rows
     Mesh m;
     for (int i = 0; i < (count - 1) * between + 1; ++i) {
         const int k = std::min(i / between, count - 2);
@@ -84,7 +84,7 @@ Mesh wound_wall(double detail) {
     return m;
 }
 
-// What is in a surface below the situs' rim gets less light.
+// Vertices below the situs' rim get less light.
 void darken_deep(Mesh& m) {
     for (std::size_t i = 0; i < m.positions.size(); ++i) {
         const F3 p = m.positions[i];
@@ -184,8 +184,8 @@ Mesh vessels_mesh() {
     return m;
 }
 
-// A blade that hooks over the wound's edge; its own frame: hook at the origin,
-// pulls along +z.
+// A blade hooked over the wound's edge. In its own frame the hook is at the origin and pulls
+// along +z.
 Mesh blade(float width) {
     return make_sheet(
         10, 40,

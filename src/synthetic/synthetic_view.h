@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inside of OperatingRoom: the scene's data, a posed moment, a camera's view.
+// Internals of OperatingRoom: the scene's data, a posed moment, a camera's view.
 #pragma once
 
 #include "synthetic/operating_room.h"
@@ -15,7 +15,7 @@ struct SceneData {
     std::vector<ShadowMap> still_shadows;
 };
 
-// Moving parts in their places.
+// The moving parts, posed.
 class PosedMoment final : public RoomMoment {
 public:
     PosedMoment(const SceneData& scene, Duration time);

@@ -74,7 +74,7 @@ void add_tray(Mesh& still, std::uint32_t seed) {
     for (int i = 0; i < 8; ++i, x += 0.036f) {
         const float turn = wobble + 0.05f * (hash01(seed + std::uint32_t(i) * 7) - 0.5f);
         if (i == 3 || i == 4)
-            continue;  // the places of the tools that wander
+            continue;  // places of the tools that are handed over
         switch (i % 4) {
             case 0:
                 lay(make_scalpel(), x, 0.1f, turn);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single-precision vectors and affine maps for meshes and shading, where there
-// are millions of them. Poses of cameras stay in double (geometry/vec.h).
+// Single-precision vectors and affine maps for meshes and shading, which process millions of
+// them. Camera poses use double precision (geometry/vec.h).
 #pragma once
 
 #include <algorithm>
@@ -76,7 +76,7 @@ constexpr Vec3 to_vec3(F3 v) {
     return {v.x, v.y, v.z};
 }
 
-// Any unit vector at a right angle to the unit vector `n`.
+// A unit vector perpendicular to the unit vector `n`.
 inline F3 any_perpendicular(F3 n) {
     return normalized(std::abs(n.y) < 0.9f ? cross(n, {0, 1, 0}) : cross(n, {1, 0, 0}));
 }
@@ -92,7 +92,7 @@ struct Affine {
     }
 };
 
-// The inverse of an affine map whose axes are unit vectors at right angles.
+// The inverse of an affine map whose axes are orthonormal.
 constexpr Affine inverse_rigid(const Affine& a) {
     const F3 rx{a.x.x, a.y.x, a.z.x}, ry{a.x.y, a.y.y, a.z.y}, rz{a.x.z, a.y.z, a.z.z};
     Affine inverse{rx, ry, rz, {}};
@@ -117,8 +117,8 @@ inline Affine to_affine(const Pose& pose) {
             to_f3(pose.translation)};
 }
 
-// The frame at `origin` whose z axis points along `forward` and whose y axis is
-// as close to `up` as it can be.
+// The frame at `origin` with its z axis along `forward` and its y axis as close to `up` as
+// possible.
 inline Affine facing(F3 origin, F3 forward, F3 up) {
     const F3 z = normalized(forward);
     F3 x = cross(up, z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera's pictures. What never moves is drawn once, with its depth; each
-// moment draws only the moving parts over it and lets their shadows fall on it.
+// One camera's pictures. Static parts are drawn once, with their depth. Each moment draws only
+// the moving parts over them, and their shadows.
 #include <numeric>
 
 #include "synthetic/synthetic_view.h"
@@ -9,9 +9,9 @@ namespace theatron::synthetic {
 namespace {
 
 constexpr int samples_per_side = 2;
-constexpr int still_passes = 3;  // each with its samples elsewhere in the pixel
+constexpr int still_passes = 3;  // each with other sample positions in the pixel
 
-// Points of one mesh in one camera's frame, with what shading needs of it.
+// One mesh in a camera's frame, with its inputs for shading.
 struct Drawn {
     const Mesh& mesh;                  // textures, openness, triangles
     const std::vector<F3>& positions;  // in the room
@@ -42,7 +42,7 @@ Hit hit_of(const Drawn& d, std::uint32_t triangle, Ray ray, float z, float pixel
     hit.footprint = z * pixel_angle;
     const Material material = traits(t.look).material;
     if (material == Material::paper || material == Material::screen) {
-        // Printed pictures measure their blur in their own width.
+        // Printed pictures measure blur relative to their own width.
         const float room_size = length(d.positions[t.b] - d.positions[t.a]);
         const F3 step = d.mesh.textures[t.b] - d.mesh.textures[t.a];
         hit.footprint *= std::hypot(step.x, step.y) / std::max(room_size, 1e-6f);
@@ -63,15 +63,15 @@ private:
         Affine camera_from_room;
         F3 position;
         SampleGrid grid;
-        Visibility still;  // of all that never moves
+        Visibility still;  // of the static parts
         float pixel_angle = 0;
     };
-    // All that is the same in every moment.
+    // Everything that is equal in all moments.
     struct Still {
         Eye depth_eye, color_eye;
         Image<SurfaceSample> surface;
         Image<LitPoint> light;  // a pixel's mean
-        Image<F3> points;       // where in the room, for shadows
+        Image<F3> points;       // positions in the room, for shadows
     };
     static Eye make_eye(const Pose& room_from_eye, const CameraModel& model, int per_side);
     LitPoint shade(const Hit& hit, const Eye& eye) const;
@@ -127,7 +127,7 @@ void View::draw_still_depth(Still& still) const {
                     surface_of(drawn, eye, eye.still.triangles.pixels[i], eye.grid.rays.pixels[i],
                                eye.still.depth.pixels[i]);
     }
-    // From here on, "no triangle" means: not a moving one.
+    // From here on, "no triangle" means: no moving triangle.
     std::fill(eye.still.triangles.pixels.begin(), eye.still.triangles.pixels.end(), no_triangle);
 }
 
@@ -157,7 +157,7 @@ void View::draw_still_color(Still& still) const {
     still.light.resize(size);
     still.points.resize(size);
     constexpr int n = samples_per_side;
-    // The last pass has no shift; its depths stay.
+    // The last pass has no shift; its depth is kept.
     static constexpr Vec2 shifts[still_passes] = {{0.33, -0.33}, {-0.33, 0.33}, {0, 0}};
     for (int pass = 0; pass < still_passes; ++pass) {
         eye.grid = make_fine_grid(calibration_.color, centres, n, shifts[pass]);
@@ -165,7 +165,7 @@ void View::draw_still_color(Still& still) const {
         rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
-                // Samples of one look and direction are lit once, for all of them.
+                // Samples with equal look and direction are lit together.
                 std::array<Hit, n * n> hits;
                 std::array<float, n * n> shares{};
                 int known = 0;
@@ -190,7 +190,7 @@ void View::draw_still_color(Still& still) const {
                 LitPoint& sum = still.light.view().row(y)[x];
                 for (std::size_t k = 0; k < std::size_t(known); ++k) {
                     const LitPoint lit = shade(hits[k], eye);
-                    // A single glint must not outshine its pixel.
+                    // Limits glints, so that one sample does not dominate the pixel.
                     const auto tame = [&](F3 v) {
                         return F3{std::min(v.x, 4.0f), std::min(v.y, 4.0f), std::min(v.z, 4.0f)} *
                                shares[k];
@@ -234,7 +234,7 @@ void View::render_color(const PosedMoment& moment, ColorImage& out) {
         for (int x = 0; x < size.width; ++x) {
             F3 light{};
             int moving = 0;
-            // Samples of one look are lit once, for all of them.
+            // Samples with equal look are lit together.
             std::array<Look, n * n> looks;
             std::array<F3, n * n> lights;
             int known = 0;
@@ -282,7 +282,7 @@ void View::render_color(const PosedMoment& moment, ColorImage& out) {
 SurfaceSample View::surface_of(const Drawn& drawn, const Eye& eye, std::uint32_t triangle, Ray ray,
                                float z) const {
     const Hit hit = hit_of(drawn, triangle, ray, z, eye.pixel_angle);
-    // The flat triangle's normal: it is what the depth shows. The smooth one is for colour.
+    // The flat normal of the triangle matches its depth. The smooth normal is for colour.
     const Triangle& t = drawn.mesh.triangles[triangle];
     const F3 a = drawn.camera[t.a];
     const F3 n = normalized(cross(drawn.camera[t.b] - a, drawn.camera[t.c] - a));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where cameras stand and what lenses they have.
+// Poses and lenses of the synthetic cameras.
 #include <algorithm>
 #include <array>
 
@@ -8,8 +8,8 @@
 namespace theatron::synthetic {
 namespace {
 
-// The narrow unbinned depth image of an Azure Kinect, 75 by 65 degrees; numbers
-// of the size that factory calibrations have, a little different per camera.
+// The depth lens of an Azure Kinect in its narrow unbinned mode, 75 by 65 degrees. The numbers
+// are like those of factory calibrations, slightly different per camera.
 CameraModel depth_lens(int index) {
     CameraModel c;
     c.size = {640, 576};
@@ -42,8 +42,8 @@ CameraModel color_lens(int index, Size size) {
 }  // namespace
 
 Calibration synthetic_camera(Variant variant, int index, int count, Size color) {
-    // The first two stand at the table's foot, one on each side, each facing one of
-    // the people; the others fill the circle at changing heights.
+    // The first two are at the table's foot, one on each side, each facing one of the people;
+    // the others complete the circle at varying heights.
     struct Place {
         double degrees, radius, height;
     };
@@ -64,7 +64,7 @@ Calibration synthetic_camera(Variant variant, int index, int count, Size color) 
     Vec3 eye{place.radius * std::cos(a), place.height, place.radius * std::sin(a)};
     Vec3 target{0.0, 1.12, 0.02};
     if (variant == Variant::surgeon) {
-        // An arc before the surgeon, at about the height of the eyes.
+        // On an arc in front of the surgeon, at about eye height.
         const int n = std::max(count, 1);
         const double turn = n == 1 ? 0.35 : -0.9 + 1.8 * (index + 0.5) / n;
         eye = {-0.1 + 1.35 * std::sin(turn), 1.72 + 0.06 * (index % 2),
@@ -90,7 +90,7 @@ Calibration free_viewpoint(Vec3 eye, Vec3 target, Size size, double horizontal_f
 }
 
 bool inside_hexagon(Size image, int x, int y) {
-    // Straight lines through the border of real 640x576 images.
+    // Straight lines fitted to the border of real 640x576 images.
     const double u = (x + 0.5) * 640 / image.width, v = (y + 0.5) * 576 / image.height;
     return u > 152.5 - 0.557 * v && u < 513.5 + 0.557 * v && u > 2 + 0.6 * (v - 337) &&
            u < 662.5 - 0.6 * (v - 337);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes pictures of the synthetic operating room, to look at:
+// Writes pictures of the synthetic operating room for inspection:
 //
 //     synthetic_pictures DIR [seconds] [room|surgeon] [detail] [ex ey ez tx ty tz fov]...
 //
-// Each of two cameras' colour and depth, a free viewpoint and further ones (eye,
-// target and field of view in degrees), as PNG.
+// Writes colour and depth of two cameras, a free viewpoint and further ones (eye, target and
+// field of view in degrees), as PNG.
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 using namespace theatron;
 using namespace theatron::synthetic;
 
-// Near is warm, far is cold, fine steps of 25 cm show as bands.
+// Near is warm, far is cold; bands show steps of 25 cm.
 ColorImage depth_picture(const Image<float>& depth, bool hexagon) {
     ColorImage out(depth.size);
     for (int y = 0; y < depth.size.height; ++y)
@@ -86,7 +86,7 @@ int main(int count, char** arguments) {
                     Duration(std::int64_t(seconds * 1e6)), color_only);
     lap("free view");
     files::write_png(prefix + "_free_view.png", free.color.view());
-    // More views: each seven numbers, eye, target and field of view.
+    // Further views, seven numbers each: eye, target and field of view.
     for (int i = 5; i + 6 < count; i += 7) {
         const auto n = [&](int k) { return std::stod(arguments[i + k]); };
         const GroundTruth truth =
