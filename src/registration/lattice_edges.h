@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The share of a pixel that a lattice board covers, as a time-of-flight camera sees it.
+//
+// A pixel that two surfaces share is measured as the one that sends back more light, pulled towards
+// the other, or not at all. So the outline looks larger than drawn and the holes smaller, the more
+// so the brighter the board is than what is behind. The wall of a hole, seen at a slant, belongs to
+// the board, but it is darker than the face. Where an edge appears follows from the light of the
+// three: that of the walls is known from their angle, that of the background is a parameter.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "registration/lattice_target.h"
+
+namespace theatron::registration {
+
+struct EdgeParams {
+    double outline_growth_m = 0, hole_growth_m = 0;  // of the board, outwards and into its holes
+    double log_background = 0;  // light of what is behind, against what was expected
+};
+
+struct Coverage {
+    double share = 0;  // 0 to 1
+    double by_u = 0, by_v = 0;
+    std::array<double, 3> by_params{};  // in the order of EdgeParams
+};
+
+// Light per area of what is behind an edge, in that of the face. Sides in the order left, bottom,
+// right, top.
+struct BackgroundLight {
+    std::array<double, 4> outline{};
+    std::array<double, LatticeTarget::columns * LatticeTarget::rows> cells{};  // row by row
+};
+
+// The cell nearest to a place on the face.
+int nearest_cell(const LatticeTarget& target, double u, double v);
+
+// Light is per area as seen, in that of the face.
+struct EdgeLight {
+    double wall_px = 0;  // width of the wall beside the face's edge, as seen
+    double wall = 0;
+    double background = 0;
+};
+
+// What still counts as the board: what is measured at most `board_m` behind the face's plane.
+struct EdgeReach {
+    double board_m = 0.02;
+    double cos_face = 1;  // between the face's normal and the line of sight
+    double thickness_m = 0;
+};
+
+// How the light of neighbouring pixels mixes across an edge in some direction of the picture.
+class PixelBlur {
+public:
+    explicit PixelBlur(Vec2 direction);  // unit vector, at a right angle to the edge
+
+    // The share of a pixel's light that comes from below `t` pixels from its middle.
+    double below(double t) const;
+
+private:
+    static constexpr double reach = 4, step = 0.0625;
+    std::array<double, int(2 * reach / step) + 1> below_{};
+};
+
+// Where the edge between a face, the wall beside it and what is behind appears, in pixels from the
+// face's edge outwards: half-way between the last pixel that is measured as the board and the first
+// that is measured as what is behind.
+double apparent_edge_px(const PixelBlur& blur, const EdgeLight& light, const EdgeReach& reach);
+
+// The pattern of one face as it is seen from one place.
+class SeenEdges {
+public:
+    // `pitch` is the angle of a pixel, radians; the camera lies before the face;
+    // `board_reach_m` how far behind the face a measurement still counts as the board.
+    SeenEdges(const LatticeTarget& target, Face face, const Pose& camera_from_face, double pitch,
+              double board_reach_m, const BackgroundLight& background, double log_background);
+
+    // At (u, v) on the face, for pixels that blur an edge over `ramp_u` and `ramp_v` metres.
+    Coverage at(double u, double v, double ramp_u, double ramp_v, const EdgeParams& params) const;
+
+private:
+    struct Sides {
+        std::array<double, 4> place{};          // where each side appears
+        std::array<double, 4> by_background{};  // how that changes with log_background
+    };
+    struct Viewpoint;
+    static Sides seen(const Rect& drawn, bool is_hole, const Viewpoint& from,
+                      const std::array<double, 4>& light);
+    void add(const Sides& sides, bool is_hole, double u, double v, double ramp_u, double ramp_v,
+             const EdgeParams& params, Coverage& sum) const;
+
+    LatticeTarget target_;
+    double log_background_;
+    Sides outline_;
+    std::array<Sides, LatticeTarget::columns * LatticeTarget::rows> cells_;
+    std::array<bool, LatticeTarget::columns * LatticeTarget::rows> is_hole_{};
+};
+
+}  // namespace theatron::registration
