@@ -345,7 +345,7 @@ HWY_INLINE V16 tolerance_at(const Model& model, V16 depth, const std::uint8_t* r
 }
 
 // The quantiser's interval: depth units per unit of a coded difference.
-HWY_INLINE V16 step_width(const Model& model, V16 prediction, const std::uint8_t* region) {
+HWY_INLINE V16 quantiser_width(const Model& model, V16 prediction, const std::uint8_t* region) {
     const V16 off = tolerance_at(model, prediction, region);
     return hn::Add(hn::Add(off, off), hn::Set(D16(), 1));
 }
@@ -360,7 +360,7 @@ struct Quantised {
 HWY_INLINE Quantised quantise(const Model& model, V16 prediction, V16 depth,
                               hn::Mask<D16> is_measured, const std::uint8_t* region) {
     const D16 d;
-    const V16 width = step_width(model, prediction, region);
+    const V16 width = quantiser_width(model, prediction, region);
     const V16 difference = hn::Sub(depth, prediction);
     const V16 sign = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(S16(), difference)));
     const V16 size = hn::Sub(hn::Xor(difference, sign), sign);

@@ -279,7 +279,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             kept.residual = hn::BitCast(d, hn::Abs(hn::BitCast(S16(), difference)));
             V16 depth;
             if constexpr (lossy) {
-                const V16 width = step_width(model, p.depth, model.region + at);
+                const V16 width = quantiser_width(model, p.depth, model.region + at);
                 depth = hn::Add(p.depth, hn::Mul(difference, width));
                 const auto is_literal =
                     hn::And(is_measured, hn::Or(hn::Eq(token, hn::Set(d, literal_low_token)),
