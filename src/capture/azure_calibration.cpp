@@ -8,7 +8,7 @@ namespace {
 
 using Json = JsonFields::Json;
 
-// The sensor after binning or scaling, and where the picture lies in it.
+// The sensor's size after binning or scaling, and the offset of the picture in it.
 struct Mode {
     Size picture;
     Size sensor;
@@ -32,8 +32,7 @@ constexpr Mode color_modes[] = {
     {{4096, 3072}, {4096, 3072}, 0, 0, "MJPG_3072P"},
 };
 
-// The radius that the SDK takes where the factory could not measure one, about
-// 120 degrees.
+// The SDK's radius for cameras whose factory calibration has none, about 120 degrees.
 constexpr double usual_metric_radius = 1.7;
 
 template <std::size_t N>
@@ -46,7 +45,7 @@ std::optional<Mode> mode_of(const Mode (&modes)[N], Size picture) {
 
 struct Sensor {
     Size size;
-    CameraModel model;  // fx, fy, cx, cy as parts of the sensor's width and height
+    CameraModel model;  // fx, fy, cx, cy as shares of the sensor's width and height
     Pose camera_from_device;
 };
 
@@ -64,7 +63,7 @@ Sensor read_sensor(JsonFields& fields, const Json& cameras, std::string_view loc
         if (!type.is_string() ||
             type.get_ref<const std::string&>() != "CALIBRATION_LensDistortionModelBrownConrady")
             fields.note("has a lens model other than BrownConrady");
-        // cx, cy, fx, fy, k1 to k6, the distortion's centre (unused), p2, p1.
+        // Order: cx, cy, fx, fy, k1 to k6, the distortion's centre (unused), p2, p1.
         double p[14] = {};
         fields.numbers(intrinsics, "ModelParameters", p, /*at_least=*/true);
         CameraModel& model = sensor.model;
@@ -88,7 +87,7 @@ Sensor read_sensor(JsonFields& fields, const Json& cameras, std::string_view loc
     return {};
 }
 
-// Early devices were calibrated on the middle 16:9 part of the 4:3 sensor.
+// Early devices were calibrated for the middle 16:9 part of the 4:3 sensor.
 void widen_to_four_by_three(CameraModel& model) {
     model.cy = (model.cy * 2304 + 384) / 3072;
     model.fy = model.fy * 2304 / 3072;
@@ -99,7 +98,7 @@ CameraModel in_mode(const CameraModel& normalised, const Mode& mode) {
     model.size = mode.picture;
     model.fx *= mode.sensor.width;
     model.fy *= mode.sensor.height;
-    // Half a pixel from the corner of the first pixel to its centre.
+    // From the corner of the first pixel to its centre: half a pixel.
     model.cx = model.cx * mode.sensor.width - mode.left - 0.5;
     model.cy = model.cy * mode.sensor.height - mode.top - 0.5;
     return model;
@@ -161,7 +160,7 @@ AzureDescription describe_as_azure(const Calibration& calibration) {
         const auto [width, height] = mode.sensor;
         const Mat3 r = matrix_from_quat(camera_from_device.rotation);
         const Vec3 t = camera_from_device.translation;
-        // No limit is more than any lens sees.
+        // "No limit" becomes a radius larger than that of any lens.
         constexpr double unlimited = 100;
         return Json{{"Intrinsics",
                      {{"ModelParameterCount", 14},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes end in a problem or in a calibration that passes the network's rules.
+// Any bytes give a problem or a calibration that is valid in network messages.
 #include <cstdlib>
 
 #include "capture/azure_calibration.h"

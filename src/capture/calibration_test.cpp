@@ -22,7 +22,7 @@ Json our_file() {
     return {{"depth", our_camera(vga)}, {"color", our_camera(hd)}};
 }
 
-// A made-up factory calibration of the usual form.
+// An invented factory calibration of the usual form.
 Json azure_file() {
     const auto camera = [](const char* location, int width, int height) {
         return Json{
@@ -168,7 +168,7 @@ TEST(AzureCalibration, SixteenToNineCalibrationsDescribeTheMiddleOfTheSensor) {
     Json file = azure_file();
     file["CalibrationInformation"]["Cameras"][1]["SensorHeight"] = 2304;
     const auto color = parse_azure_calibration(file.dump(), {640, 576}, hd).calibration.color;
-    // The 720 rows are the whole of what was calibrated.
+    // The calibrated area has exactly these 720 rows.
     EXPECT_DOUBLE_EQ(color.fy, 1.0 * 720);
     EXPECT_DOUBLE_EQ(color.cy, 0.25 * 720 - 0.5);
 }

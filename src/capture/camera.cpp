@@ -24,7 +24,7 @@ struct Kind {
     std::unique_ptr<Camera> (*open)(Options& options, const Progress& progress);
 };
 
-// A further kind of camera is one more line.
+// To add a kind of camera, add a line here.
 constexpr Kind kinds[] = {
     {"folder", folder_camera_help, open_folder_camera},
     {"mkv", mkv_camera_help, open_mkv_camera},
@@ -33,7 +33,7 @@ constexpr Kind kinds[] = {
     {"k4a", k4a_camera_help, open_k4a_camera},
 };
 
-// What the standard library throws, as a sentence too.
+// Opens a camera. Exceptions of the standard library become an Error with a sentence, too.
 std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress& progress) {
     try {
         const CropOptions crop = take_crop_options(options);

@@ -6,10 +6,10 @@
 namespace theatron::capture {
 namespace {
 
-// A picture cannot be of later than when it came; clocks that are tied together
-// by estimation may say so by a little.
+// Pictures cannot be later than their arrival, except for the error of the estimated relation
+// between the clocks.
 constexpr Duration most_ahead = 20ms;
-// A busy machine may take long to fetch a picture, but not this long.
+// A busy machine may fetch a picture late, but not by more than this.
 constexpr Duration most_behind = 1s;
 
 }  // namespace
@@ -77,7 +77,7 @@ void CameraCare::on_opened(TimePoint now) {
     open_ = true;
     any_frame_ = false;
     last_fault_ = Trouble::silent;
-    // Stays stale until its first picture; that is waited for from now on.
+    // Remains stale until its first picture; the wait for it begins now.
     last_good_ = now;
 }
 

@@ -23,7 +23,7 @@ protected:
         for (int i = 0; i < count; ++i)
             EXPECT_TRUE(good_frame());
     }
-    // How long until it is stale, while `each` happens every frame.
+    // Time until the camera is stale, with a call of `each` every frame.
     template <class F>
     Duration until_stale(F each) {
         const TimePoint begin = now;
@@ -152,7 +152,7 @@ TEST_F(Care, AnUnpluggedCameraIsStaleAtOnceAndTriedWithBackOff) {
     EXPECT_TRUE(care.problem().empty());
     care.on_gone("Again.", now);
     now += CameraCare::first_wait;
-    EXPECT_TRUE(care.wants_reopen(now));  // patience begins anew
+    EXPECT_TRUE(care.wants_reopen(now));  // the timeout starts again
 }
 
 TEST_F(Care, ASlowCameraIsGivenItsTime) {

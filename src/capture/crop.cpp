@@ -11,7 +11,7 @@
 namespace theatron::capture {
 namespace {
 
-// Takes a whole number off the text, and the sign behind it unless that is 0.
+// Removes a number from the front of the text, and the separator `behind` unless that is 0.
 std::optional<int> take_number(std::string_view& text, char behind) {
     int value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -26,7 +26,7 @@ std::optional<int> take_number(std::string_view& text, char behind) {
     return value;
 }
 
-// Which pixels of a line a pixel of the smaller line covers, in 1/256.
+// The pixels of a line that a pixel of the smaller line covers, with weights in 1/256.
 struct Cover {
     int first = 0;
     std::vector<std::uint32_t> weights;
@@ -40,7 +40,7 @@ std::vector<Cover> covers(int from, int to) {
         Cover& cover = result[std::size_t(i)];
         cover.first = int(begin);
         const int last = std::min(int(std::ceil(end - 1e-9)), from);
-        // Rounded sums, not rounded parts, so that the weights sum up to 256.
+        // Rounds cumulative sums, not single weights, so that the weights sum up to 256.
         std::uint32_t before = 0;
         for (int x = cover.first; x < last; ++x) {
             const double share = (std::min(end, x + 1.0) - begin) / step;
@@ -84,8 +84,8 @@ CameraModel cropped(CameraModel camera, const Crop& crop) {
 }
 
 Crop color_seen_by_depth(const Calibration& calibration, double near_m, double far_m) {
-    // The seen region is bounded by smooth curves; a few pixels between samples
-    // are made up for by the margin.
+    // The visible region has smooth borders; the margin compensates for the pixels between
+    // samples.
     constexpr int step = 8, margin = 4;
     const CameraModel& depth = calibration.depth;
     double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;

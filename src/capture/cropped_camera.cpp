@@ -12,7 +12,7 @@
 namespace theatron::capture {
 namespace {
 
-// Where hands and instruments may be, for "what the depth camera sees".
+// Distances of hands and instruments, for "auto".
 constexpr double near_m = 0.3, far_m = 8;
 
 std::string in_words(Size size) {
@@ -34,7 +34,7 @@ Crop read_crop(const char* key, const std::string& text, Size picture) {
     return *crop;
 }
 
-// The corner on a block of JPEG, nothing of the part lost.
+// Extends the crop so that its corner is on a JPEG block.
 Crop on_blocks(const Crop& crop) {
     const int dx = crop.x % video::JpegCropper::block, dy = crop.y % video::JpegCropper::block;
     return {crop.x - dx, crop.y - dy, {crop.size.width + dx, crop.size.height + dy}};
@@ -121,7 +121,7 @@ public:
     }
 
 private:
-    // A picture that is damaged is left out; its depth is not.
+    // A damaged colour picture is dropped; its depth is kept.
     void convert_color(const ColorData& from, ColorData& out) {
         out.jpeg.clear();
         out.pixels.pixels.clear();
@@ -138,7 +138,7 @@ private:
                 out.jpeg.assign(part->begin(), part->end());
             if (part)
                 out.size = color_.size;
-            // Larger blocks than usual: by way of pixels.
+            // JPEG with larger blocks than usual is decoded to pixels instead.
             if (part || part.error() != Status::unsupported)
                 return;
         }

@@ -27,7 +27,7 @@ Calibration two_lenses() {
     return c;
 }
 
-// Pixels tell where they are.
+// Each pixel encodes its position.
 class PatternCamera final : public Camera {
 public:
     explicit PatternCamera(bool as_jpeg = false, bool has_color = true) {

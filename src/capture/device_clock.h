@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a live camera's picture was taken, in this machine's steady clock. Pure:
-// the time is passed in.
+// Converts the time of a live camera's picture to this machine's steady clock. Pure: the time
+// is passed in.
 //
-// The camera's own clock is even but counts from an unknown beginning. When the
-// host got to know of a picture is known, but late by a delay that differs from
-// picture to picture. The shortest delay seen ties the two together.
+// The camera's own clock is regular but has an unknown offset. The host knows the arrival of a
+// picture, which has a varying delay. The offset follows from the shortest delay seen.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +13,17 @@
 
 namespace theatron::capture {
 
-// Both clocks of this machine at one moment.
+// Both clocks of this machine, read together.
 struct HostNow {
     TimePoint steady;
     Duration since_1970{};
 };
 
-// When the host got a picture, from the time that the camera's library put on
-// it. Azure's library counts nanoseconds of the steady clock, Orbbec's those
-// since 1970, and others none; then it is `usual_delay` before `now`.
+// The arrival of a picture at the host, from the time stamp of the camera's library. Azure's
+// library counts nanoseconds of the steady clock, Orbbec's nanoseconds since 1970; others have
+// no stamp, and then the arrival is taken as `usual_delay` before `now`.
 inline TimePoint host_time(std::uint64_t system_ns, HostNow now, Duration usual_delay) {
-    // Longer ago, it is no time of arrival but something else.
+    // A longer delay means that the stamp is not a time of arrival.
     constexpr Duration longest_delay = 1s;
     const Duration stamp(std::int64_t(system_ns / 1000));
     const Duration since_boot = now.steady.time_since_epoch();
@@ -36,13 +35,13 @@ inline TimePoint host_time(std::uint64_t system_ns, HostNow now, Duration usual_
 
 class DeviceClock {
 public:
-    // The moment of a picture that the camera dates `device` and the host knew
-    // of at `host`. Never later than `host`. A camera without clock says 0.
+    // The capture time of a picture with device time `device` that arrived at `host`. Never
+    // later than `host`. `device` is 0 for a camera without a clock.
     TimePoint captured(Duration device, TimePoint host) {
         if (device <= Duration(0))
             return host;
         const Duration offset = host.time_since_epoch() - device;
-        // Clocks drift apart, so the shortest delay may not count for ever.
+        // The clocks drift, so the shortest delay must expire.
         const Duration drift = (device - last_) / drift_divisor;
         const bool restarted = device < last_ || offset - offset_ > jump;
         offset_ = !known_ || restarted ? offset : std::min(offset, offset_ + drift);
@@ -52,7 +51,7 @@ public:
     }
 
 private:
-    static constexpr int drift_divisor = 5000;  // 200 ppm, more than any crystal is off
+    static constexpr int drift_divisor = 5000;  // 200 ppm, more than the error of any crystal
     static constexpr Duration jump = 500ms;     // longer than any delay of a working camera
 
     bool known_ = false;

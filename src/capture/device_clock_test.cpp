@@ -8,7 +8,7 @@
 namespace theatron::capture {
 namespace {
 
-// The machine has run for an hour; it is some day after 1970.
+// Steady clock: an hour after boot. Wall clock: an arbitrary day.
 constexpr HostNow now{from_us(3'600'000'000), Duration(1'700'000'000'000'000)};
 
 std::uint64_t ns(Duration time) {
@@ -58,7 +58,7 @@ TEST(DeviceClock, BeginsAnewWhenTheDevicesClockDoes) {
     clock.captured(50s, TimePoint(100s));
     EXPECT_EQ(clock.captured(1s, TimePoint(101s)), TimePoint(101s));
     EXPECT_EQ(clock.captured(70s, TimePoint(102s)), TimePoint(102s));
-    // It stands still: half a second late is as late as it gets.
+    // The camera's clock has stopped: the estimate is at most half a second early.
     EXPECT_GE(clock.captured(70s, TimePoint(105s)), TimePoint(104500ms));
 }
 

@@ -9,7 +9,7 @@
 namespace theatron::capture {
 namespace {
 
-// Mixes bits so that neighbouring stretches have nothing in common (splitmix64).
+// An integer hash (splitmix64); neighbouring inputs give unrelated outputs.
 std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -57,7 +57,7 @@ public:
         }
         if (fault && fault->kind == FaultKind::hang)
             sleep_(fault->end - now);
-        // A camera that is opened after a jump has its clock right.
+        // A camera that is opened after a jump has a correct clock.
         if (const Fault near = plan_.nearest(now); near.kind == FaultKind::time_jump &&
                                                    near.begin > std::max(opened_, plan_.from) &&
                                                    near.begin <= now)
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    // Half of the cameras that repeat a picture give it a new time.
+    // Repeats the last picture; cameras with an even seed give it a new time.
     FramePtr repeated() {
         auto frame = std::make_shared<Frame>(*last_);
         frame->times.delivered = now_();
@@ -109,7 +109,7 @@ Fault FaultPlan::nearest(TimePoint now) const {
     Fault fault;
     fault.kind = FaultKind(random % fault_kinds);
     const Duration length = std::min(usual_length(fault.kind, mixed(random)), every / 3);
-    // Between faults there is time to get over them.
+    // A fault begins in the first third of its stretch, so that the camera can recover.
     const auto latest = std::uint64_t((every / 3).count());
     fault.begin = from_us(stretch * every.count() + std::int64_t(mixed(random + 1) % latest));
     fault.end = fault.begin + length;
@@ -140,7 +140,7 @@ std::optional<FaultPlan> take_fault_options(Options& options) {
     const double every = options.take_number("faults_every", 10, 1, 3600);
     if (seed == none)
         return std::nullopt;
-    // A host insists on all its cameras when it starts.
+    // A host requires all its cameras at the start.
     static const TimePoint program_began = steady_now();
     return FaultPlan{std::uint32_t(seed), seconds_to_duration(every), program_began + 2s};
 }

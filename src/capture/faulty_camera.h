@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any camera with the faults that cameras have, for tests: it falls silent, loses
-// frames, repeats itself, jumps in time, is unplugged, or its driver hangs.
+// A decorator for any camera that simulates faults, for tests: silence, lost frames, repeated
+// pictures, jumps in time, unplugging, a hanging driver.
 //
-// Which fault happens when depends on nothing but the seed and the time, so that
-// a camera that is opened again meets the fault that is still there.
+// The faults depend only on the seed and the time, so that a camera that is opened again still
+// has the current fault.
 #pragma once
 
 #include <functional>
@@ -27,15 +27,15 @@ struct Fault {
     Duration jump{};  // of a time_jump
 };
 
-// One fault in each `every`, lasting from a few frames to three seconds.
+// One fault per `every`, lasting from a few frames to three seconds.
 struct FaultPlan {
     std::uint32_t seed = 1;
     Duration every = 10s;
-    TimePoint from{};  // nothing fails before
+    TimePoint from{};  // no faults before
 
-    // The fault of the stretch of time that `now` lies in, whether it is on or not.
+    // The fault of the stretch of time that contains `now`, active or not.
     Fault nearest(TimePoint now) const;
-    // The one that is on at `now`.
+    // The fault active at `now`.
     std::optional<Fault> at(TimePoint now) const;
 };
 
@@ -44,7 +44,7 @@ std::unique_ptr<Camera> make_faulty_camera(std::unique_ptr<Camera> camera, const
                                            std::function<TimePoint()> now,
                                            std::function<void(Duration)> sleep);
 
-// Nothing without faults=.
+// Nullopt without the option faults=.
 std::optional<FaultPlan> take_fault_options(Options& options);
 
 }  // namespace theatron::capture

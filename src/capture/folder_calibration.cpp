@@ -125,7 +125,7 @@ std::string write_folder_calibration(const Calibration& calibration) {
 }
 
 ParsedCalibration parse_intrinsics_matrix(std::string_view text, Size depth, Size color) {
-    // A string ends in zero, where strtod stops.
+    // strtod needs the terminating zero.
     const std::string copy(text);
     double m[9] = {};
     const char* at = copy.c_str();
@@ -150,7 +150,7 @@ ParsedCalibration parse_intrinsics_matrix(std::string_view text, Size depth, Siz
 }
 
 Calibration default_calibration(Size depth, Size color) {
-    // Common RGB-D cameras see between 57 degrees (Kinect v1) and 69 (RealSense D435).
+    // Common RGB-D cameras have between 57 degrees (Kinect v1) and 69 (RealSense D435).
     Calibration calibration;
     calibration.depth = pinhole(depth, 64);
     align_color_with_depth(calibration, color);

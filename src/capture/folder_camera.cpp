@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 constexpr std::size_t usual_preload_bytes = std::size_t(1) << 30;
 constexpr std::size_t max_calibration_bytes = std::size_t(1) << 20;
 
-// One frame's files. `color` is empty where it has none.
+// The files of one frame. `color` may be empty.
 struct FramePaths {
     fs::path depth;
     fs::path color;
 };
 
-// Numbers count as numbers, so that 10.png comes after 9.png.
+// Compares numbers by value, so that 10.png follows 9.png.
 bool precedes(const std::string& a, const std::string& b) {
     const auto is_number = [](const std::string& s) {
         return !s.empty() && s.find_first_not_of("0123456789") == std::string::npos;
@@ -88,7 +88,7 @@ std::vector<FramePaths> find_frames(const fs::path& folder) {
     return frames;
 }
 
-// Reads a colour picture: JPEG stays as it is, PNG becomes pixels.
+// Reads a colour picture: JPEG is kept, PNG is decoded to pixels.
 void read_color(const fs::path& path, ColorData& out) {
     out.jpeg.clear();
     out.pixels.pixels.clear();
@@ -212,7 +212,7 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     if (options.value().empty())
         throw Error("The camera 'folder' needs a folder, as in folder:DIR.");
 
-    // Without a slash at the end, which would leave no name.
+    // Removes a trailing slash, which would leave no name.
     fs::path folder = fs::path(options.value()).lexically_normal();
     if (!folder.has_filename())
         folder = folder.parent_path();

@@ -34,7 +34,7 @@ Bytes jpeg_picture(Size size) {
     return Bytes(bytes.begin(), bytes.end());
 }
 
-// A folder with `frames` frames, whose depth is 1000 and their number.
+// A folder with `frames` frames; the depth of each is 1000 plus its number.
 class FolderCamera : public ::testing::Test {
 protected:
     static constexpr Size depth_size{8, 6}, color_size{16, 12};
@@ -88,7 +88,7 @@ TEST_F(FolderCamera, PlaysItsFramesInOrderAndEnds) {
         for (FrameNumber n = 0; n < 3; ++n) {
             const Capture capture = camera->next(10s);
             ASSERT_EQ(capture.kind, Capture::Kind::frame);
-            // A machine that stalls may skip frames, but never mixes them up.
+            // A stalled machine may skip frames but never mixes their images.
             EXPECT_EQ(capture.frame->depth,
                       flat_depth(depth_size, std::uint16_t(1000 + capture.frame->number)));
             EXPECT_EQ(capture.frame->color.jpeg, jpeg_picture(color_size));
@@ -175,7 +175,7 @@ TEST_F(FolderCamera, NamesTheFrameOfAnOddSize) {
                                  "' is 7x6, but the first picture of its folder is 8x6.";
     EXPECT_EQ(problem(), sentence);
 
-    // Without reading all at opening, it is found when its turn comes.
+    // With preload=0 the damage is found when the frame is due.
     const auto camera = open(",preload=0,fps=200");
     Capture capture = camera->next(1s);
     while (capture.kind != Capture::Kind::failed && capture.kind != Capture::Kind::end)

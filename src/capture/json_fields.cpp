@@ -105,7 +105,7 @@ void JsonFields::note(std::string problem) {
         problem_ = std::move(problem);
 }
 
-// The rules for a calibration from a file are those for one from the network.
+// A calibration from a file follows the same rules as one from the network.
 std::string implausibility(const Calibration& calibration) {
     return decode_calibration(encode_calibration(calibration)).has_value()
                ? ""

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the k4a C interface that is used here, in our own declarations:
-// that of Microsoft's libk4a 1.4 and of Orbbec's library of the same name.
+// The part of the k4a C interface that we use, in our own declarations: Microsoft's libk4a 1.4
+// and Orbbec's library of the same name.
 //
-// Numbers, layouts and signatures are facts of that interface (k4a/k4a.h and
-// k4a/k4atypes.h of release 1.4.1). Nothing here is linked: k4a_library.h loads it.
+// Numbers, layouts and signatures are facts of that interface (k4a/k4a.h and k4a/k4atypes.h of
+// release 1.4.1). Nothing is linked: k4a_library.h loads the library.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace theatron::capture::k4a {
 
-// Handles: each is given back with the function that names it.
+// Handles: each is released with the function that names it.
 struct DeviceObject;
 struct CaptureObject;
 struct ImageObject;
@@ -33,10 +33,10 @@ struct Configuration {
     ColorResolution color = ColorResolution::off;
     DepthMode depth = DepthMode::off;
     FrameRate frame_rate = FrameRate::fps30;
-    bool synchronized_only = false;  // captures with both pictures, or none
+    bool synchronized_only = false;  // deliver captures with both pictures only
     std::int32_t depth_delay_off_color_us = 0;
     SyncRole sync = SyncRole::standalone;
-    std::uint32_t delay_off_master_us = 0;  // of a subordinate only
+    std::uint32_t delay_off_master_us = 0;  // for subordinates only
     bool no_indicator_light = false;
 };
 static_assert(offsetof(Configuration, synchronized_only) == 16);
@@ -44,7 +44,7 @@ static_assert(offsetof(Configuration, depth_delay_off_color_us) == 20);
 static_assert(offsetof(Configuration, delay_off_master_us) == 28);
 static_assert(sizeof(Configuration) == 36);
 
-// Every function that is used: its type, its name without "k4a_", its arguments.
+// All functions used: result type, name without "k4a_", arguments.
 #define THEATRON_K4A_FUNCTIONS(USE)                                                          \
     USE(std::uint32_t, device_get_installed_count, (void))                                   \
     USE(Outcome, device_open, (std::uint32_t index, DeviceObject * *device))                 \

@@ -16,7 +16,7 @@ namespace theatron::capture {
 namespace k4a {
 namespace {
 
-// A colour picture may come so many frames after its depth picture.
+// A colour picture may arrive this many frames after its depth picture.
 constexpr std::size_t max_depth_waiting = 2;
 
 HostNow host_now() {
@@ -57,7 +57,7 @@ public:
             if (capture)
                 add(capture);
             else
-                // A library that does not wait must not keep a core busy.
+                // Prevents a busy loop if the library does not wait.
                 std::this_thread::sleep_for(
                     std::clamp<Duration>(deadline - steady_now(), 0ms, 1ms));
             if (const auto frame = take_paired())
@@ -78,7 +78,7 @@ private:
         const ImagePtr color = device_.color_of(capture);
         FramePointer depth_frame = depth ? read_depth(depth) : nullptr;
         FramePointer color_frame = color ? read_color(color) : nullptr;
-        // What the library has paired stays paired, whatever its times.
+        // Pictures that the library paired stay together, regardless of their times.
         if (settings_.configuration.synchronized_only && depth_frame && color_frame) {
             std::swap(depth_frame->color, color_frame->color);
             paired_ = std::move(depth_frame);
@@ -104,7 +104,7 @@ private:
                         picture->bytes + std::size_t(y) * picture->stride_bytes,
                         row * sizeof(std::uint16_t));
         clear(frame->color);
-        // Depth is computed after the transfer, so it arrives about a frame late.
+        // Depth is computed after the transfer, so it arrives about one frame late.
         const TimePoint arrived =
             host_time(device_.system_ns(image), host_now(), settings_.period());
         frame->times = {};
@@ -150,7 +150,7 @@ private:
         return {.kind = Capture::Kind::frame, .frame = frame, .problem = {}};
     }
 
-    // Why the camera counts as gone, as the end of a sentence, or nothing.
+    // The reason why the camera counts as gone, as the end of a sentence, or empty.
     std::string silence() {
         const bool begun = number_ > 0;
         const Duration limit = begun ? patience_.between : patience_.to_begin;
@@ -159,7 +159,7 @@ private:
         const std::string seconds = std::to_string(limit / 1s) + " seconds";
         if (damaged_)
             return "has sent only damaged pictures for " + seconds;
-        // A subordinate takes its first picture when the master is started.
+        // A subordinate has no pictures until the master is started.
         if (!begun && settings_.configuration.sync == SyncRole::subordinate) {
             if (!std::exchange(waiting_noted_, true))
                 log::warning("capture", "the camera waits for its master, which must be started",
@@ -189,11 +189,11 @@ private:
     CameraInfo info_;
     FramePool pool_;
     TimePairing<FramePointer> pairing_;
-    FramePointer paired_;  // by the library
+    FramePointer paired_;  // by the library, not yet returned
     DeviceClock clock_;
     FrameNumber number_ = 0;
     Duration waited_{};     // in next(), since the last frame
-    bool damaged_ = false;  // since the last frame
+    bool damaged_ = false;  // a picture, since the last frame
     bool damage_noted_ = false;
     bool waiting_noted_ = false;
     std::optional<Capture> over_;

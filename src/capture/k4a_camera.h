@@ -20,13 +20,13 @@ std::unique_ptr<Camera> open_k4a_camera(Options& options, const Progress& progre
 
 namespace k4a {
 
-// How long a camera may be silent before it counts as gone.
+// The time without a frame after which a camera counts as gone.
 struct Patience {
     Duration to_begin = 10s;  // sensors and depth engine take seconds to start
     Duration between = 2s;
 };
 
-// The same with settings and a library at hand. Throws Error.
+// Starts a camera with given settings and library. Throws Error.
 std::unique_ptr<Camera> start_camera(const Library& library, const Settings& settings,
                                      const Patience& patience);
 

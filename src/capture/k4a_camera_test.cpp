@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live cameras against a library that stands in for libk4a (tests/k4a_standin).
+// Live cameras with a stand-in for libk4a (tests/k4a_standin).
 #include "capture/k4a_camera.h"
 
 #include <dlfcn.h>
@@ -23,7 +23,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Kind = Capture::Kind;
 
-// Real time from frame to frame; shorter than a camera's, to save time.
+// Frames come in real time, with a shorter period than a camera's to save time.
 constexpr const char* quick = ",period_us=4000";
 
 class K4aCamera : public ::testing::Test {
@@ -65,7 +65,7 @@ protected:
         return k4a::start_camera(k4a::load_library(), k4a::take_settings(options), patience);
     }
 
-    // What comes after at most ten frames, and how many frames there were.
+    // The number of frames, at most ten, and the first result after them.
     static std::pair<int, Capture> play(Camera& camera) {
         for (int frames = 0;; ++frames) {
             Capture capture = camera.next(2s);
@@ -162,7 +162,7 @@ TEST_F(K4aCamera, PairsWhatTheDeviceDeliversApart) {
     }
 }
 
-// Stamped as far apart as these, they would not be paired here.
+// Without the library's pairing, times this far apart would not be paired.
 TEST_F(K4aCamera, WhatTheLibraryPairedStaysPaired) {
     behave("color_later_us=20000");
     for (const auto& [options, expected] : {std::pair{"k4a:0,synchronized=1", 0}, {"k4a:0", -1}}) {
@@ -199,7 +199,7 @@ TEST_F(K4aCamera, DepthGoesOnWithoutColor) {
     }
 }
 
-// Run with the address sanitizer, this is where reading too far would show.
+// The address sanitizer detects reads beyond the picture here.
 TEST_F(K4aCamera, DepthThatIsNotOfTheAgreedSizeIsRefused) {
     for (const char* lie : {"depth_width=100000", "depth_width=-5", "depth_stride=0",
                             "depth_stride=1278", "depth_stride=-1280", "depth_stride=2000000000",
@@ -226,7 +226,8 @@ TEST_F(K4aCamera, CapturedIsWhenThePictureCameByWhicheverClock) {
             const FrameTimes& times = capture.frame->times;
             EXPECT_LE(times.captured, times.delivered) << clock;
             EXPECT_GT(times.captured, times.delivered - 10s) << clock;
-            // Quick pictures may share one of the wall clock's milliseconds.
+            // Consecutive pictures may have equal times, because the wall clock counts
+            // milliseconds.
             EXPECT_GE(times.captured, before) << clock;
             before = times.captured;
         }

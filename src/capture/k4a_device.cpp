@@ -27,14 +27,14 @@ DevicePtr open_index(const Library& library, std::uint32_t index) {
     return {device, {library.device_close}};
 }
 
-// Empty if the device does not tell.
+// Empty if the device does not provide it.
 std::string read_serial(const Library& library, DeviceObject* device) {
     std::string text(max_serial_bytes, '\0');
     std::size_t size = text.size();
     if (library.device_get_serialnum(device, text.data(), &size) != BufferResult::succeeded)
         return {};
     text.resize(std::min(size, max_serial_bytes));
-    // It becomes part of names and of log lines.
+    // Keeps letters and digits: the serial number becomes part of names and log lines.
     const auto end = std::find_if(text.begin(), text.end(), [](char c) {
         return !((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'));
     });
@@ -48,7 +48,7 @@ std::string how_many(std::uint32_t devices) {
     return devices == 1 ? "1 camera is plugged in" : std::to_string(devices) + " are plugged in";
 }
 
-// The calibration's JSON, empty if the device does not give it.
+// The calibration's JSON; empty if the device does not provide it.
 std::string read_calibration(const Library& library, DeviceObject* device) {
     constexpr std::size_t usual_bytes = 1 << 16;
     std::string text(usual_bytes, '\0');
@@ -64,7 +64,7 @@ std::string read_calibration(const Library& library, DeviceObject* device) {
         if (result != BufferResult::succeeded)
             return {};
         text.resize(std::min(size, text.size()));
-        // The text may or may not end with a zero, which is counted.
+        // The size may or may not include a terminating zero.
         text.resize(std::min(text.size(), text.find('\0')));
         return text;
     }
@@ -129,8 +129,8 @@ void OpenDevice::open(const Settings& settings) {
 
 Calibration OpenDevice::calibration(const Settings& settings) const {
     const std::string text = read_calibration(library_, device_.get());
-    // Orbbec's library touches the device here for the first time, so this is
-    // also how missing permissions show.
+    // Orbbec's library accesses the device here for the first time, so missing permissions
+    // show here as well.
     if (text.empty())
         throw Error("The camera '" + name_ +
                     "' does not give its calibration: " + std::string(how_to_permit) + ".");
@@ -165,7 +165,7 @@ void OpenDevice::start(const Settings& settings) {
 }
 
 WaitResult OpenDevice::wait(Duration timeout, CapturePtr& capture) const {
-    // A negative number would mean for ever.
+    // A negative number would mean an infinite wait.
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count();
     const auto bounded = std::int32_t(std::clamp<std::int64_t>(ms, 0, 60'000));
     CaptureObject* got = nullptr;
@@ -212,7 +212,7 @@ std::optional<ByteView> OpenDevice::jpeg_picture(const ImagePtr& image, Size siz
 }
 
 Duration OpenDevice::device_time(const ImagePtr& image) const {
-    // No camera runs for 285 years; what says so must not overflow later sums.
+    // 285 years, an impossible time. Larger numbers would overflow later sums.
     constexpr std::uint64_t longest = std::uint64_t(1) << 53;
     const std::uint64_t us = library_.image_get_device_timestamp_usec(image.get());
     return us < longest ? Duration(std::int64_t(us)) : Duration(0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live devices: which there are, opening one, and its pictures as checked views.
+// Live devices: enumeration, opening, and pictures as checked views.
 //
-// What a device or its library says about itself is not trusted: sizes are
-// compared with what was asked for before a byte is read.
+// Data from a device or its library is not trusted: sizes are compared with the requested mode
+// before any byte is read.
 #pragma once
 
 #include <optional>
@@ -17,29 +17,29 @@
 
 namespace theatron::capture::k4a {
 
-// A device as `theatron cameras` shows it.
+// A device as listed by `theatron cameras`.
 struct FoundDevice {
     std::uint32_t index = 0;
     std::string serial;
-    std::string problem;  // one sentence if it cannot be opened, as when it is in use
+    std::string problem;  // one sentence if it cannot be opened, for example if it is in use
 };
 struct FoundDevices {
     std::vector<FoundDevice> devices;
     std::string problem;  // one sentence if the library is missing
 };
-// Opens each device for a moment. Does not throw.
+// Opens each device briefly. Does not throw.
 FoundDevices find_devices();
 
-// A depth picture with the padding of its rows.
+// A depth picture whose rows may be padded.
 struct DepthPicture {
     const std::uint8_t* bytes = nullptr;
     std::size_t stride_bytes = 0;
 };
 
-// One opened device; stopped and closed at the end.
+// One opened device; the destructor stops and closes it.
 class OpenDevice {
 public:
-    // Throws Error saying what to do where the device is missing, in use or not permitted.
+    // Throws Error with a remedy if the device is missing, in use or not permitted.
     OpenDevice(const Library& library, const Settings& settings);
     ~OpenDevice();
     OpenDevice(const OpenDevice&) = delete;
@@ -47,21 +47,21 @@ public:
 
     const std::string& serial() const { return serial_; }
 
-    // For the modes of `settings`. Throws Error if the device's own is unusable.
+    // The calibration for the modes of `settings`. Throws Error if the device's data is unusable.
     Calibration calibration(const Settings& settings) const;
     void start(const Settings& settings);
 
     // Waits at most `timeout`, in whole milliseconds, for the next capture.
     WaitResult wait(Duration timeout, CapturePtr& capture) const;
 
-    ImagePtr depth_of(const CapturePtr& capture) const;  // null: it has none
+    ImagePtr depth_of(const CapturePtr& capture) const;  // null: no depth in it
     ImagePtr color_of(const CapturePtr& capture) const;
 
-    // Nothing if the image is not one of this size.
+    // Nullopt if the image is not of this size.
     std::optional<DepthPicture> depth_picture(const ImagePtr& image, Size size) const;
     std::optional<ByteView> jpeg_picture(const ImagePtr& image, Size size) const;
 
-    // The device's own time of a picture, 0 if it has none.
+    // The device's own time of a picture; 0 if it has none.
     Duration device_time(const ImagePtr& image) const;
     std::uint64_t system_ns(const ImagePtr& image) const;
 

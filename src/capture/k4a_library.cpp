@@ -11,8 +11,8 @@
 namespace theatron::capture::k4a {
 namespace {
 
-// Version 1 of the interface, most exact name first; the last is what the
-// development package or a build from source leaves.
+// Version 1 of the interface, most specific name first. The last name is that of a development
+// package or a build from source.
 constexpr const char* usual_names[] = {"libk4a.so.1.4", "libk4a.so.1", "libk4a.so"};
 
 std::string last_problem() {
@@ -36,7 +36,7 @@ void* open_any() {
                         last_problem() + ".");
         return library;
     }
-    // A library that is there but lacks another one says more than its absence.
+    // An installed library that lacks a dependency is reported rather than a missing one.
     std::string broken;
     for (const char* name : usual_names) {
         if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL))

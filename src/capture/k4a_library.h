@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libk4a, loaded when a camera is asked for, and its handles with owners.
+// libk4a, loaded at run time, and its handles with owners.
 #pragma once
 
 #include <memory>
@@ -8,19 +8,19 @@
 
 namespace theatron::capture::k4a {
 
-// The functions of the library. It stays loaded until the process ends: its
-// depth engine does not survive being unloaded.
+// The functions of the library. It stays loaded until the process ends, because its depth
+// engine does not survive unloading.
 struct Library {
 #define THEATRON_K4A_MEMBER(type, name, arguments) type(*name) arguments = nullptr;
     THEATRON_K4A_FUNCTIONS(THEATRON_K4A_MEMBER)
 #undef THEATRON_K4A_MEMBER
 };
 
-// Takes $THEATRON_K4A_LIBRARY or else the names under which the library is
-// installed. Throws Error where there is none, saying what to install.
+// Loads $THEATRON_K4A_LIBRARY or the installed library. Throws Error with what to install if
+// there is none.
 Library load_library();
 
-// Gives a handle back with the library's function for it.
+// Releases a handle with the library's function for it.
 template <class Handle>
 struct GiveBack {
     void (*function)(Handle*) = nullptr;

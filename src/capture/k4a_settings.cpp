@@ -41,10 +41,10 @@ constexpr Choice<SyncRole> sync_roles[] = {
     {"master", SyncRole::master},
     {"subordinate", SyncRole::subordinate},
 };
-// 1 and 2 are the interface's numbers for the two mains frequencies.
+// 1 and 2 are the interface's numbers for the mains frequencies.
 constexpr Choice<std::int32_t> powerlines[] = {{"", 0}, {"50", 1}, {"60", 2}};
 
-// The first choice is the usual one.
+// The first choice is the default.
 template <class T, std::size_t N>
 const Choice<T>& take_choice(Options& options, const char* key, const Choice<T> (&choices)[N]) {
     const std::string wanted = options.take(key, choices[0].name);
@@ -67,7 +67,7 @@ std::optional<int> read_int(const std::string& text) {
     return value;
 }
 
-// `key`=auto, or a number from `min` to `max`.
+// Parses `key`=auto, or a number from `min` to `max`.
 ControlSetting take_control(Options& options, const char* key, ColorControl control, int min,
                             int max) {
     const std::string wanted = options.take(key, "");
@@ -91,7 +91,7 @@ std::uint32_t read_index(const std::string& text) {
     return std::uint32_t(*index);
 }
 
-// What the devices refuse, but without saying why.
+// Reports combinations that devices refuse without a reason.
 void check_together(const Settings& settings, int max_fps, const char* limiting) {
     const Configuration& c = settings.configuration;
     if (settings.frames_per_second > max_fps)
@@ -138,7 +138,7 @@ Settings take_settings(Options& options) {
         take_control(options, "exposure_us", ColorControl::exposure_us, 100, 200'000);
     ControlSetting white =
         take_control(options, "white_balance", ColorControl::white_balance_kelvin, 2500, 12'500);
-    white.value -= white.value % 10;  // the interface knows steps of 10 kelvin only
+    white.value -= white.value % 10;  // the interface accepts multiples of 10 kelvin
     const auto& powerline = take_choice(options, "powerline_hz", powerlines);
     options.require_no_problem();
 

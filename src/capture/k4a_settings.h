@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user may ask of a live camera, checked before the device is touched.
+// The options of a live camera, checked before the device is opened.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace theatron::capture::k4a {
 
-// A control of the colour camera. The device keeps what was set once, even
-// when it is closed, so exposure and white balance are set each time.
+// A control of the colour camera. The device keeps its controls even after it is closed, so
+// exposure and white balance are always set.
 struct ControlSetting {
     ColorControl control = ColorControl::exposure_us;
     ControlMode mode = ControlMode::automatic;
     std::int32_t value = 0;
     const char* option = "";  // as the user writes it
-    bool asked_for = false;   // otherwise it is only the usual state
+    bool asked_for = false;   // by the user; false: the default
 };
 
 struct Settings {
     std::uint32_t index = 0;
-    std::string serial;  // if given, it finds the device, and `index` means nothing
+    std::string serial;  // if given, it selects the device, and `index` is ignored
     Configuration configuration;
     std::vector<ControlSetting> controls;
     Size depth;
@@ -37,7 +37,7 @@ struct Settings {
     Duration period() const { return seconds_to_duration(1 / frames_per_second); }
 };
 
-// Throws Error for what no camera of this kind can do.
+// Throws Error for options that no camera of this kind supports.
 Settings take_settings(Options& options);
 
 }  // namespace theatron::capture::k4a

@@ -34,7 +34,7 @@ TEST(K4aSettings, UsualOnesAreForASingleCamera) {
     EXPECT_EQ(s.frames_per_second, 30);
     EXPECT_EQ(s.configuration.sync, SyncRole::standalone);
     EXPECT_FALSE(s.configuration.synchronized_only);
-    // The device remembers what another program set, so automatic is set too.
+    // The device keeps the settings of other programs, so automatic is set explicitly.
     ASSERT_EQ(s.controls.size(), 2u);
     for (const ControlSetting& control : s.controls)
         EXPECT_EQ(control.mode, ControlMode::automatic);
@@ -52,7 +52,7 @@ TEST(K4aSettings, EveryOptionReachesTheConfiguration) {
     EXPECT_TRUE(s.configuration.synchronized_only);
     ASSERT_EQ(s.controls.size(), 3u);
     EXPECT_EQ(s.controls[0].value, 8330);
-    EXPECT_EQ(s.controls[1].value, 4500);  // in steps of ten
+    EXPECT_EQ(s.controls[1].value, 4500);  // a multiple of ten
     EXPECT_EQ(s.controls[2].value, 1);
     EXPECT_EQ(settings("k4a:serial=000123").name(), "k4a:serial=000123");
 }

@@ -50,7 +50,7 @@ Result<MkvAnswer> decode_mkv_answer(ByteView message, std::size_t shared_bytes) 
         return Status::truncated;
     if (!in.rest().empty())
         return Status::trailing_bytes;
-    // Sums of times must not overflow.
+    // Limits times, so that sums do not overflow.
     constexpr Duration longest = std::chrono::hours(1'000'000);
     if (kind < 1 || kind > std::uint8_t(MkvAnswer::Kind::impossible_size) ||
         answer.bytes > shared_bytes || answer.time < -longest || answer.time > longest)

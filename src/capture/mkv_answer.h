@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the process that reads an Azure Kinect recording (mkv_reader.h) answers to the one that
-// plays it (mkv_file.h).
+// Messages between the process that reads an Azure Kinect recording (mkv_reader.h) and the
+// process that plays it (mkv_file.h).
 //
-// The reader may have been taken over by the file, so its answers are outside bytes: decoding is
-// safe for any. The pictures and the description lie in the memory that both share.
+// The file may have compromised the reader, so its answers are untrusted: decoding is safe for
+// any bytes. Pictures and the description are in the shared memory.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 namespace theatron::capture {
 
 enum class MkvRequest : std::uint8_t {
-    open = 1,  // from the beginning; answered with a description or what is wrong
-    next = 2,  // answered with a picture, or the end
+    open = 1,  // read from the beginning; the answer is a description or a problem
+    next = 2,  // the answer is a picture or the end
 };
 
-// Description of a recording, as its reader sends it.
+// Description of a recording, sent by its reader.
 struct MkvDescription {
-    Size depth, color;  // colour 0 x 0: there is none that is JPEG
+    Size depth, color;  // colour 0 x 0: no JPEG track
     double frames_per_second = 0;
-    std::string other_color;  // what the colour track holds instead
+    std::string other_color;  // format of a colour track that is not JPEG
     std::string calibration;
 };
 
@@ -38,18 +38,18 @@ struct MkvAnswer {
         depth = 2,
         color = 3,
         end = 4,
-        // What is wrong with the file; instead of a description.
+        // Problems with the file, instead of a description.
         no_matroska = 5,
         no_depth = 6,
         impossible_size = 7,
     };
     Kind kind{};
-    Duration time{};          // of a picture
+    Duration time{};          // of the picture
     std::uint32_t bytes = 0;  // in the shared memory
 };
 
 Bytes encode(const MkvAnswer& answer);
-// Refuses more bytes than the shared memory has.
+// Refuses an answer with more bytes than the shared memory has.
 Result<MkvAnswer> decode_mkv_answer(ByteView message, std::size_t shared_bytes);
 
 Bytes encode(const MkvDescription& description);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a reader's answer or description: what is accepted holds to its limits and is
-// written the same way again.
+// Any bytes as a reader's answer or description: accepted ones are within their limits and are
+// encoded to equal bytes.
 #include <cstdlib>
 
 #include "capture/mkv_answer.h"

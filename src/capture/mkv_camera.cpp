@@ -65,7 +65,7 @@ public:
         pair_.reset();
     }
 
-    // From the beginning: seeking needs an index, which a recording that was cut off lacks.
+    // Reads from the beginning: seeking needs an index, which a truncated recording lacks.
     void rewind() override {
         file_.rewind();
         pairing_ = TimePairing<Bytes>(tolerance());
@@ -75,7 +75,7 @@ public:
 private:
     Duration tolerance() const { return seconds_to_duration(0.5 / frames_per_second()); }
 
-    // Makes pair_ the upcoming frame, false at the end.
+    // Sets pair_ to the next frame; false at the end.
     bool upcoming() {
         while (!pair_) {
             pair_ = pairing_.take();
@@ -107,7 +107,7 @@ private:
             note_damage("a colour picture is damaged and left out");
     }
 
-    // Once for each recording, however often it loops.
+    // Logs once per recording, even if it loops.
     void note_damage(std::string_view what) {
         if (!std::exchange(damage_noted_, true))
             log::warning("capture", what, {{"file", path_.string()}});

@@ -66,7 +66,7 @@ TEST(MkvCamera, CalibrationIsThatOfTheFolderBesideIt) {
     const Calibration folder =
         open_camera("folder:" + path.parent_path().string())->info().calibration;
     EXPECT_EQ(mkv, folder);
-    // 0.49278 * 1024; 0.51297 * 1024 - 192 - 0.5; and so on, by the modes of the camera.
+    // Computed from the modes: 0.49278 * 1024; 0.51297 * 1024 - 192 - 0.5; and so on.
     EXPECT_NEAR(mkv.depth.fx, 504.608, 0.01);
     EXPECT_NEAR(mkv.depth.cx, 332.78, 0.01);
     EXPECT_NEAR(mkv.depth.cy, 348.83, 0.01);
@@ -100,8 +100,8 @@ TEST(MkvCamera, EveryTruncationEndsInASentenceOrInWholeFrames) {
     log::set_level(log::Level::info);
 }
 
-// The library itself, without a process between, so that sanitizers see what it does: every cut
-// through the head of a recording and through the rest in steps, and 200 damaged ones.
+// Runs the library in this process, so that sanitizers see it: recordings truncated at every
+// byte of the head and at steps after it, and 200 damaged ones.
 TEST(MkvReader, ReadsAnyBytesToTheirEnd) {
     THEATRON_REQUIRE_DATA(sample);
     const Bytes whole = files::read_file(theatron::testing::shared_data() / sample);
@@ -115,7 +115,7 @@ TEST(MkvReader, ReadsAnyBytesToTheirEnd) {
             MkvReader reader(file);
             if (reader.kind() == MkvReader::Kind::description)
                 while (reader.read())
-                    // A file has no room for more of them than it has bytes.
+                    // A valid file has fewer pictures than bytes.
                     if (++pictures > bytes.size())
                         break;
         }
@@ -143,7 +143,7 @@ TEST(MkvCamera, DamagedBytesNeverCrash) {
     const Bytes whole = files::read_file(theatron::testing::shared_data() / sample);
     const theatron::testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "damaged.mkv";
-    // The header and the calibration come first.
+    // Damages the header and the calibration, which come first.
     for (std::size_t at = 0; at < 9000; at += 241) {
         Bytes damaged = whole;
         damaged[at] ^= std::byte{0xff};
@@ -157,7 +157,7 @@ TEST(MkvCamera, DamagedBytesNeverCrash) {
     log::set_level(log::Level::info);
 }
 
-// The process that reads for this camera: the youngest child of this one.
+// The reader process of this camera: the youngest child of this process.
 pid_t reader_of_newest_camera() {
     pid_t found = 0;
     for (const auto& task : fs::directory_iterator("/proc/self/task")) {
@@ -197,7 +197,7 @@ TEST(MkvFile, AFileThatNeedsTooMuchMemoryIsNamed) {
         FAIL() << "64 KiB were enough";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("recording.mkv' made its reader "));
-        // A sanitizer without memory ends otherwise.
+        // Under a sanitizer the child ends in another way.
         if (!sandbox::has_sanitizer) {
             EXPECT_THAT(error.what(), HasSubstr("use more than 0 MiB"));
         }
@@ -217,7 +217,7 @@ TEST(MkvFile, APictureLargerThanTheSharedMemoryArrivesEmpty) {
 
 TEST(MkvFile, KnowsFromItsBeginningHowLongItShouldBe) {
     Bytes file;
-    // An empty EBML header, then a segment of 300 bytes with its size in two bytes.
+    // An empty EBML header, then a segment of 300 bytes, whose size takes two bytes.
     for (const int v : {0x1a, 0x45, 0xdf, 0xa3, 0x80, 0x18, 0x53, 0x80, 0x67, 0x41, 0x2c})
         file.push_back(std::byte(v));
     EXPECT_FALSE(is_cut_off(file, 311));
@@ -226,7 +226,7 @@ TEST(MkvFile, KnowsFromItsBeginningHowLongItShouldBe) {
     EXPECT_TRUE(is_cut_off(file, 3));
     for (std::size_t n = 0; n < file.size(); ++n)
         EXPECT_FALSE(is_cut_off(ByteView(file).first(n), 310)) << n;
-    file[9] = std::byte{0xff};  // a size that is not known
+    file[9] = std::byte{0xff};  // unknown size
     EXPECT_FALSE(is_cut_off(file, 310));
     file[4] = std::byte{0};
     EXPECT_FALSE(is_cut_off(file, 310));

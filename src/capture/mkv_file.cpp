@@ -21,7 +21,7 @@ namespace {
 
 using Kind = MkvAnswer::Kind;
 
-// An EBML number: the leading zeros of its first byte tell how many bytes follow.
+// An EBML number: the leading zeros of the first byte give the number of further bytes.
 std::optional<std::uint64_t> read_size(ByteReader& in) {
     const auto first = in.get<std::uint8_t>();
     const int more = std::countl_zero(first);
@@ -47,7 +47,7 @@ std::string quoted(const std::filesystem::path& path) {
 class File {
 public:
     explicit File(const std::filesystem::path& path) {
-        // A pipe or a device in its place must not make opening wait.
+        // O_NONBLOCK: opening must not wait if the path is a pipe or a device.
         descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
         if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
             throw Error("There is no file " + quoted(path) + ".");
@@ -57,7 +57,7 @@ public:
             close(descriptor_);
             throw Error(quoted(path) + " is not a file.");
         }
-        // A recording into this very file is refused.
+        // The lock prevents a recording into this file.
         (void)flock(descriptor_, LOCK_SH | LOCK_NB);
     }
     ~File() { close(descriptor_); }
@@ -79,8 +79,8 @@ private:
 
 }  // namespace
 
-// A file is one EBML header and one segment; each has an identifier of four
-// bytes and a size.
+// A Matroska file is one EBML header and one segment; each has an identifier of four bytes and
+// a size.
 bool is_cut_off(ByteView beginning, std::uint64_t file_bytes) {
     ByteReader in(beginning);
     in.get_bytes(4);
@@ -113,7 +113,7 @@ struct MkvFile::Process {
         return *answer;
     }
 
-    // The shared memory may change at any time, so nothing looks into it but this copy.
+    // The shared memory may change at any time: all checks and uses are on this copy.
     Bytes copy(const MkvAnswer& answer) const {
         const ByteView bytes = child.area().first(answer.bytes);
         return {bytes.begin(), bytes.end()};
@@ -121,7 +121,7 @@ struct MkvFile::Process {
 
     File file;
     sandbox::Child child;
-    bool waiting = false;  // for an answer
+    bool waiting = false;  // an answer is outstanding
 };
 
 MkvFile::MkvFile(const std::filesystem::path& path, const sandbox::Limits& limits)
@@ -154,7 +154,7 @@ MkvDescription MkvFile::open() {
     if (!description)
         process_->child.refuse("a description that is " +
                                std::string(to_text(description.error())));
-    // From now on the reader is one picture ahead.
+    // From here on the reader is always one picture ahead.
     process_->request(MkvRequest::next);
     return std::move(*description);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of an Azure Kinect recording, read by a process in a sandbox (mkv_reader.h): a file
-// that does harm there is a sentence here.
+// The pictures of an Azure Kinect recording, read by a sandboxed process (mkv_reader.h). A
+// malicious file can only cause an Error here.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 
 namespace theatron::capture {
 
-// Whether a Matroska file of `file_bytes` bytes is shorter than its beginning
-// promises. False where that does not say. Safe for untrusted input.
+// True if a Matroska file of `file_bytes` bytes is shorter than its header states. False if the
+// header states no size. Safe for untrusted input.
 bool is_cut_off(ByteView beginning, std::uint64_t file_bytes);
 
 class MkvFile {
@@ -24,29 +24,29 @@ public:
         enum class Track { depth, color };
         Track track = Track::depth;
         Duration time{};
-        Bytes bytes;  // empty: more than any camera's picture has
+        Bytes bytes;  // empty: the picture exceeded the size limit
     };
 
-    // Functions throw Error: for what is no Matroska file or has no depth track, and for what made
-    // its reader end.
+    // All functions throw Error: for files that are not Matroska or have no depth track, and if
+    // the reader ended.
     explicit MkvFile(const std::filesystem::path& path, const sandbox::Limits& limits = {});
     ~MkvFile();
 
     Size depth_size() const { return description_.depth; }
     Size color_size() const { return description_.color; }  // 0 x 0 without a JPEG colour track
-    // What the colour track holds instead, or empty.
+    // The format of a colour track that is not JPEG, or empty.
     const std::string& other_color() const { return description_.other_color; }
-    // 0 if the file does not say.
+    // 0 if the file does not state it.
     double frames_per_second() const { return description_.frames_per_second; }
     // The factory calibration's text; empty if there is none.
     const std::string& calibration() const { return description_.calibration; }
 
-    // Whether the file lacks its end, as after a full disk or an aborted copy.
+    // True if the file lacks its end, for example after a full disk or an aborted copy.
     bool is_cut_off() const { return cut_off_; }
 
-    // The next depth or colour picture, nothing at the end.
+    // The next depth or colour picture; nullopt at the end.
     std::optional<Packet> read();
-    // Back to the first one.
+    // Continues with the first picture.
     void rewind();
 
 private:

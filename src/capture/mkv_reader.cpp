@@ -27,7 +27,7 @@ std::string_view metadata(const AVStream& stream, const char* key) {
     return entry ? entry->value : "";
 }
 
-// Infrared has the format of depth, so that only names tell them apart.
+// Infrared has the same format as depth; only names distinguish the tracks.
 bool is_called(const AVStream& stream, std::string_view name) {
     const std::string tag = "K4A_" + std::string(name) + "_TRACK";
     return metadata(stream, "title") == name || !metadata(stream, tag.c_str()).empty();
@@ -42,7 +42,7 @@ Size size_of(const AVStream& stream) {
     return is_valid(size) ? size : Size{};
 }
 
-// The bytes behind a descriptor, for libavformat.
+// Input from a descriptor, for libavformat.
 class Input {
 public:
     explicit Input(int descriptor) : descriptor_(descriptor) {
@@ -54,7 +54,7 @@ public:
             throw std::bad_alloc();
     }
     ~Input() {
-        // The buffer may be another one by now.
+        // libavformat may have replaced the buffer.
         av_freep(&context_->buffer);
         avio_context_free(&context_);
     }
@@ -90,7 +90,7 @@ private:
     AVIOContext* context_ = nullptr;
 };
 
-// Failing for want of memory must not look like a damaged file.
+// Throws on failed allocations, which must not be reported as a damaged file.
 void check_memory(int result) {
     if (result == AVERROR(ENOMEM))
         throw std::bad_alloc();
@@ -116,7 +116,7 @@ struct MkvReader::Library {
     Input input;
     AVFormatContext* file = nullptr;
     std::unique_ptr<AVPacket, PacketDeleter> packet{av_packet_alloc()};
-    int depth = -1;  // indices of tracks
+    int depth = -1;  // track index
     int color = -1;
     MkvDescription description;
 };
@@ -127,7 +127,7 @@ MkvReader::Kind MkvReader::Library::open() {
     if (!file)
         throw std::bad_alloc();
     file->pb = input.context();
-    // This container alone; nothing else can be opened from in here.
+    // Only this container format: the file cannot make libavformat open anything else.
     const int failed = avformat_open_input(&file, "", av_find_input_format("matroska"), nullptr);
     check_memory(failed);
     if (failed)
@@ -205,7 +205,7 @@ std::optional<MkvReader::Picture> MkvReader::read() {
 void MkvReader::serve(sandbox::Inside& inside) {
     std::optional<MkvReader> reader;
     const auto answer = [&](Kind kind, Duration time = {}, ByteView bytes = {}) {
-        // A picture that is larger than any camera's arrives empty, and so as a damaged one.
+        // A picture above the size limit is sent empty and counts as damaged.
         if (bytes.size() > inside.area().size())
             bytes = {};
         std::copy(bytes.begin(), bytes.end(), inside.area().begin());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads an Azure Kinect recording (Matroska) with libavformat: depth as 16-bit big-endian values,
-// colour as JPEG, the factory calibration as an attachment. Pictures come out as they lie in the
-// file; nothing is decoded.
+// Reads an Azure Kinect recording (Matroska) with libavformat: depth as 16-bit big-endian
+// values, colour as JPEG, the factory calibration as an attachment. Pictures are returned as
+// stored; nothing is decoded.
 //
-// Runs in a sandbox, since the library is large and the file is somebody else's. MkvFile is what
-// the rest of the program uses.
+// Runs in a sandbox, because the library is large and files are untrusted. The rest of the
+// program uses MkvFile.
 #pragma once
 
 #include <memory>
@@ -19,24 +19,24 @@ class MkvReader {
 public:
     using Kind = MkvAnswer::Kind;
 
-    // Reads from the beginning of the file behind `descriptor`, which stays the caller's. Functions
-    // throw std::bad_alloc for want of memory and nothing else.
+    // Reads from the beginning of the file of `descriptor`, which the caller owns. All functions
+    // throw std::bad_alloc if memory is short, and nothing else.
     explicit MkvReader(int descriptor);
     ~MkvReader();
 
-    // Kind::description, or what is wrong with the file: then there is nothing to read.
+    // Kind::description, or the problem with the file, which then has no pictures.
     Kind kind() const { return kind_; }
     const MkvDescription& description() const;
 
     struct Picture {
         Kind kind{};  // depth or color
         Duration time{};
-        ByteView bytes;  // until the next call
+        ByteView bytes;  // valid until the next call
     };
-    // The next picture, nothing at the end.
+    // The next picture; nullopt at the end.
     std::optional<Picture> read();
 
-    // Answers the requests of an MkvFile until there are no more.
+    // Serves the requests of an MkvFile until the channel closes.
     static void serve(sandbox::Inside& inside);
 
 private:
@@ -45,7 +45,7 @@ private:
     Kind kind_;
 };
 
-// For run_as_child(): what cameras need.
+// For run_as_child(): the readers that cameras need.
 inline constexpr sandbox::Reader foreign_readers[] = {
     {"mkv", sandbox::Profile::file, MkvReader::serve}};
 

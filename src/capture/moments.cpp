@@ -7,11 +7,11 @@
 namespace theatron::capture {
 namespace {
 
-// Near the middle between two moments, jitter must not throw a camera's frames to
-// and fro: up to this share of a period further away, the next one is kept to.
+// Hysteresis, as a share of a period: a camera near the middle between two moments keeps to
+// the moment after its last one, so that jitter does not move it back and forth.
 constexpr double margin = 0.05;
 
-// How far the beat gives way at one frame of the camera that leads.
+// Largest correction of the beat per frame of the leading camera.
 constexpr Duration most_correction = 2ms;
 
 }  // namespace
@@ -24,8 +24,8 @@ Moments::Tag Moments::tag(CameraId camera, TimePoint captured) {
         leader_ = camera;
         beat_time_ = captured;
     }
-    // The nearest moment by what has been told, since the beat may have given way
-    // since then.
+    // Uses the times already returned for moments, since the beat may have been corrected
+    // after them.
     const auto distance = [&](std::int64_t index) {
         return std::abs(double((captured - time_of(index)).count()));
     };
@@ -48,7 +48,7 @@ Moments::Tag Moments::tag(CameraId camera, TimePoint captured) {
     if (camera != leader_ && captured - beat_time_ > leader_patience)
         leader_ = camera;
     if (camera == leader_) {
-        // A new leader has another phase: the beat goes over to it in small steps.
+        // A new leader has another phase; the beat approaches it in small steps.
         const TimePoint expected = estimate(tag.index);
         beat_time_ =
             expected + std::clamp<Duration>(captured - expected, -most_correction, most_correction);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which frames of several cameras belong together. Pure: times are passed in.
+// Groups the frames of several cameras by moment. Pure: times are passed in.
 //
-// Cameras that run freely drift past each other. One of them, the first that
-// runs, sets the beat: each of its frames is a moment. A frame of another camera
-// belongs to the moment that is nearest, at most half a frame away. A camera that
-// is a little faster than the beat has now and then two frames in a moment, and
-// the second is passed over; a slower one leaves a moment out.
+// Free-running cameras drift relative to each other. One of them, the first that runs, is the
+// leader: each of its frames defines a moment. A frame of another camera belongs to the
+// nearest moment, at most half a frame away. A camera that is slightly faster sometimes has
+// two frames in a moment, and the second is passed over; a slower camera sometimes has none.
 //
-// Cameras that are synchronised by a cable stay together whatever their phase is,
-// because the beat is one of theirs and not a clock's.
+// Cameras that are synchronised by a cable stay together at any phase, because the beat
+// follows one of them and not a clock.
 #pragma once
 
 #include <array>
@@ -27,16 +26,16 @@ public:
     explicit Moments(double frames_per_second);
 
     struct Tag {
-        std::int64_t index = 0;  // counts moments; -1, -2, … before the first frame's
+        std::int64_t index = 0;  // number of the moment; negative before the first frame
         TimePoint moment;        // equal for equal indices
         Duration offset{};       // captured - moment
-        bool pass_over = false;  // this camera already has a frame in this moment
+        bool pass_over = false;  // the camera already has a frame in this moment
     };
-    // A frame of `camera`. Frames of one camera come in order.
+    // Assigns a frame of `camera` to a moment. Frames of one camera come in order.
     Tag tag(CameraId camera, TimePoint captured);
 
 private:
-    // A leader that has been silent for this long is followed no more.
+    // A leader that has been silent for this long is replaced.
     static constexpr Duration leader_patience = 200ms;
     static constexpr std::size_t remembered = 64;
 
@@ -46,12 +45,12 @@ private:
     double period_us_;
     bool begun_ = false;
     CameraId leader_{};
-    // The leader's last frame: where the beat is.
+    // The leader's last frame, which defines the beat.
     std::int64_t beat_index_ = 0;
     TimePoint beat_time_;
     std::map<CameraId, std::int64_t> last_index_;
-    // Moments whose time has been told, so that all cameras are told the same, those
-    // included whose pictures come a second late.
+    // Times already returned for moments, so that all cameras get equal times, including
+    // those whose pictures come a second late.
     struct Told {
         std::int64_t index = -1'000'000'000;
         TimePoint time;

@@ -24,7 +24,7 @@ struct Matched {
     double worst_offset_us = 0;
 };
 
-// Runs the sensors together, and looks at each what became of its frames.
+// Runs the sensors together and counts for each what happened to its frames.
 std::vector<Matched> run(std::vector<Sensor> sensors, double seconds) {
     Moments moments(30);
     std::mt19937 rng(1);
@@ -76,7 +76,7 @@ TEST(Moments, FreeRunningCamerasStayMatchedAndSkipAFrameNowAndThen) {
     for (const Matched& m : result)
         EXPECT_LE(m.worst_offset_us, 1e6 / 30 * 0.56);
     EXPECT_EQ(result[0].passed_over + result[0].left_out, 0);
-    // 0.11 frames a second too many, 0.13 too few.
+    // Sensor 1 has 0.11 frames a second too many, sensor 2 has 0.13 too few.
     EXPECT_NEAR(result[1].passed_over, seconds * 0.11, 3);
     EXPECT_LE(result[1].left_out, 1);
     EXPECT_NEAR(result[2].left_out, seconds * 0.13, 3);
@@ -84,7 +84,7 @@ TEST(Moments, FreeRunningCamerasStayMatchedAndSkipAFrameNowAndThen) {
 }
 
 TEST(Moments, JitterBetweenTwoMomentsThrowsNoFramesAway) {
-    // Half a frame apart for ever, with a millisecond of jitter.
+    // Half a frame apart permanently, with a millisecond of jitter.
     const auto result = run({{30, 0, 20}, {30, 16'700, 400}}, 300);
     EXPECT_LE(result[1].passed_over + result[1].left_out, 5);
 }
@@ -101,8 +101,7 @@ TEST(Moments, AnotherCameraLeadsWhenTheLeaderIsGone) {
         moments.tag(CameraId{0}, from_us(1'000'000 + i * 33'333));
         moments.tag(CameraId{1}, from_us(1'005'000 + i * 33'333));
     }
-    // Camera 0 is silent; camera 1 drifts on its own, for so long that half a frame
-    // would have been exceeded.
+    // Camera 0 is silent. Camera 1 drifts on its own, long enough to exceed half a frame.
     std::int64_t last = 29;
     for (int i = 30; i < 3000; ++i) {
         const auto tag = moments.tag(CameraId{1}, from_us(1'005'000 + i * 33'200));

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    // Reads the next frame while there is still time until it is due.
+    // Reads the next frame before it is due.
     bool prepare() {
         const auto upcoming = playback_.upcoming(steady_now());
         if (!upcoming)
@@ -129,7 +129,7 @@ bool Playback::rewind() {
 
 MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
                                  const Progress& progress) {
-    // An expectation may come from a damaged file.
+    // Limited, because the expected number may come from a damaged file.
     frames_.reserve(std::min<std::size_t>(expected_frames, 1 << 14));
     while (const std::optional<Duration> offset = source.offset()) {
         Kept kept{*offset, std::make_shared<Frame>()};
@@ -149,7 +149,7 @@ std::optional<Duration> MemoryRecording::offset() {
 
 void MemoryRecording::read(Frame& out) {
     const Frame& kept = *frames_[next_++].frame;
-    // Assigning keeps the memory that `out` already has.
+    // Assignment reuses the memory of `out`.
     out.depth = kept.depth;
     out.color = kept.color;
 }
@@ -158,7 +158,7 @@ std::shared_ptr<Frame> MemoryRecording::share() {
     const std::shared_ptr<Frame>& frame = frames_[next_].frame;
     if (frame.use_count() > 1)
         return nullptr;
-    // Whoever had it before has read it to the end.
+    // Orders this thread after the last reads of the frame's previous user.
     std::atomic_thread_fence(std::memory_order_acquire);
     ++next_;
     return frame;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a recording becomes a camera: when each frame is due, and which are
-// skipped because they came too late. The time is passed in.
+// Plays a recording as a camera: computes when each frame is due, and skips frames that are
+// late. The time is passed in.
 #pragma once
 
 #include <optional>
@@ -12,54 +12,54 @@
 
 namespace theatron::capture {
 
-// The frames of a recording in order. Functions throw Error, with one sentence,
-// where the recording is damaged.
+// The frames of a recording in order. All functions throw Error, with one sentence, if the
+// recording is damaged.
 class Recording {
 public:
     virtual ~Recording() = default;
 
-    // When the upcoming frame was taken, counted from the recording's first
-    // frame and never falling. Nothing at the end.
+    // The capture time of the next frame, relative to the recording's first frame; never
+    // decreases. Nullopt at the end.
     virtual std::optional<Duration> offset() = 0;
-    // Passes over the upcoming frame, cheaply where that is possible.
+    // Skips the next frame, without decoding it if possible.
     virtual void skip() = 0;
-    // Reads the upcoming frame's images into `out`, whose old content is stale.
+    // Reads the next frame's images into `out`, whose memory is reused.
     virtual void read(Frame& out) = 0;
-    // The same without a copy, where the recording holds the frame and nobody else uses
-    // it: its times may be set. Null: read() it.
+    // The next frame without a copy, if the recording stores it and nobody else uses it; the
+    // caller may set its times. Null: call read().
     virtual std::shared_ptr<Frame> share() { return nullptr; }
     virtual void rewind() = 0;
-    // How long a round takes when it loops, so that cameras of one recording stay in step. Nothing:
-    // until one period after the last frame.
+    // The duration of one round of a loop, so that the cameras of one recording stay in step.
+    // Nullopt: one period after the last frame.
     virtual std::optional<Duration> round() const { return std::nullopt; }
 };
 
-// The keys that all recorded cameras understand.
+// Options of all recorded cameras.
 struct PlaybackOptions {
-    bool loop = false;                 // from the end back to the beginning
-    int start = 0;                     // frames to pass over at the beginning
-    std::optional<bool> preload = {};  // read everything at opening; not given: if it is small
+    bool loop = false;                 // continue at the beginning after the end
+    int start = 0;                     // frames to skip at the beginning
+    std::optional<bool> preload = {};  // read all frames when opening; default: if it is small
 };
 PlaybackOptions take_playback_options(Options& options);
 
 class Playback {
 public:
-    // `period`: the usual time from one frame to the next.
+    // `period`: the nominal time between frames.
     Playback(Recording& recording, Duration period, bool loop, int start)
         : recording_(recording), period_(period), loop_(loop), to_pass_over_(start) {}
 
     struct Upcoming {
-        FrameNumber number = 0;  // counts skipped frames too
+        FrameNumber number = 0;  // includes skipped frames
         TimePoint due;
     };
 
-    // The next frame to deliver, after passing over those more than one period
-    // late at `now`. The first call is the beginning. Nothing at the end.
+    // The next frame to deliver, after skipping frames more than one period late at `now`. The
+    // first call starts playback. Nullopt at the end.
     std::optional<Upcoming> upcoming(TimePoint now);
 
-    // Reads the upcoming frame's images. Only after upcoming() named one.
+    // Reads the next frame's images. Precondition: upcoming() returned a frame.
     void read(Frame& out);
-    // The upcoming frame without a copy, or null (Recording::share).
+    // The next frame without a copy, or null (Recording::share).
     std::shared_ptr<Frame> share();
 
 private:
@@ -71,11 +71,11 @@ private:
     int to_pass_over_;
     FrameNumber number_ = 0;
     bool begun_ = false;
-    TimePoint zero_;          // when a frame of offset 0 is due in this round
-    Duration last_offset_{};  // of the frame before
+    TimePoint zero_;          // due time of offset 0 in this round
+    Duration last_offset_{};  // of the previous frame
 };
 
-// A recording held in memory.
+// A recording stored in memory.
 class MemoryRecording final : public Recording {
 public:
     // Reads all of `source`.

@@ -6,7 +6,7 @@
 namespace theatron::capture {
 namespace {
 
-// Frames at made-up times whose depth is their index.
+// Frames at given times; the depth of each is its index.
 class FakeRecording final : public Recording {
 public:
     explicit FakeRecording(std::vector<Duration> offsets) : offsets_(std::move(offsets)) {}
@@ -38,7 +38,7 @@ struct Shown {
     }
 };
 
-// The upcoming frame at `now`, read.
+// The next frame at `now`, read.
 Shown show(Playback& playback, Duration now) {
     const auto upcoming = playback.upcoming(begin + now);
     if (!upcoming)

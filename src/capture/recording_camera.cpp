@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t no_color = std::numeric_limits<std::uint32_t>::max();
 
-// The camera's parts of the calibration that is number `wanted`, in their order.
+// The parts of the camera that have its calibration number `wanted`, in order.
 std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, std::size_t wanted) {
     std::vector<record::CameraPart> parts;
     std::size_t number = 0;
@@ -26,7 +26,7 @@ std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, st
     return parts;
 }
 
-// Where the frames of the part after `part` begin.
+// The end of `part`'s frames: the first frame of the next segment.
 std::size_t end_of(const record::CameraContent& camera, const record::CameraPart& part) {
     for (const record::CameraPart& other : camera.parts)
         if (other.segment > part.segment)
@@ -84,8 +84,8 @@ RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> reco
     rewind();
 }
 
-// Depth and colour of a frame have the same number. A camera's numbers begin anew with its host,
-// which in version 1 does not begin a segment: there the time belongs to the name.
+// Depth and colour of a frame have the same number. The numbers restart with the host. In
+// version 1 that does not start a segment, so there the time identifies a frame as well.
 void RecordedFrames::match_colors() {
     const auto name_of = [&](const record::RecordedFrame& frame) {
         const bool has_info = recording_->segments()[frame.segment].has_info;
@@ -132,7 +132,7 @@ std::optional<Duration> RecordedFrames::offset() {
     for (; next_ < end_; ++next_) {
         if (!is_decoded_ && !decode())
             continue;
-        // From the beginning of the whole recording, so that its cameras stay in step.
+        // Relative to the start of the whole recording, so that its cameras stay in step.
         last_offset_ = std::max(last_offset_, content_.depth.frames[next_].time());
         return last_offset_;
     }
@@ -176,7 +176,7 @@ bool RecordedFrames::decode() {
 }
 
 void RecordedFrames::skip() {
-    // A frame that is passed over may be the next one's reference.
+    // A skipped frame is decoded, because it may be the reference of the next one.
     if (!is_decoded_)
         decode();
     is_decoded_ = false;
@@ -214,8 +214,8 @@ bool RecordedFrames::read_color(std::size_t index, ColorData& out) {
     return true;
 }
 
-// Decodes the picture, and those before it that it refers to and that were passed over. False if
-// it is lost.
+// Decodes the picture, and before it the skipped pictures that it refers to. False if it
+// cannot be decoded.
 bool RecordedFrames::decode_color(std::size_t index, ColorData& out) {
     const auto& frames = content_.color.frames;
     std::size_t first = index;
@@ -226,7 +226,7 @@ bool RecordedFrames::decode_color(std::size_t index, ColorData& out) {
     for (std::size_t i = first; i <= index; ++i) {
         const auto header = recording_->read_header(frames[i]);
         is_wanted = false;
-        // One that is no key frame refers to the one before it, and so on to a key frame.
+        // A delta picture refers to the one before it, back to a key frame.
         if (header && !header->key && last_color_ != header->reference) {
             losses_.undecodable_color += i == index;
             continue;
@@ -269,7 +269,7 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
                     "' can be decoded.");
     CameraInfo info = frames->info();
     std::unique_ptr<Recording> recording = std::move(frames);
-    // Decoding costs little: memory is taken only where that is asked for.
+    // Preloads only on request: decoding is cheap.
     if (playback.preload.value_or(false)) {
         auto& source = static_cast<RecordedFrames&>(*recording);
         recording = std::make_unique<MemoryRecording>(source, source.frames(), progress);

@@ -30,7 +30,7 @@ Calibration calibration_of(int camera) {
     return calibration;
 }
 
-// A wall that comes nearer, with noise: no two frames are alike.
+// A wall that approaches, with noise: all frames differ.
 DepthImage depth_of(int camera, FrameNumber n) {
     DepthImage image(depth_size);
     std::minstd_rand random(n * 8 + unsigned(camera) + 1);
@@ -48,7 +48,7 @@ Bytes jpeg_of(int camera, FrameNumber n) {
     return Bytes(bytes.begin(), bytes.end());
 }
 
-// Uneven spacing, and a pause in the middle.
+// Irregular times, and a pause in the middle.
 Duration time_of(FrameNumber n) {
     return Duration(std::int64_t(n) * period_us + (n % 3) * 700 + (n >= 6 ? 90'000 : 0));
 }
@@ -76,8 +76,8 @@ protected:
         EXPECT_EQ(recorder.add(header, message, header.captured), record::Recorder::Added::taken);
     }
 
-    // Records `frames` frames of each camera, except those of camera 0 in `left_out`, whose colour
-    // is there. Each camera starts 5 ms after the one before.
+    // Records `frames` frames of each camera. For camera 0, the depth of those in `left_out` is
+    // missing, not their colour. Each camera starts 5 ms after the one before.
     void record(const std::string& codec, int cameras, FrameNumber frames,
                 const std::set<FrameNumber>& left_out = {}) {
         std::vector<record::RecordedCamera> descriptions;
@@ -160,7 +160,7 @@ TEST_F(RecordingCamera, FramesThatArePassedOverAreStillReferences) {
 }
 
 TEST_F(RecordingCamera, FramesWhoseReferenceIsMissingAreLeftOut) {
-    // With three layers, 4 is the reference of 5, 6 and 8; 8 of the rest.
+    // With three layers, frame 4 is the reference of 5, 6 and 8; frame 8 of the rest.
     record("zstd:delta=1,layers=3", 1, 12, {4});
     RecordedFrames camera = frames(0);
     std::vector<FrameNumber> played;
@@ -234,8 +234,8 @@ TEST_F(RecordingCamera, PlaysInRealTimeAndLoops) {
     for (const char* preload : {"0", "1"}) {
         const auto camera =
             open_camera("recording:" + path().string() + ",camera=1,loop=1,preload=" + preload);
-        // On a busy machine frames may be passed over; their numbers tell.
-        // The other camera begins 5 ms before this one, and both take the same time for a round.
+        // A busy machine may skip frames, which their numbers show. The other camera begins
+        // 5 ms before this one, and a round takes equally long for both.
         const Duration round = time_of(3) + 5ms + Duration(period_us);
         FramePtr first;
         for (FrameNumber number = 0; number < 9;) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that were damaged on their disk. COUNT=1000 in the environment flips that many bits
-// instead of 50.
+// Damaged recording files. COUNT=1000 in the environment flips 1000 bits instead of 50.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,7 +19,7 @@ namespace theatron::capture {
 namespace {
 
 constexpr int cameras = 2, frames_per_second = 10, frames = 8 * frames_per_second;
-// What damage of a place may cost: keys come every two seconds.
+// The most frames lost by a single damage: key frames come every two seconds.
 constexpr int key_distance = 2 * frames_per_second;
 constexpr Size small{32, 32}, larger{128, 96};
 const record::ClockPair begin{from_us(9'000'000), record::UtcTime(1'700'000'000s)};
@@ -50,7 +49,7 @@ ColorData color_of(Size size, int camera, int n) {
     return color;
 }
 
-// Two cameras for eight seconds; `later` begins a second segment in the middle.
+// Records two cameras for eight seconds; `later` starts a second segment in the middle.
 void record_both(const std::filesystem::path& path, const std::string& depth_codec,
                  const std::string& color_codec, Size size,
                  std::optional<record::ClockPair> later = {}) {
@@ -165,8 +164,8 @@ Result<Played> play(const Bytes& bytes) {
     return play(std::shared_ptr<const record::RecordingFile>(std::move(*recording)));
 }
 
-// How many pictures of each camera are lost, depth and colour apart. What is there must be as it
-// was.
+// The number of pictures lost by each camera, depth and colour separately. All other pictures
+// must be unchanged.
 struct Lost {
     std::array<int, cameras> depth{}, color{};
 };
@@ -191,7 +190,7 @@ Lost compare(const Pictures& expected, const Pictures& found) {
     return lost;
 }
 
-// Where the pictures of each camera and everything between lie in a file.
+// The positions of pictures and of everything between them in a file.
 struct Map {
     std::uint64_t first_cluster = 0, last_cluster_end = 0;
     std::vector<std::tuple<std::uint64_t, std::uint64_t, int>> pictures;  // begin, end, camera
@@ -250,7 +249,7 @@ TEST(DamagedRecording, OfEveryCodecAFlippedBitCostsAtMostTwoSecondsAndIsReported
         ASSERT_EQ(expected->pictures.size(), std::size_t(cameras * frames));
         const Map map = map_of(whole);
         for (int i = 0; i < each; ++i) {
-            // Every fourth hits the head, every fourth what is between pictures.
+            // One flip in four hits the head, and one in four the bytes between pictures.
             std::uint64_t at = random() % whole.size();
             if (i % 4 == 1)
                 at = random() % map.first_cluster;
@@ -298,7 +297,7 @@ TEST(DamagedRecording, ZeroedBlocksCostWhatWasInThemAndTwoSeconds) {
             const auto found = play(damaged);
             ASSERT_TRUE(found);
             EXPECT_TRUE(found->reported);
-            // Two streams of a camera, and a cluster at either end.
+            // A camera loses at most two streams, and a cluster at either end.
             std::array<int, cameras> hit{};
             for (const auto& [from, to, camera] : map.pictures)
                 hit[std::size_t(camera)] += from < end && at < to;
@@ -348,7 +347,7 @@ TEST(DamagedRecording, IsRecoveredIntoOneWithoutDamage) {
     EXPECT_EQ(before.pictures.size(), after.pictures.size());
 }
 
-// The host's machine was started anew: its clock counts from 0 again.
+// A restarted host machine: its clock counts from 0 again.
 TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
     for (const auto& [pause, played_pause] :
          {std::pair<Duration, Duration>{3s, 3s}, {1h, record::max_pause}}) {
@@ -372,7 +371,7 @@ TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
         ASSERT_EQ(times.size(), std::size_t(frames));
         for (std::size_t i = 1; i < times.size(); ++i) {
             const bool between = i == std::size_t(frames / 2);
-            // The other camera of the segment before ends 5 ms later, this one begins 5 ms later.
+            // The other camera of the previous segment ends 5 ms later; this one begins 5 ms later.
             const Duration step = between && pause > record::max_pause ? played_pause + 5ms
                                   : between ? played_pause + (1000ms / frames_per_second)
                                             : Duration(1000ms / frames_per_second);
@@ -381,8 +380,8 @@ TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
     }
 }
 
-// Made by the program that wrote version 1, from three pictures of a wall whose depth in row y,
-// column x of picture n is 1500 + 2y + (7x + 13y + 5n) % 4.
+// The file was written by the version 1 program, from three pictures of a wall. The depth in
+// row y, column x of picture n is 1500 + 2y + (7x + 13y + 5n) % 4.
 TEST(RecordingOfVersion1, OpensAndPlays) {
     const std::shared_ptr<const record::RecordingFile> recording =
         record::RecordingFile::open("tests/golden/recording_v1.mkv");
@@ -393,7 +392,7 @@ TEST(RecordingOfVersion1, OpensAndPlays) {
     Frame frame;
     int frames_seen = 0;
     for (; camera.offset(); ++frames_seen) {
-        const int n = int(camera.upcoming().frame) + 1;  // the first was not recorded
+        const int n = int(camera.upcoming().frame) + 1;  // the first frame was not recorded
         camera.read(frame);
         EXPECT_EQ(frame.depth.size, (Size{32, 24}));
         for (int y = 0; y < 24; ++y)
@@ -419,12 +418,12 @@ TEST(RecordingChain, OfWhichASegmentIsMissingOpensAndSaysSo) {
     std::filesystem::rename(folder.path() / "a.002.mkv", folder.path() / "a.003.mkv");
     EXPECT_TRUE(record::RecordingFile::open(folder.path() / "a.mkv")->complete())
         << "names do not count";
-    // Those that belong to another recording do not, either.
+    // Segments of another recording are not opened, either.
     const testing::TemporaryFolder other;
     record_both(other.path() / "b.mkv", "rvl", "jpeg:quality=85", small);
     std::filesystem::copy_file(other.path() / "b.mkv", folder.path() / "a.002.mkv");
     EXPECT_EQ(record::RecordingFile::open(folder.path() / "a.mkv")->segments().size(), 2u);
-    // A later one opens alone.
+    // A later segment can be opened alone.
     EXPECT_EQ(record::RecordingFile::open(folder.path() / "a.003.mkv")->segments().size(), 1u);
 }
 

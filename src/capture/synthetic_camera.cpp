@@ -45,7 +45,7 @@ Size color_size(const std::string& name, const std::string& specification) {
                 "', color must be 720, 1080, depth or off, not '" + name + "'.");
 }
 
-// noise=off reads better than noise=0; both are understood.
+// Accepts noise=off as well as noise=0.
 bool take_switch(Options& options, const std::string& name) {
     const std::string value = options.take(name, "on");
     if (value == "on" || value == "1")

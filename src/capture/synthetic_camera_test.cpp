@@ -34,7 +34,7 @@ TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
         EXPECT_EQ(capture.frame->depth.size, (Size{320, 288}));
         EXPECT_EQ(capture.frame->color.size, (Size{640, 360}));
         EXPECT_TRUE(capture.frame->color.is_jpeg());
-        // The middle of the picture sees the table: about two metres away.
+        // The table is in the middle of the picture, about two metres away.
         const int middle = capture.frame->depth.view().row(170)[160];
         EXPECT_GT(middle, 1000);
         EXPECT_LT(middle, 3000);

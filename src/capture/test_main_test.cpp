@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tests open recordings, whose readers are this program started again.
+// The tests open recordings; their reader processes are this program, started again.
 #include <gtest/gtest.h>
 
 #include "capture/mkv_reader.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording repeated in space to another picture size, for benchmarks: real
-// sensor data in the size of a camera of which there is no recording.
+// Tiles a recording to another picture size, for benchmarks: real sensor data in the size of a
+// camera without recordings.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace theatron::capture {
 
-// Depth and colour come in `size`, colour always as pixels. The geometry of what
-// is shown makes no sense any more.
+// Depth and colour have size `size`; colour is always pixels. The geometry of the scene is not
+// meaningful.
 class TiledRecording final : public Recording {
 public:
     TiledRecording(std::unique_ptr<Recording> source, Size size);
@@ -28,7 +28,7 @@ private:
     std::unique_ptr<video::ColorDecoder> decoder_;
 };
 
-// The same change to a picture, and to a camera's model.
+// Tiles a single picture, and adapts a camera's model.
 ColorImage tiled(const ColorImage& picture, Size size);
 CameraModel tiled(CameraModel camera, Size size);
 

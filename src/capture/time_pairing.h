@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the depth and the colour of one moment together, from two tracks that
-// are read one after the other, or that a camera delivers apart. Pure: it knows
-// times, not what they belong to.
+// Pairs the depth and colour pictures of one moment, from two tracks that are read one after
+// the other, or from a camera that delivers them separately. Pure: it depends on times only.
 #pragma once
 
 #include <deque>
@@ -12,7 +11,7 @@
 
 namespace theatron::capture {
 
-// Payload: whatever a picture is, movable.
+// Payload: the type of a picture, movable.
 template <class Payload>
 class TimePairing {
 public:
@@ -25,24 +24,24 @@ public:
         std::optional<Picture> color;
     };
 
-    // A colour picture belongs to a depth picture if they are at most
-    // `tolerance` apart: half of the usual time between frames.
+    // A colour picture belongs to a depth picture if they are at most `tolerance` apart: half
+    // of the nominal time between frames.
     explicit TimePairing(Duration tolerance) : tolerance_(tolerance) {}
 
-    // For a live camera, where waiting costs age: a colour picture at most
-    // `certain` away is the nearest without a look at the next one, and at most
-    // `max_waiting` depth pictures wait for theirs.
+    // For a live camera, where waiting adds delay: a colour picture at most `certain` away is
+    // accepted without waiting for the next one, and at most `max_waiting` depth pictures wait
+    // for theirs.
     TimePairing(Duration tolerance, Duration certain, std::size_t max_waiting)
         : tolerance_(tolerance), certain_(certain), max_waiting_(max_waiting) {}
 
-    // Times of one track must not fall; a picture older than the one before is ignored.
+    // Times of one track must not decrease; a picture older than the previous one is ignored.
     void add_depth(Picture picture) { add(depth_, std::move(picture)); }
     void add_color(Picture picture) { add(color_, std::move(picture)); }
-    // No more pictures will come.
+    // Marks the end: no more pictures will come.
     void finish() { finished_ = true; }
 
-    // The next depth picture with the nearest colour picture, once it is sure
-    // that no nearer one will come. Every colour picture is used once.
+    // The next depth picture with the nearest colour picture, as soon as no nearer one can
+    // come. Each colour picture is used once.
     std::optional<Pair> take() {
         if (depth_.empty() || !is_decided())
             return std::nullopt;
@@ -62,7 +61,7 @@ public:
     }
 
 private:
-    // A track whose counterpart stops must not gather pictures for ever.
+    // Limits the memory if one of the tracks stops.
     static constexpr std::size_t usual_max_waiting = 30;
 
     static Duration distance(Duration a, Duration b) { return a < b ? b - a : a - b; }
@@ -84,7 +83,7 @@ private:
     }
 
     Duration tolerance_;
-    Duration certain_{-1};  // none is, until the next has come
+    Duration certain_{-1};  // negative: always wait for the next picture
     std::size_t max_waiting_ = usual_max_waiting;
     std::deque<Picture> depth_, color_;
     bool finished_ = false;

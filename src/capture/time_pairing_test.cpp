@@ -8,7 +8,7 @@
 namespace theatron::capture {
 namespace {
 
-// Pictures are their times in milliseconds; -1 stands for no colour.
+// The payload is the time in milliseconds; -1 means no colour.
 using Pairing = TimePairing<int>;
 using Pairs = std::vector<std::pair<int, int>>;
 
@@ -93,7 +93,7 @@ TEST(TimePairing, ALiveCamerasPictureDoesNotWaitForTheNextColor) {
     add_color(pairing, 40);
     EXPECT_EQ(taken(pairing), (Pairs{{33, 40}}));
     add_depth(pairing, 66);
-    add_color(pairing, 78);  // the next one could be nearer
+    add_color(pairing, 78);  // the next one could still be nearer
     EXPECT_EQ(taken(pairing), Pairs{});
     add_color(pairing, 111);
     EXPECT_EQ(taken(pairing), (Pairs{{66, 78}}));

@@ -12,7 +12,7 @@ namespace {
 
 using wire::CameraCondition;
 
-// While a camera is closed, this often it is looked whether to open it.
+// Interval at which a closed camera is checked for opening.
 constexpr Duration closed_pause = 20ms;
 
 CameraCare::Options care_options(const CameraInfo& info) {
@@ -38,7 +38,7 @@ std::string sentence(Trouble trouble, const std::string& problem) {
 }  // namespace
 
 PictureMark mark_of(DepthView depth) {
-    // Enough pixels that a sensor's noise cannot leave all of them as they were.
+    // Samples enough pixels that a sensor's noise changes at least one.
     constexpr int rows_apart = 13, columns_apart = 11;
     std::uint64_t hash = 0xcbf29ce484222325, any = 0;
     for (int y = 0; y < depth.size.height; y += rows_apart) {
@@ -83,7 +83,7 @@ WatchedCamera::Step WatchedCamera::step(Turn turn, Duration timeout) {
         camera = open_now ? std::exchange(camera_, nullptr) : camera_;
     }
     if (open_now) {
-        // Two handles of one device are refused, so the old one goes first.
+        // The old handle is closed first: a device cannot be opened twice.
         camera.reset();
         return reopen(turn);
     }
@@ -126,7 +126,7 @@ WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration time
                                  ? mark_of(got.frame->depth.view())
                                  : PictureMark{};
 
-    std::shared_ptr<Camera> closing;  // outside the lock
+    std::shared_ptr<Camera> closing;  // destroyed outside the lock
     const std::lock_guard lock(mutex_);
     if (unsigned(turn) != turn_)
         return {nullptr, true};
@@ -162,7 +162,7 @@ WatchedCamera::Step WatchedCamera::end(CameraCondition how, std::string problem)
 
 WatchedCamera::Turn WatchedCamera::abandon() {
     const std::lock_guard lock(mutex_);
-    camera_.reset();  // the thread in there holds it as long as it is needed
+    camera_.reset();  // the hanging thread owns the camera until it returns
     entered_driver_ = {};
     care_.on_gone("Its driver does not come back.", clock_.now());
     return Turn(++turn_);

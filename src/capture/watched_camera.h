@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera under care: passes over what is not a good picture, knows when it is
-// stale, and opens a live one again by itself.
+// Supervises a camera with CameraCare: discards bad pictures, reports when the camera is
+// stale, and opens a live one again.
 //
-// One thread at a time takes pictures with step(). Should that thread never come
-// back out of a driver, abandon() lets another one take its turn with the camera
-// opened anew.
+// One thread at a time calls step(). If it hangs in a driver, abandon() transfers the camera,
+// opened again, to another thread.
 #pragma once
 
 #include <functional>
@@ -20,7 +19,7 @@ namespace theatron::capture {
 
 class WatchedCamera {
 public:
-    // Opens the same camera again. May throw Error. Empty: it cannot be had again.
+    // Opens the same camera again. May throw Error. Empty: the camera cannot be opened again.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
     struct Clock {
@@ -33,34 +32,34 @@ public:
 
     const CameraInfo& info() const { return info_; }
 
-    // Which thread's turn it is.
+    // Identifies the thread that may use the camera.
     enum class Turn : unsigned {};
     Turn turn() const;
 
     struct Step {
-        FramePtr frame;     // a good one, or none came within the time given
-        bool over = false;  // ended, failed for good, or it is another thread's turn
+        FramePtr frame;     // a good frame; null if none came within the timeout
+        bool over = false;  // ended, failed for good, or abandoned for another thread
     };
     Step step(Turn turn, Duration timeout);
 
-    // A driver that takes longer than this hangs; opening a camera may take seconds.
+    // A call that takes longer hangs; opening a camera may take seconds.
     static constexpr Duration longest_call = 3s, longest_opening = 30s;
 
-    // From any thread: gives up on whoever is in step(), and returns the next turn.
+    // From any thread: gives up on the thread in step(), and returns the next turn.
     Turn abandon();
 
-    // From any thread: this process stood still, its machine perhaps asleep, so the time until now
-    // says nothing about the driver.
+    // From any thread: the process was suspended, perhaps with its machine, so the time until
+    // now does not count as a hanging driver.
     void forgive();
 
-    // From any thread, as of now.
+    // From any thread: the current status.
     struct Status {
         wire::CameraCondition condition{};
         Trouble trouble = Trouble::none;
-        std::string problem;  // one sentence where it is not live
+        std::string problem;  // one sentence if the camera is not live
         CameraCare::Figures figures;
         Duration without_picture{};  // since the last good one
-        bool hangs = false;          // step() does not come back out of the camera's code
+        bool hangs = false;          // step() does not return from the camera's code
     };
     Status status() const;
 
@@ -73,18 +72,18 @@ private:
     const Open open_again_;
     const Clock clock_;
 
-    mutable std::mutex mutex_;  // guards all below
+    mutable std::mutex mutex_;  // guards all members below
     std::shared_ptr<Camera> camera_;
     mutable CameraCare care_;
     unsigned turn_ = 0;
-    TimePoint entered_driver_;  // zero: nobody is in there
-    bool opening_ = false;      // in there
+    TimePoint entered_driver_;  // zero: no thread is in the driver
+    bool opening_ = false;      // that thread is opening the camera
     bool over_ = false;
     wire::CameraCondition how_over_{};
     std::string problem_;
 };
 
-// A value that differs between pictures that differ anywhere much.
+// The mark of a picture, for the comparison with the next.
 PictureMark mark_of(DepthView depth);
 
 }  // namespace theatron::capture

@@ -21,8 +21,7 @@ using wire::CameraCondition;
 
 constexpr Size size{16, 12};
 
-// Time that passes when somebody sleeps. Meanwhile `watch` looks on, as another
-// thread would.
+// Time that advances when a thread sleeps. `watch` runs meanwhile, as another thread would.
 struct VirtualTime {
     TimePoint now = from_us(100'000'000);
     std::function<void()> watch = [] {};
@@ -38,7 +37,7 @@ struct VirtualTime {
     }
 };
 
-// A sensor with noise that runs freely.
+// A free-running sensor with noise.
 class Sensor final : public Camera {
 public:
     Sensor(VirtualTime& time, double fps, std::uint32_t seed) : time_(time), rng_(seed) {
@@ -77,7 +76,7 @@ private:
     FramePool pool_;
 };
 
-// One camera of a room in which everything goes wrong, and what is seen of it.
+// One camera of a room in which all faults occur, and its observed behaviour.
 struct Patient {
     VirtualTime time;
     FaultPlan plan;
@@ -87,17 +86,17 @@ struct Patient {
     std::set<const Frame*> memory;
     TimePoint stale_since;  // zero: live
     TimePoint last_live;
-    TimePoint stale_seen;  // the last time it was seen stale
+    TimePoint stale_seen;  // last time at which it was stale
     Duration longest_unnoticed{}, longest_recovery{};
     int faults_seen = 0, faults_missed = 0;
-    TimePoint judged;  // begin of the last fault that was judged
+    TimePoint judged;  // begin of the last fault that was evaluated
 
     Patient(std::uint32_t seed, double f) : plan{seed, 10s, {}}, fps(f) {
         const auto open = [this, seed] {
             return make_faulty_camera(std::make_unique<Sensor>(time, fps, seed), plan,
                                       time.clock().now, time.clock().sleep);
         };
-        // Nothing is wrong with the camera when the host starts.
+        // The camera has no fault when the host starts.
         while (plan.at(time.now))
             time.now += 1s;
         camera = std::make_unique<WatchedCamera>(open(), open, time.clock());
@@ -109,7 +108,7 @@ struct Patient {
         if (status.condition == CameraCondition::stale)
             stale_seen = time.now;
         const Fault fault = plan.nearest(time.now);
-        // Short silences are no fault but lost frames.
+        // Short silences are lost frames, not faults.
         const Duration length = fault.end - fault.begin;
         const bool counts =
             fault.kind != FaultKind::lost_frames && fault.begin > from_us(101'000'000);
@@ -134,7 +133,7 @@ TEST(WatchedCamera, AnHourOfFaultsIsSeenAndSurvived) {
     Moments moments(30);
     const TimePoint end = from_us(100'000'000) + 1h;
     double worst_offset_us = 0;
-    // Frames that cameras gave before others have come so far, by their time.
+    // Frames by capture time, stored until all cameras have advanced past them.
     std::map<TimePoint, std::size_t> given;
     while (true) {
         const auto next = std::min_element(
@@ -167,7 +166,7 @@ TEST(WatchedCamera, AnHourOfFaultsIsSeenAndSurvived) {
         EXPECT_EQ(patient->faults_missed, 0);
         EXPECT_GT(patient->faults_seen, 200);
         EXPECT_LE(patient->longest_unnoticed, Duration(200ms));
-        // The time stated: back-off may just have begun its longest pause of these.
+        // The specified time: back-off may just have begun its longest pause.
         EXPECT_LE(patient->longest_recovery, Duration(2200ms));
         EXPECT_EQ(
             status.figures.troubles[int(Trouble::none)] >= std::uint64_t(patient->faults_seen),
@@ -175,7 +174,7 @@ TEST(WatchedCamera, AnHourOfFaultsIsSeenAndSurvived) {
         EXPECT_GT(patient->frames, 3600u * 30 * 7 / 10);
         EXPECT_LT(patient->passed_over, patient->frames / 50);
         EXPECT_GT(status.figures.reopens, 50u);
-        // Every opening has a pool of its own; allocators give the same memory again.
+        // Each opening has its own pool; allocators may return the same memory again.
         EXPECT_LT(patient->memory.size(), 3000u);
         for (int kind = 0; kind < trouble_kinds; ++kind)
             all.troubles[kind] += status.figures.troubles[kind];
@@ -185,7 +184,7 @@ TEST(WatchedCamera, AnHourOfFaultsIsSeenAndSurvived) {
         EXPECT_GT(all.troubles[int(kind)], 500u) << text_of(kind);
 }
 
-// Does what the test says; can hang like a bad driver.
+// A scripted camera that can also hang like a bad driver.
 struct Script {
     std::mutex mutex;
     std::condition_variable changed;
@@ -285,7 +284,7 @@ TEST(WatchedCamera, WhatEndsOrIsNotLiveIsNotOpenedAgain) {
     }
 }
 
-// tests/soak/cameras.py computes the same, to know which pictures a camera owes.
+// tests/soak/cameras.py computes the same, to know which pictures a camera must deliver.
 TEST(FaultPlan, FaultsFollowFromSeedAndTime) {
     const FaultPlan plan{7, 15s, {}};
     const Fault first = plan.nearest(from_us(0)), late = plan.nearest(from_us(1'500'000'000'000));

@@ -45,7 +45,7 @@ F3 cover_point(float u, float v) {
     };
     if (along > 0)
         x = leave(along, 1.11f, 0.05f, drop_x);
-    // Where the sheet rises to the frame, it hangs from further out.
+    // Near the frame at the head the sheet hangs from further out.
     const float raised = smoothstep(-0.5f, -0.66f, x);
     z = leave(across, mix(half_width, 0.4f, raised), 0.045f, drop_z);
     const float drop = std::max(drop_x, drop_z) + 0.25f * std::min(drop_x, drop_z);
