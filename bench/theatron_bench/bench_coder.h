@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the depth benchmark measures: something that encodes images in order, and
-// decodes them in order. Benchmarks only.
+// The interface of the coders that the depth benchmark measures: each encodes images in order
+// and decodes them in order.
 #pragma once
 
 #include <memory>
@@ -17,16 +17,16 @@ public:
     virtual ~BenchCoder() = default;
     virtual std::string name() const = 0;
     virtual bool lossless() const { return true; }
-    // Forgets all frames so far.
+    // Drops the state of all frames so far.
     virtual void restart() {}
-    // Encodes the next frame. `out` is used again from frame to frame; the result
-    // lies in it, or in the coder until the next call.
+    // Encodes the next frame. The result is in `out`, whose memory is reused, or in the coder;
+    // it is valid until the next call.
     virtual ByteView encode(const DepthImage& depth, Bytes& out) = 0;
-    // Decodes the next frame of all those encoded since restart. `out` has its size.
+    // Decodes frame `frame` of those encoded since restart, in order. `out` has its size.
     virtual bool decode(std::size_t frame, ByteView encoded, DepthImage& out) = 0;
 };
 
-// The libraries to compare with, as far as this build has them.
+// The libraries used as yardsticks, as far as this build has them.
 std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks();
 
 }  // namespace theatron

@@ -37,7 +37,7 @@ double squared_error(ColorView a, ColorView b) {
     return sum;
 }
 
-// What was measured of one codec, per frame.
+// Measurements of one codec, one value per frame.
 struct Measured {
     std::vector<double> bytes, encode_ms, decode_ms;
     double squared_error = 0;
@@ -46,7 +46,7 @@ struct Measured {
 
 nlohmann::json row(const std::string& name, const Measured& m,
                    const std::vector<ColorImage>& frames) {
-    // The first frame is listed apart, unless it is the only one.
+    // The first frame is excluded, unless it is the only one.
     const auto rest = [](const std::vector<double>& v) {
         return v.size() > 1 ? std::vector<double>(v.begin() + 1, v.end()) : v;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour codecs measured on a sequence of pictures: sizes, times, likeness.
+// Measures the colour codecs on a sequence of pictures: sizes, times, similarity.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,9 +11,9 @@
 namespace theatron::bench {
 
 // As bench_depth_sequence, for colour: {sequence,width,height,frames,codecs:[{name,lossless,
-// psnr_db,bytes_first,bytes_mean,ratio,encode_ms,decode_ms}]}. psnr_db is null where nothing
-// was lost. Yardsticks: zstd1_raw packs the raw pixels with zstd level 1; each codec of JPEG has
-// a row libjpeg_turbo with the same parameters. Throws Error.
+// psnr_db,bytes_first,bytes_mean,ratio,encode_ms,decode_ms}]}. psnr_db is null for lossless
+// results. Yardsticks: zstd1_raw compresses the raw pixels with zstd level 1; each JPEG setting
+// has a row libjpeg_turbo with the same parameters. Throws Error.
 nlohmann::json bench_color_sequence(const std::string& sequence_name,
                                     const std::vector<ColorImage>& frames,
                                     const std::vector<std::string>& codecs);

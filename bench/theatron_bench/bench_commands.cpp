@@ -29,7 +29,7 @@
 namespace theatron::bench {
 namespace {
 
-// How far a lossy codec's result is from its input.
+// The similarity of a lossy codec's result to its input, for the table.
 std::string likeness(const nlohmann::json& codec) {
     if (codec["lossless"].get<bool>())
         return "";
@@ -109,7 +109,7 @@ void crop_depth(BenchSequence& sequence, const std::string& text) {
     }
 }
 
-// Those that this machine can encode.
+// The depth codecs that this machine can encode.
 std::vector<std::string> depth_codecs_here() {
     std::vector<std::string> names;
     for (const std::string& name : video::depth_codec_names())
@@ -151,7 +151,7 @@ void tile_color(BenchSequence& sequence, const std::string& text) {
         picture = capture::tiled(picture, size);
 }
 
-// The same for colour.
+// The colour codecs that this machine can encode.
 std::vector<std::string> color_codecs_here() {
     std::vector<std::string> names;
     for (const std::string& name : video::color_codec_names())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmarks as commands. Each callback measures and throws Error with one sentence if that
-// cannot be done.
+// The benchmarks as commands. Each callback measures, and throws Error with one sentence on
+// failure.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -15,7 +15,7 @@
 namespace theatron {
 namespace {
 
-// One of our own codecs, as a stream.
+// Measures one of our own codecs as a stream.
 class StreamCoder final : public BenchCoder {
 public:
     explicit StreamCoder(const codec::DepthSetting& setting)
@@ -62,8 +62,8 @@ double median(std::vector<double> values) {
     return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-// The largest change of any pixel. One that gained or lost its measurement
-// counts with its whole depth.
+// The largest change of any pixel. A pixel that gained or lost its measurement counts with its
+// whole depth.
 int max_error(const DepthImage& original, const DepthImage& decoded) {
     int worst = 0;
     for (std::size_t i = 0; i < original.pixels.size(); ++i)
@@ -71,7 +71,7 @@ int max_error(const DepthImage& original, const DepthImage& decoded) {
     return worst;
 }
 
-// The squares of the changes of pixels that have a measurement before and after.
+// Squared changes of pixels that have a measurement before and after.
 struct SquaredError {
     double sum = 0;
     std::size_t pixels = 0;
@@ -92,7 +92,7 @@ struct Pass {
     std::vector<double> encode_ms, decode_ms;
 };
 
-// All frames of one coder, in memory.
+// The results of one coder for all frames.
 class Measurement {
 public:
     Measurement(BenchCoder& coder, const std::vector<DepthImage>& frames)
@@ -105,7 +105,7 @@ public:
 
     nlohmann::json run() {
         check();
-        // A few frames need more passes for a steady figure.
+        // Short sequences get more passes, for stable results.
         const std::size_t passes = std::max<std::size_t>(3, 30 / frames_.size());
         for (std::size_t pass = 0; pass < passes; ++pass)
             time_one_pass();

@@ -27,7 +27,7 @@ double elapsed_ms(Work work) {
         .count();
 }
 
-// The fastest time of each frame over several passes; then their median.
+// The minimum time of each frame over several passes; the result is their median.
 class FrameTimes {
 public:
     explicit FrameTimes(std::size_t frames) : best_(frames, std::numeric_limits<double>::max()) {}
@@ -44,8 +44,8 @@ void require_equal(const DepthPlane& a, const DepthPlane& b, const std::string& 
             throw Error("The filter " + name + " does not equal its reference.");
 }
 
-// One filter behind one shape. Both run from `in` to `out`, which holds the same
-// as `in` where the filter works in place, or to a plane that the filter keeps.
+// A common interface of the filters. Both functions read `in`. They write `out`, which equals
+// `in` beforehand for filters that work in place, or a plane stored in the filter.
 struct StageBench {
     std::string name;
     bool in_place = false;
@@ -110,10 +110,10 @@ struct Times {
     double simd = 0, reference = 0;
 };
 
-// Times a stage and checks its pixels; `frames` become what it made of them.
+// Times a stage and checks its pixels. `frames` are replaced by its results.
 Times time_stage(const StageBench& bench, std::vector<DepthPlane>& frames) {
-    // A still picture long enough for filters that remember to settle, and timed from then
-    // on: the first frame, where nothing is remembered, is the quickest for a reference.
+    // A static picture is repeated until filters with memory are stationary, and only then
+    // timed. (Without memory, in the first frame, a reference is fastest.)
     const bool still = frames.size() == 1;
     const int settling = still ? 25 : 0;
     const int passes = still ? 75 : 15, reference_passes = still ? passes : 2;
@@ -156,9 +156,8 @@ double time_chain(const filter::ChainSettings& settings, const filter::ChainCame
     return times.ms();
 }
 
-// One ring of hole filling where every vector of pixels has something to fill,
-// with every ring: stripes of eight pixels. The difference of two runs leaves out
-// what is done once.
+// The time of one ring of hole filling when every vector has pixels to fill in each ring:
+// stripes of eight pixels. The difference of two runs removes the constant part.
 double time_hole_iteration(const filter::ChainCamera& camera) {
     DepthPlane stripes(camera.size), out = stripes;
     for (int y = 0; y < camera.size.height; ++y)

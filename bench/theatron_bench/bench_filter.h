@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// theatron bench filter: how long each filter takes, and what it does to the truth.
+// theatron bench filter: time of each filter, and its accuracy against ground truth.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,17 +16,17 @@ namespace theatron::bench {
 // Adds `filter` to the benchmarks.
 void add_filter_bench(CLI::App& bench);
 
-// {width, height, stages: [{name, variant, ms}], chain: [{variant, ms}]}: medians
-// over the clip's frames of the fastest of several passes, on one thread. Every
-// stage's pixels are compared with those of its reference first. `variant` is
-// `simd`, `reference` or a library's name; of `chain`, the name of the chain, with
-// `/reference` for the sum of its stages' references.
+// {width, height, stages: [{name, variant, ms}], chain: [{variant, ms}]}: medians over the
+// clip's frames of the fastest of several passes, on one thread. Before the timing, the pixels
+// of every stage are compared with those of its reference. `variant` is `simd`, `reference` or
+// a library's name; in `chain` it is the name of the chain, with `/reference` for the sum of
+// its stages' references.
 nlohmann::json bench_filter(const std::vector<DepthImage>& frames);
 
-// What a chain makes of scenes with known depth. Keys: docs/filters.md.
+// The accuracy of a chain on scenes with known depth. Keys: docs/filters.md.
 nlohmann::json filter_quality(const filter::ChainSettings& settings);
 
-// The same for one clip without markings: errors, steadiness, ghosts. `background`: the
+// The accuracy on one clip without annotations: errors, stability, ghosts. `background` is the
 // clip's recorded empty scene, or null.
 nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings, const FilterClip& clip,
                                       const filter::Background* background = nullptr);

@@ -77,7 +77,7 @@ nlohmann::json quality_of(const Flags& flags) {
         const bool recorded = loaded.background != nullptr;
         if (recorded && !room)
             throw Error("A recorded background is of one scene: it goes with --room.");
-        // The empty scene is the room's.
+        // A recorded background belongs to the operating room, so other scenes are left out.
         nlohmann::json chain = recorded ? nlohmann::json{{"filters", loaded.settings.spelling()},
                                                          {"scenes", nlohmann::json::array()}}
                                         : filter_quality(loaded.settings);

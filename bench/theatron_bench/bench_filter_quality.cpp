@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filters do to the truth, in figures. docs/filters.md says what they mean.
+// The accuracy of filters against ground truth. docs/filters.md explains the figures.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,10 +15,10 @@ namespace {
 constexpr Duration frame_time = std::chrono::microseconds(33'333);
 constexpr int settling_frames = 20;
 
-// Two surfaces of one picture that are further apart than this are two things.
+// Surfaces of one picture that are further apart than this belong to different objects.
 constexpr float edge_mm = 150;
 
-// What is further from the truth than this hangs in the air, nearer it is noise.
+// A pixel further from the truth than this is a flying pixel; nearer, it is noise.
 constexpr float flying_mm = 40;
 
 std::vector<DepthImage> filtered(const FilterClip& clip, const filter::ChainSettings& settings,
@@ -44,7 +44,7 @@ private:
     long count_ = 0;
 };
 
-// Depth of the exact pictures around a pixel.
+// The range of exact depth around a pixel.
 struct Surroundings {
     float nearest = 1e9f, furthest = 0;
     bool edge() const { return furthest - nearest > edge_mm; }
@@ -62,7 +62,7 @@ Surroundings around(const Image<float>& exact, int x, int y, int radius) {
     return s;
 }
 
-// Whether nothing around is at about this distance.
+// True if no surface around the pixel is at about this distance.
 bool hangs_in_the_air(const Image<float>& exact, int x, int y, float mm) {
     constexpr int radius = 2;
     for (int v = std::max(0, y - radius); v <= std::min(exact.size.height - 1, y + radius); ++v)
@@ -79,8 +79,8 @@ void for_each_pixel(Size size, Each each) {
             each(x, y, std::size_t(y) * std::size_t(size.width) + std::size_t(x));
 }
 
-// Deviation over time of what stands still: the root of the mean variance of
-// pixels that are measured in most frames.
+// Standard deviation over time of static pixels: the root of the mean variance of pixels that
+// are measured in most frames.
 double temporal_sigma(const FilterClip& clip, const std::vector<DepthImage>& images) {
     Mean variance;
     for_each_pixel(clip.size, [&](int, int, std::size_t i) {
@@ -88,11 +88,11 @@ double temporal_sigma(const FilterClip& clip, const std::vector<DepthImage>& ima
         for (std::size_t t = settling_frames; t < images.size(); ++t) {
             if (std::abs(clip.exact[t].pixels[i] - clip.exact[settling_frames].pixels[i]) > 0.5f)
                 return;
-            // Only frames in which the sensor measured: held pixels are steady anyway.
+            // Only frames with a measurement: pixels that a filter holds are constant.
             if (clip.measured[t].pixels[i] == 0 || images[t].pixels[i] == 0)
                 continue;
             const double mm = images[t].pixels[i];
-            // A pixel at an edge that jumps between two surfaces is no noise.
+            // A pixel at an edge that alternates between two surfaces is not noise.
             if (std::abs(mm - clip.exact[t].pixels[i]) > flying_mm)
                 return;
             depth.add(mm);
@@ -104,13 +104,13 @@ double temporal_sigma(const FilterClip& clip, const std::vector<DepthImage>& ima
     return std::sqrt(variance.value());
 }
 
-// Against the mean of the raw measurements of a pixel the sensor's constant errors
-// drop out; what is left is what a filter can change.
+// Compared with the mean of the raw measurements of a pixel, the sensor's constant errors
+// cancel; the rest is the part that filters can change.
 struct Errors {
-    double rmse_mm = 0;  // of measured pixels within flying_mm of the truth
-    double valid = 0;    // share of pixels that have depth, of those with a surface
-    double flips = 0;    // share of pixels that gain or lose depth from frame to frame
-    double flying = 0;   // share of pixels beside an edge that are at no distance seen around them
+    double rmse_mm = 0;          // of measured pixels within flying_mm of the truth
+    double valid = 0;            // share of pixels with depth among those with a surface
+    double flips = 0;            // share of pixels that gain or lose depth from frame to frame
+    double flying = 0;           // share of flying pixels among those beside an edge
     double mbit_per_second = 0;  // with strata, at 30 frames a second
 };
 
@@ -146,7 +146,7 @@ Errors errors_of(const FilterClip& clip, const std::vector<DepthImage>& images) 
             const double error = mm - exact;
             if (std::abs(error) <= flying_mm)
                 square.add(error * error);
-            // Every fourth frame: looking around takes time.
+            // Every fourth frame only, because the search around pixels is slow.
             if (t % 4 == 0)
                 if (around(clip.exact[t], x, y, 2).edge())
                     flying.add(hangs_in_the_air(clip.exact[t], x, y, float(mm)));
@@ -163,8 +163,8 @@ nlohmann::json to_json(const Errors& e) {
             {"depth_mbit_per_second", e.mbit_per_second}};
 }
 
-// Where something was up to two frames ago that was much nearer than what is there
-// since: the share of pixels in which it can still be seen.
+// For pixels uncovered within the last two frames by an object much nearer than the
+// background: the share that still shows the object.
 Mean ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
     Mean ghost;
     for (std::size_t t = 4; t < images.size(); ++t)
@@ -172,7 +172,7 @@ Mean ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
             const float now = clip.exact[t].pixels[i], before = clip.exact[t - 4].pixels[i];
             if (before == 0 || now - before < edge_mm || clip.exact[t - 1].pixels[i] < now - 60)
                 return;
-            // Beside the thing itself its edge is blurred; that is no ghost.
+            // Pixels beside the object's current edge are blurred by it and do not count.
             if (around(clip.exact[t], x, y, 2).edge())
                 return;
             const float mm = images[t].pixels[i];
@@ -181,8 +181,8 @@ Mean ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
     return ghost;
 }
 
-// Holes that the filter is there for: without measurement, at most nine pixels
-// wide, on one surface.
+// Holes that the filter is meant for: pixels without measurement, at most nine wide, on one
+// surface.
 struct Holes {
     double filled = 0;    // share of those pixels
     double error_mm = 0;  // mean of the filled ones
@@ -226,7 +226,7 @@ nlohmann::json board_biases(const filter::ChainSettings& settings) {
     nlohmann::json rows = nlohmann::json::array();
     Mean overall;
     for (const Board& board : moving_boards()) {
-        // The sensor's own constant errors are the same in both.
+        // The sensor's constant errors are equal in both and cancel.
         Mean bias, absolute;
         for (std::size_t t = settling_frames; t < images.size(); ++t)
             for (int y = board.top + 8; y < board.bottom - 8; ++y)
@@ -242,14 +242,14 @@ nlohmann::json board_biases(const filter::ChainSettings& settings) {
     return {{"speeds", rows}, {"mean_bias_mm", overall.value()}};
 }
 
-// Where the board begins or ends in a row, from the picture: the middle between
-// the last pixel on one side of the mean depth and the first on the other.
+// The subpixel position of a board's edge in a row: the middle between the last pixel on one
+// side of the mean depth and the first on the other.
 double edge_at(const std::uint16_t* row, double guess, double middle_mm, bool board_is_right) {
     double best = guess, distance = 1e9;
     for (int x = std::max(1, int(guess) - 60); x < std::min(639, int(guess) + 60); ++x) {
         if (row[x] == 0 || (row[x] < middle_mm) != board_is_right)
             continue;
-        // The nearest measured pixel left of it that is on the other side.
+        // The nearest measured pixel at the left that is on the other side.
         int left = x - 1;
         while (left > 0 && row[left] == 0 && x - left < 12)
             --left;
@@ -279,11 +279,11 @@ nlohmann::json crossing(const filter::ChainSettings& settings) {
                 const std::uint16_t* row = images[t].view().row(y);
                 const std::uint16_t* raw = clip.measured[t].view().row(y);
                 const double right = board.right(int(t)), left = board.left(int(t));
-                // Behind the sensor's own picture, in pixels.
+                // The lag relative to the sensor's own picture, in pixels.
                 leading.add(edge_at(raw, right, middle, false) -
                             edge_at(row, right, middle, false));
                 trailing.add(edge_at(raw, left, middle, true) - edge_at(row, left, middle, true));
-                // Pixels that are neither side.
+                // Pixels that belong to neither side.
                 int between = 0;
                 for (int x = int(right) - 10; x < int(right) + 10; ++x)
                     between += row[x] == 0 || (row[x] > board.board_mm + flying_mm &&

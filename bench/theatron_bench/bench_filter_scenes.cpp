@@ -14,12 +14,12 @@ namespace {
 constexpr Size size{640, 576};
 constexpr double frames_per_second = 30;
 
-// What a pixel shows.
+// The surface seen by a pixel.
 struct Surface {
     double mm = 0, reflectivity = 0.5, cos_incidence = 0.9;
 };
 
-// Draws frames of surface(x, y, frame) with one camera.
+// Renders frames of surface(x, y, frame) with one camera.
 template <class Draw>
 FilterClip draw(const char* name, int frames, Draw surface) {
     FilterClip clip{.name = name, .size = size, .measured = {}, .exact = {}};
@@ -45,7 +45,7 @@ FilterClip draw(const char* name, int frames, Draw surface) {
     return clip;
 }
 
-// Spots so dark that they are not measured, one to nine pixels wide, on a grid.
+// Spots too dark to be measured, one to nine pixels wide, on a grid.
 bool in_dark_spot(int x, int y) {
     constexpr int grid = 36;
     const int column = x / grid, row = y / grid;
@@ -55,7 +55,7 @@ bool in_dark_spot(int x, int y) {
 
 Surface room(int x, int y, double person_x) {
     Surface s;
-    // A wall, further right than left, and a table that comes towards the camera.
+    // A slanted wall, further away at the right, and a table that extends towards the camera.
     s.mm = 2600 + 1.2 * x;
     s.reflectivity = 0.6;
     if (y > 360) {

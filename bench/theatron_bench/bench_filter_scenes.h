@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes whose exact depth is known, as an Azure Kinect would measure them, for
-// timing filters and for saying what they do to the truth.
+// Scenes with known exact depth, as measured by an Azure Kinect, to measure the time and
+// accuracy of filters.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,21 @@
 
 namespace theatron::bench {
 
-// Both in millimetres, frame by frame at 30 frames a second.
+// Measured and exact depth in millimetres, at 30 frames a second.
 struct FilterClip {
     std::string name;
     Size size;
     std::vector<DepthImage> measured;
-    std::vector<Image<float>> exact;  // 0 where there is nothing, or the sensor never measures
+    std::vector<Image<float>> exact;  // 0 without surface, or if the sensor never measures there
 };
 
 // A wall, a table and a person who rocks; dark spots leave small holes.
 FilterClip rocking_person(int frames);
 
-// The same, standing still.
+// The same without motion.
 FilterClip still_room(int frames);
 
-// Boards in front of a wall, each on its way towards the camera or away from it.
+// Boards in front of a wall, each moving towards the camera or away from it.
 struct Board {
     int left, top, right, bottom;  // pixels
     double mm_per_s;               // positive: away
@@ -34,7 +34,7 @@ struct Board {
 std::vector<Board> moving_boards();
 FilterClip boards_moving(int frames);
 
-// An upright board that crosses the picture, so many pixels a frame.
+// An upright board that moves across the picture at `pixels_per_frame`.
 struct CrossingBoard {
     double left_at_start, width, pixels_per_frame;
     int top, bottom;
@@ -45,11 +45,11 @@ struct CrossingBoard {
 CrossingBoard crossing_board(double pixels_per_frame);
 FilterClip board_crossing(const CrossingBoard& board, int frames);
 
-// The generated operating room as its sensor measures it; rendered once and kept,
-// which takes minutes.
+// The generated operating room as measured by its sensor. Rendered once, which takes minutes,
+// and cached.
 std::vector<DepthImage> operating_room_frames(int frames, const capture::Progress& progress);
 
-// The same with and without the sensor's errors.
+// The same room with measured and exact depth.
 FilterClip operating_room_clip(int frames, const capture::Progress& progress);
 
 }  // namespace theatron::bench

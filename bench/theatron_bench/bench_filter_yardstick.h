@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library to compare filters with, where it is installed.
+// The yardstick of the filters: a library, if it is installed.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace theatron::bench {
 
-// The time of OpenCV's median of 3x3 pixels of 16 bits, on one thread. It takes
-// "no measurement" for a distance.
+// The time of OpenCV's 3x3 median of 16-bit pixels, on one thread. It treats "no measurement"
+// as a distance.
 std::optional<double> opencv_median_ms(const DepthImage& depth);
 
 }  // namespace theatron::bench

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libjpeg-turbo behind the interfaces of our colour codecs, as a yardstick for
-// our own JPEG codec.
+// libjpeg-turbo as codecs with our interfaces: the yardstick of our own JPEG codec.
 #pragma once
 
 #include <memory>
@@ -10,11 +9,11 @@
 
 namespace theatron::bench {
 
-// Whether a setting is one of JPEG, and what the yardstick's row is called then.
+// True for JPEG settings; and the name of the yardstick's row.
 bool has_libjpeg_yardstick(const video::ColorSetting& setting);
 std::string libjpeg_name(const std::string& codec);
 
-// For a setting of JPEG. They take only pixels, and are more trusting than ours.
+// Codecs for a JPEG setting. They accept pixels only, and check their input less than ours.
 std::unique_ptr<video::ColorEncoder> make_libjpeg_encoder(const video::ColorSetting& setting);
 std::unique_ptr<video::ColorDecoder> make_libjpeg_decoder();
 

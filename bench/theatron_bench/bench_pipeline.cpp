@@ -23,7 +23,7 @@
 namespace theatron::bench {
 namespace {
 
-// A folder for the host's identity and report, gone afterwards.
+// A folder for the host's identity and report, removed at the end.
 struct TemporaryFolder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("theatron_bench_" + std::to_string(getpid()));
@@ -34,7 +34,7 @@ struct TemporaryFolder {
     }
 };
 
-// The slowest camera's figure for each stage.
+// For each stage, the figures of the slowest camera.
 nlohmann::json slowest_stages(const nlohmann::json& host) {
     std::vector<nlohmann::json> stages;
     for (const auto& camera : host["cameras"])
@@ -50,7 +50,7 @@ nlohmann::json slowest_stages(const nlohmann::json& host) {
     return stages;
 }
 
-// The stage of the host that takes most of a frame's time.
+// The host's stage with the largest total time.
 std::string costliest_stage(const nlohmann::json& host) {
     std::map<std::string, double> total;
     for (const auto& camera : host["cameras"])
@@ -64,8 +64,7 @@ std::string costliest_stage(const nlohmann::json& host) {
     return most == total.end() ? "" : most->first;
 }
 
-// zstd level 1 over the depth of one generated frame: tells how fast this machine is
-// just now.
+// zstd level 1 on the depth of one generated frame: a measure of the machine's current speed.
 double yardstick_ms() {
     constexpr Size size{640, 576};
     DepthImage depth(size);
@@ -88,7 +87,7 @@ double yardstick_ms() {
     return 0;
 }
 
-// Frames that the host had no time for since it started.
+// Frames dropped by the host since it started, for lack of time.
 std::uint64_t dropped_by_host(const net::Link& link) {
     const nlohmann::json status = host::status_of_host(link);
     std::uint64_t dropped = 0;
@@ -97,24 +96,25 @@ std::uint64_t dropped_by_host(const net::Link& link) {
     return dropped;
 }
 
-// Host and viewers at one moment.
-struct Look {
+// The resources used by host and viewers so far.
+struct UsageSample {
     TimePoint time = steady_now();
     double machine = machine_cpu_seconds();
     ProcessUsage host;
     std::vector<ProcessUsage> viewers;
 
-    Look(const ChildProcess& host_process, const std::vector<std::unique_ptr<ChildProcess>>& others)
+    UsageSample(const ChildProcess& host_process,
+                const std::vector<std::unique_ptr<ChildProcess>>& others)
         : host(usage_of(host_process.pid())) {
         for (const auto& viewer : others)
             viewers.push_back(usage_of(viewer->pid()));
     }
 };
 
-// How many cameras there could be if all went on as between the two looks, by what
-// would be full first: all cores, or a thread that works alone. `cameras` counts those
-// that were carried: of two that lost half of their frames, one was.
-nlohmann::json capacity(const Look& before, const Look& after, double cameras) {
+// The number of cameras that would saturate the first limited resource: all cores, or a
+// thread that cannot be split. `cameras` is the number of cameras carried between the two
+// samples: two cameras that each lost half of their frames count as one.
+nlohmann::json capacity(const UsageSample& before, const UsageSample& after, double cameras) {
     const double seconds = to_seconds(after.time - before.time);
     double cores = after.host.cpu_seconds - before.host.cpu_seconds;
     std::vector<std::pair<std::string, double>> used;
@@ -173,16 +173,16 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             bench.color_codec, "--target-latency", "0", "--warmup",
             std::to_string(bench.warmup_seconds), "--seconds", std::to_string(bench.seconds)}));
 
-    // While the viewers measure, a little inside on both sides.
+    // Samples lie slightly inside the interval in which the viewers measure.
     const auto sleep_for = [](double s) {
         std::this_thread::sleep_for(seconds_to_duration(std::max(0.1, s)));
     };
     sleep_for(bench.warmup_seconds);
     const std::uint64_t dropped_before = dropped_by_host(link);
     sleep_for(0.5);
-    const Look before(host, viewers);
+    const UsageSample before(host, viewers);
     sleep_for(bench.seconds - 0.7);
-    const Look after(host, viewers);
+    const UsageSample after(host, viewers);
 
     double fps_min = 1e9, mbit = 0, p50 = 0, p99 = 0, max = 0, memory = 0, frames = 0;
     std::uint64_t dropped = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from cameras to decoded images, between processes.
+// Measures the whole pipeline from cameras to decoded images, in separate processes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,13 +18,12 @@ struct PipelineBench {
     std::string filter = "default";
 };
 
-// Runs one host and `viewers` participants as processes of their own. Returns
+// Runs one host and `viewers` participants as child processes. Returns
 // {cameras,viewers,seconds,stages:[{name,p50_ms,p99_ms}],fps_min,frames_dropped,
-// mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}, ...}; age is from captured to decoded,
-// the worst of all streams and viewers; frames_dropped counts those that the host's
-// cameras gave after the warm-up and a viewer did not decode. A camera takes part of a core
-// and a viewer's threads; `cameras_possible` says how many would fill the first of them.
-// Throws Error.
+// mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}, ...}. age_ms: from captured to decoded, the
+// worst of all streams and viewers. frames_dropped: frames given by the cameras after the
+// warm-up and not decoded by a viewer. cameras_possible: the number of cameras that would
+// saturate all cores or a single thread. Throws Error.
 nlohmann::json bench_pipeline(const PipelineBench& bench);
 
 }  // namespace theatron::bench

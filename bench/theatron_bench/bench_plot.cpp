@@ -29,15 +29,15 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-// From values to places, logarithmic, a little wider than the values.
+// A logarithmic axis from values to positions, slightly longer than the range of values.
 struct Axis {
     double low = 1, high = 10;  // values
-    double from = 0, to = 1;    // places
+    double from = 0, to = 1;    // positions
 
     double place(double value) const {
         return from + (to - from) * std::log(value / low) / std::log(high / low);
     }
-    // 1, 2 and 5 times powers of ten, and nothing between 1 and 10 if there are many.
+    // 1, 2 and 5 times powers of ten; only powers of ten for long axes.
     std::vector<double> ticks() const {
         const bool many = high / low > 500;
         std::vector<double> result;
@@ -78,7 +78,7 @@ public:
         svg_ += "<text x='" + number(x) + "' y='" + number(y) + "' text-anchor='" + anchor + "' " +
                 more + ">" + escaped(words) + "</text>\n";
     }
-    // What is drawn from here on has its origin there.
+    // Moves the origin for all following shapes.
     void begin_at(double x, double y) {
         svg_ += "<g transform='translate(" + number(x) + " " + number(y) + ")'>\n";
     }
@@ -93,7 +93,7 @@ private:
 void draw_panel(Drawing& out, const nlohmann::json& sequence) {
     std::vector<double> ms, kb;
     for (const auto& codec : sequence["codecs"]) {
-        // What is faster than the clock is precise is drawn at its edge.
+        // Times below the clock's resolution are drawn at the edge.
         ms.push_back(std::max(codec["encode_ms"].get<double>(), 0.005));
         ms.push_back(std::max(codec["decode_ms"].get<double>(), 0.005));
         kb.push_back(codec["bytes_mean"].get<double>() / 1000);
@@ -130,7 +130,7 @@ void draw_panel(Drawing& out, const nlohmann::json& sequence) {
         out.circle(decode, height, color, false);
         out.circle(encode, height, color, true);
 
-        // The name stands beside the marks, on the first place that is free.
+        // The label goes to the first free position beside the marks.
         const std::string name = codec["name"];
         const double width = letter_width * double(name.size());
         const double rightmost = std::max(encode, decode), leftmost = std::min(encode, decode);

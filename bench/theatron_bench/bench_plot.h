@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size against speed of the codecs as a picture.
+// A plot of the codecs' sizes against their times.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,10 +7,9 @@
 
 namespace theatron::bench {
 
-// An SVG picture of what bench_depth_sequence or bench_color_sequence returned,
-// one panel for each sequence: milliseconds across, kB a frame up, both
-// logarithmic. A filled mark is encoding, a hollow one decoding. Shows light and
-// dark alike: it brings its own background.
+// Returns an SVG picture for results of bench_depth_sequence or bench_color_sequence, with one
+// panel per sequence: x is milliseconds, y is kB a frame, both logarithmic. A filled mark is
+// encoding, a hollow one decoding. The picture has its own background, for light and dark pages.
 std::string size_speed_svg(const nlohmann::json& sequences);
 
 }  // namespace theatron::bench

@@ -24,7 +24,7 @@ using render::Picture;
 
 constexpr Rgb black{};
 
-// Milliseconds until the GPU has done what `work` asks for.
+// The time until the GPU has finished `work`, in milliseconds.
 template <class Work>
 double timed_ms(const Work& work) {
     glFinish();
@@ -40,7 +40,7 @@ void upload(CloudScene& scene, int id, const RenderBenchCamera& camera) {
         throw Error("A camera's images do not have the size of its calibration.");
 }
 
-// The colour that the camera's own picture has for a point, if it shows it.
+// The colour of a point in the camera's own picture, if it is visible there.
 std::optional<Rgb> color_of(const RenderBenchCamera& camera, Vec3 point) {
     if (camera.color.empty())
         return std::nullopt;
@@ -58,7 +58,7 @@ bool alike(Rgb a, std::optional<Rgb> b) {
     return !b || std::abs(a.r - b->r) + std::abs(a.g - b->g) + std::abs(a.b - b->b) < 30;
 }
 
-// Whether the picture has this depth and colour within two pixels of `place`.
+// True if the picture has this depth and colour within two pixels of `place`.
 bool shown_near(const Picture& drawn, Vec2 place, double mm, std::optional<Rgb> color) {
     const Size size = drawn.color.size;
     const int x0 = int(std::lround(place.x)), y0 = int(std::lround(place.y));
@@ -70,7 +70,7 @@ bool shown_near(const Picture& drawn, Vec2 place, double mm, std::optional<Rgb> 
     return false;
 }
 
-// Draws one camera alone from its own place and looks for each of its pixels.
+// Renders one camera from its own position and checks each of its pixels.
 void check_renderer(const RenderBenchCamera& camera, const std::string& renderer) {
     CloudScene scene;
     scene.set_camera(CameraId{0}, camera.calibration);
@@ -80,7 +80,7 @@ void check_renderer(const RenderBenchCamera& camera, const std::string& renderer
         render::view_of_camera(lens, camera.calibration.room_from_camera, lens.size);
     const Picture drawn = scene.render(view, lens.size, renderer);
 
-    CameraModel eye;  // what the view shows: the lens without its distortion
+    CameraModel eye;  // the camera's lens without distortion
     eye.size = lens.size;
     eye.fx = lens.fx;
     eye.fy = lens.fy;
@@ -142,8 +142,8 @@ nlohmann::json bench_render(const RenderBench& bench) {
         const CameraView view =
             render::view_of_camera(first.depth, first.room_from_camera, bench.picture);
         const render::RenderTarget target(bench.picture);
-        // Round by round, so that a busy moment of the machine does not hit one alone. The first
-        // round makes programs and buffers and is not counted.
+        // Renderers take turns, so that a load peak does not affect only one. The first round
+        // compiles programs and allocates buffers and is not counted.
         for (int round = 0; round <= bench.repetitions; ++round)
             for (std::size_t r = 0; r < renderers.size(); ++r) {
                 const double up = timed_ms([&] {

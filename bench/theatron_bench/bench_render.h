@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderers measured on whatever GL there is, offscreen.
+// Measures the renderers on the available GL, offscreen.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,36 +11,36 @@
 
 namespace theatron::bench {
 
-// One camera to draw: its calibration and a picture.
+// The input of one camera: calibration and pictures.
 struct RenderBenchCamera {
     Calibration calibration;
     DepthImage depth;
     ColorImage color;
 };
 
-// `count` cameras around a small generated scene, half a circle from first to last, with
-// the sizes of an Azure Kinect: 640x576 depth, 1280x720 colour.
+// `count` cameras around a small generated scene, on half a circle, with the sizes of an Azure
+// Kinect: 640x576 depth, 1280x720 colour.
 std::vector<RenderBenchCamera> generated_render_cameras(int count);
 
 struct RenderBench {
     std::vector<RenderBenchCamera> cameras;
     Size picture{1280, 720};
-    std::vector<std::string> renderers;  // none: all there are
-    int depth_step = 1;  // see render::CloudScene::set_depth_step; the check has all
+    std::vector<std::string> renderers;  // empty: all
+    int depth_step = 1;                  // see render::CloudScene::set_depth_step; the check uses 1
     int repetitions = 15;
 };
 
-// Draws with each renderer what all cameras see, every time with newly uploaded images.
-// Before that each renderer must show the first camera's picture as the camera saw
-// it: at least 95 % of its depth pixels within 5 mm and two pixels, in their colour. The
-// bare grid is held to it, too.
+// Renders the clouds of all cameras with each renderer, with new uploads for every picture.
+// Before that, each renderer is checked: seen from the first camera, at least 95 % of the
+// camera's depth pixels must appear within 5 mm and two pixels, in their colour. The check
+// includes the bare grid.
 //
 // Returns {gl_renderer, width, height, cameras, depth_step, renderers: [{name, frame_ms,
-// upload_ms}]}: medians of the wall clock around glFinish, uploads per camera (depth and colour).
-// The row bare_grid is the yardstick: the least that draws the depth images as surfaces.
+// upload_ms}]}: medians of the wall clock around glFinish; uploads are per camera (depth and
+// colour). The row bare_grid is the yardstick: the minimum that draws depth images as surfaces.
 //
-// Throws Error for an unknown renderer, no camera, a renderer that draws wrongly, GL
-// errors, and where there is no GL.
+// Throws Error for an unknown renderer, no camera, a renderer that fails the check, GL errors,
+// and if there is no GL.
 nlohmann::json bench_render(const RenderBench& bench);
 
 }  // namespace theatron::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How every benchmark hands over its result.
+// The output of every benchmark.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace theatron::bench {
 
-// Prints a result as a table, and writes it to `file` too unless that is empty; or, for "-",
-// prints it as JSON instead. Throws Error.
+// Prints a result as a table and, unless `file` is empty, writes it there as JSON. For "-" it
+// prints JSON instead of the table. Throws Error.
 void report(const nlohmann::json& result, const std::string& file,
             const std::function<void()>& print_table);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of recorded images, whole in memory, for benchmarks.
+// A folder of recorded images, loaded into memory, for benchmarks.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct BenchSequence {
     std::vector<ColorImage> color;  // decoded; empty if the folder has none
 };
 
-// Reads FOLDER/depth/*.png, and FOLDER/color/* if `with_color`, in name order, at
+// Reads FOLDER/depth/*.png, and FOLDER/color/* if `with_color`, in order of their names, at
 // most `max_frames`. Throws Error.
 BenchSequence load_sequence(const std::filesystem::path& folder, bool with_color, int max_frames);
 

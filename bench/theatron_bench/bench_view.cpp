@@ -26,9 +26,9 @@ struct Figures {
     render::Holes holes;
 };
 
-// What colour a viewer gets with the depth.
+// The colour that a viewer receives with the depth.
 struct ColorKind {
-    const char *key, *picture;  // in the JSON and in names of pictures
+    const char *key, *picture;  // in JSON, and in file names
     ViewBenchImages (*images)(const ViewBenchCamera& camera, int frame);
 };
 
@@ -83,7 +83,7 @@ nlohmann::json bench_view(const ViewBenchScene& truth, std::vector<std::string> 
     render::OffscreenContext context;
     std::vector<Figures> figures(renderers.size());
     {
-        // Renderers may take the frames before into account: they see all of them.
+        // Renderers may use earlier frames, so all frames are shown in order.
         CloudScene scene;
         for (int frame = 0; frame < before_last; ++frame) {
             show(scene, truth.cameras, frame, color_kinds[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderers' pictures beside the truth.
+// Compares the renderers' pictures with ground truth.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,23 +10,23 @@
 
 namespace theatron::bench {
 
-// Draws the scene's noisy, filtered, coded images from its places, with each renderer (none: all
-// there are), and compares with the exact pictures. Returns {gl_renderer, cameras, views, width,
-// height, renderers: [{name, psnr_db, psnr_overlap_db, ssim, holes_percent, silhouette_px,
-// flicker_overlap, psnr_patterned_db, psnr_patterned_fine_db, psnr_patterned_depth_sized_db,
-// psnr_patterned_registered_db}]}.
+// Renders the scene's images, with noise, filters and codecs applied, from its viewpoints with
+// each renderer (none given: all), and compares them with the exact pictures. Returns {gl_renderer,
+// cameras, views, width, height, renderers: [{name, psnr_db, psnr_overlap_db, ssim,
+// holes_percent, silhouette_px, flicker_overlap, psnr_patterned_db, psnr_patterned_fine_db,
+// psnr_patterned_depth_sized_db, psnr_patterned_registered_db}]}.
 //
-// psnr_db and ssim: over all pixels whose surface some camera sees; psnr_overlap_db where two
-// have measured it. holes_percent: of the pixels of people that some camera sees, but for those
-// within two pixels of the exact outline (render::Holes). silhouette_px: how far outlines of people
-// are from where they belong. flicker_overlap: root mean square of
-// the change from one frame to the next where nothing moves but noise, in steps of 255.
-// psnr_patterned_db: of patterned surfaces from near by, with colour pictures of
-// ViewBenchOptions::color; ..._fine_db: of fine_color; ..._depth_sized_db and ..._registered_db:
-// the same if colour came in the depth image's pixels, made by the functions of those names.
+// psnr_db, ssim: over all pixels whose surface is seen by a camera. psnr_overlap_db: measured by
+// two cameras. holes_percent: share of the pixels of people that are seen by a camera, without
+// those within two pixels of the exact outline (render::Holes). silhouette_px: distance of
+// people's outlines from the exact ones. flicker_overlap: root mean square of the change from
+// frame to frame when only noise changes, in units of 1/255. psnr_patterned_db: patterned
+// surfaces from nearby, with colour pictures of size ViewBenchOptions::color; ..._fine_db: of
+// size fine_color; ..._depth_sized_db and ..._registered_db: with colour resampled to the depth
+// image by the functions of those names.
 //
-// All pictures are written to the folder `pictures`, unless it is empty. Throws Error for an
-// unknown renderer, GL errors, and where there is no GL.
+// Writes all pictures to the folder `pictures`, unless it is empty. Throws Error for an unknown
+// renderer, GL errors, and if there is no GL.
 nlohmann::json bench_view(const ViewBenchScene& scene, std::vector<std::string> renderers,
                           const std::string& pictures, const capture::Progress& progress);
 

@@ -56,7 +56,7 @@ Vec3 on_circle(double degrees, double radius, double height) {
     return {radius * std::cos(a), height, radius * std::sin(a)};
 }
 
-// The first four cameras stand at -42, 46, 137 and -132 degrees.
+// Viewpoints between cameras: the first four cameras are at -42, 46, 137 and -132 degrees.
 std::vector<Eye> held_places() {
     std::vector<Eye> eyes;
     for (const double degrees : {2.0, 91.0, 182.0, -87.0})
@@ -68,7 +68,7 @@ std::vector<Eye> held_places() {
     return eyes;
 }
 
-// Towards the papers on the table from near by, so that a pixel of the picture is less than one of
+// Viewpoints near the papers on the table, so that a pixel of the picture is smaller than one of
 // the cameras'.
 std::vector<Eye> close_places() {
     std::vector<Eye> eyes;
@@ -77,7 +77,7 @@ std::vector<Eye> close_places() {
     return eyes;
 }
 
-// Does work for 0 to count - 1, two at a time: the exact pictures take long, nothing is timed.
+// Calls work(0) to work(count - 1), two at a time: exact pictures are slow, and nothing is timed.
 template <class Work>
 void for_each_of(std::size_t count, const Work& work) {
     std::atomic<std::size_t> next{0};
@@ -90,12 +90,10 @@ void for_each_of(std::size_t count, const Work& work) {
     other.join();
 }
 
-// So many frames the filters have seen before the first that counts: a running host's
-// filters are settled.
+// Frames that the filters process before the first one that counts, as in a running host.
 constexpr unsigned settling_frames = 20, first_settling_frame = 1000;
 
-// Depth and colour as the sensors give them, then through the filters and the codecs that are
-// used by default.
+// Depth and colour of the sensors, passed through the filters and the default codecs.
 class SensorAndCodecs {
 public:
     SensorAndCodecs(const ViewBenchOptions& options, const Calibration& calibration, unsigned seed)
@@ -106,7 +104,7 @@ public:
                    {.size = calibration.depth.size, .depth_unit_mm = calibration.depth_unit_mm}),
           rays_(make_ray_table(calibration.depth)) {}
 
-    // For frames in their order.
+    // Frames must come in order.
     DepthImage depth(const GroundTruth& truth, unsigned frame) {
         if (!settled_ && !filters_.off())
             for (unsigned before = 0; before < settling_frames; ++before)
@@ -193,12 +191,12 @@ ViewBenchCamera make_camera(const OperatingRoom& room, const synthetic::RoomMome
     return camera;
 }
 
-// A surface that a camera looks along is not seen: 0.17 is 10 degrees.
+// A surface seen at a smaller angle counts as not seen: 0.17 is the sine of 10 degrees.
 constexpr double least_cosine = 0.17;
 
 enum class Sight { none, seen, measured };
 
-// Whether the depth camera sees this side of a surface, and has measured it there.
+// Tells if the depth camera sees this side of a surface, and has measured it there.
 Sight sight_of(const ViewBenchCamera& camera, Vec3 point_room, Vec3 normal_room) {
     const Calibration& c = camera.calibration;
     const Vec3 p = inverse(c.room_from_camera) * point_room;
@@ -322,8 +320,8 @@ ViewBenchImages depth_sized_color(const Calibration& calibration, DepthView dept
     const Image<Ray> rays = make_ray_table(calibration.depth);
     ViewBenchImages result = without_color(calibration, depth);
     for (int y = 0; y < size.height; ++y) {
-        // Where nothing was measured renderers may close the gap: its colour is that of a surface
-        // at the last distance.
+        // Renderers may close gaps in depth, so pixels without measurement get the colour of a
+        // surface at the last distance.
         double z = 0;
         for (int x = 0; x < size.width; ++x) {
             if (depth.row(y)[x] > 0)

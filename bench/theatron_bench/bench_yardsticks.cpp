@@ -70,7 +70,7 @@ public:
 #endif
 
 #if THEATRON_BENCH_FFV1
-// Version 3, every frame on its own, one thread.
+// FFV1 version 3, intra frames only, one thread.
 class Ffv1 final : public BenchCoder {
 public:
     Ffv1() : packet_(av_packet_alloc()), frame_(av_frame_alloc()) {}
@@ -88,7 +88,7 @@ public:
         frame_->width = depth.size.width;
         frame_->height = depth.size.height;
         frame_->format = AV_PIX_FMT_GRAY16LE;
-        // The library may keep the frame, so it gets memory of its own.
+        // The library may keep the frame, so each frame has its own memory.
         require(av_frame_get_buffer(frame_, 0) >= 0, "no frame memory");
         for (int y = 0; y < depth.size.height; ++y) {
             std::memcpy(frame_->data[0] + y * std::ptrdiff_t(frame_->linesize[0]),
@@ -140,7 +140,7 @@ private:
         encoder_->gop_size = 1;
         encoder_->level = 3;
         encoder_->thread_count = 1;
-        // What it would choose for 16 bits anyway, with a warning.
+        // The default for 16 bits, set explicitly to avoid a warning.
         av_opt_set(encoder_->priv_data, "coder", "range_tab", 0);
         require(avcodec_open2(encoder_, codec, nullptr) >= 0, "the encoder does not open");
         const AVCodec* reader = avcodec_find_decoder(AV_CODEC_ID_FFV1);

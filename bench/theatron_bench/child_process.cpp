@@ -30,7 +30,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     const pid_t parent = getpid();
     pid_ = fork();
     if (pid_ == 0) {
-        // System calls only: other threads may have held locks.
+        // Only system calls are safe here: other threads may have held locks at the fork.
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         const int nothing = open("/dev/null", O_RDONLY);
         if (getppid() == parent && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 &&

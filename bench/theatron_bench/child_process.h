@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program `theatron`, which lies beside this one, as a child: for measurements between
-// processes.
+// Runs the program `theatron` of the same folder as a child, for measurements between processes.
 #pragma once
 
 #include <string>
@@ -10,14 +9,14 @@ namespace theatron::bench {
 
 class ChildProcess {
 public:
-    // Starts it with `arguments`; its standard output can be read. The child is
-    // killed when the thread that calls this ends, however that comes about. Throws Error.
+    // Starts it with `arguments`; its standard output is readable. The child is killed when the
+    // calling thread ends, for whatever reason. Throws Error.
     explicit ChildProcess(const std::vector<std::string>& arguments);
-    ~ChildProcess();  // kills what still runs
+    ~ChildProcess();  // kills the child if it still runs
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    // The next line of its output; empty at the end.
+    // The next line of the output; empty at the end.
     std::string read_line();
 
     int pid() const { return pid_; }
@@ -28,7 +27,7 @@ public:
         double cpu_seconds = 0;
         double peak_memory_mb = 0;
     };
-    // Waits for its end.
+    // Waits until the child has ended.
     End wait();
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// proc(5): the name in brackets may hold anything; times are the 14th and 15th field.
+// proc(5): the name in brackets may contain any character; times are fields 14 and 15.
 ProcessUsage::Thread read_stat(const fs::path& file) {
     std::string text;
     std::getline(std::ifstream(file), text);
@@ -37,7 +37,7 @@ ProcessUsage usage_of(int pid) {
     ProcessUsage usage;
     usage.cpu_seconds = read_stat(process / "stat").cpu_seconds;
     double pages = 0;
-    std::ifstream(process / "statm") >> pages >> pages;  // the second number is what is resident
+    std::ifstream(process / "statm") >> pages >> pages;  // the second number: resident pages
     usage.memory_mb = pages * double(sysconf(_SC_PAGESIZE)) / (1 << 20);
     std::error_code gone;
     for (const auto& thread : fs::directory_iterator(process / "task", gone))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a running process uses, as the system counts it. Linux only; elsewhere nothing.
+// The resources used by a running process, from /proc. Linux only; empty elsewhere.
 #pragma once
 
 #include <map>
@@ -14,15 +14,15 @@ struct ProcessUsage {
         std::string name;
         double cpu_seconds = 0;
     };
-    std::map<int, Thread> threads;  // by number
+    std::map<int, Thread> threads;  // by thread id
 };
 
 ProcessUsage usage_of(int pid);
 
-// Of the whole machine since it was started, all cores together.
+// The processor time of the whole machine since boot, summed over all cores.
 double machine_cpu_seconds();
 
-// The busiest thread of that name between two looks, in cores.
+// The load of the busiest thread with this name between two samples, in cores.
 double busiest(const ProcessUsage& before, const ProcessUsage& after, const std::string& name,
                double seconds);
 

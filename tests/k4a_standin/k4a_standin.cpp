@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for libk4a in tests: the same C interface, generated pictures, and
-// failures on demand (standin_behaviour.h). It declares the interface a second
-// time on purpose: a layout that is wrong in capture/k4a_api.h shows here.
+// A stand-in for libk4a in tests: the same C interface, generated pictures, and failures on
+// demand (standin_behaviour.h). It declares the interface a second time on purpose: a wrong
+// layout in capture/k4a_api.h then fails the tests.
 //
-// Every buffer has exactly the size of its picture, so that a sanitizer sees a
-// reader that goes beyond. Where a lie about the size is asked for, the buffer
-// stays as small as it truly is.
+// Every buffer has exactly the size of its picture, so that sanitizers detect reads beyond it.
+// If a false size is requested, the buffer keeps its true, smaller size.
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -53,10 +52,10 @@ struct Device {
     bool running = false;
     Configuration configuration{};
     Clock::time_point started;
-    int step = 0;  // captures given; two a frame where colour comes apart
+    int step = 0;  // captures given; two per frame if colour comes separately
 };
 
-// Handles that were not given back, and the calls that matter to tests.
+// The number of handles not released, and the calls that tests check.
 int alive = 0;
 std::string calls;
 
@@ -88,7 +87,7 @@ void stamp(const Device& device, Image& image, int frame) {
     };
     if (clock == "steady")
         image.system_ns = count(Clock::now());
-    if (clock == "wall")  // like Orbbec's library, in whole milliseconds
+    if (clock == "wall")  // as in Orbbec's library, in whole milliseconds
         image.system_ns = count(std::chrono::system_clock::now()) / 1'000'000 * 1'000'000;
 }
 
@@ -102,7 +101,7 @@ Image* depth_image(const Device& device, int frame) {
     image->width = int(b.number("depth_width", size[0]));
     image->height = size[1];
     image->told_size = std::size_t(b.number("depth_bytes", long(image->bytes.size())));
-    // Said to be small, it is small.
+    // A smaller stated size also shortens the buffer.
     image->bytes.resize(std::min(image->bytes.size(), image->told_size));
     image->bytes.shrink_to_fit();
     image->stride = int(b.number("depth_stride", image->stride));
@@ -129,7 +128,7 @@ Image* color_image(const Device& device, int frame) {
     return image;
 }
 
-// The capture of this step: both pictures, or one after the other.
+// The next capture: both pictures, or one after the other.
 Capture* capture_of(const Device& device, int frame, int half) {
     const Behaviour& b = device.behaviour;
     const bool apart = b.has("apart") || b.has("color_first");
@@ -144,7 +143,7 @@ Capture* capture_of(const Device& device, int frame, int half) {
     return capture;
 }
 
-// What the real library refuses.
+// True for configurations that the real library accepts.
 bool is_possible(const Configuration& c) {
     const bool depth = c.depth_mode != 0, color = c.color_resolution != 0;
     if (c.color_format < 0 || c.color_format > 3 || c.color_resolution < 0 ||
@@ -172,7 +171,7 @@ int give(const std::string& text, void* out, std::size_t* size) {
 
 #define STANDIN_EXPORT extern "C" __attribute__((visibility("default")))
 
-// For tests: handles not given back, and the calls since the last question.
+// For tests: the number of handles not released, and the calls since the last query.
 STANDIN_EXPORT int k4a_standin_alive() {
     return alive;
 }
@@ -279,7 +278,7 @@ STANDIN_EXPORT void k4a_capture_release(Capture* capture) {
     release(capture);
 }
 
-// Images outlive their capture in the real library; here they are copies.
+// In the real library images outlive their capture; here they are copies.
 STANDIN_EXPORT Image* k4a_capture_get_depth_image(Capture* capture) {
     if (!capture->depth)
         return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the stand-in for libk4a behaves, from $K4A_STANDIN: words and key=number
-// pairs separated by commas, read when the library is asked for devices.
+// The behaviour of the stand-in for libk4a, from $K4A_STANDIN: flags and key=number pairs,
+// separated by commas, parsed when devices are enumerated or opened.
 #pragma once
 
 #include <map>
@@ -12,24 +12,24 @@ class Behaviour {
 public:
     static Behaviour from_environment();
 
-    // What is known:
-    //   devices=1           how many are plugged in
+    // Flags and keys:
+    //   devices=1           number of devices
     //   refuse_open, refuse_start, refuse_controls
     //   calibration=none|garbage|long|FILE
     //   unplug_after=N      from frame N on, waiting fails
-    //   stall_after=N       from frame N on, nothing comes
+    //   stall_after=N       from frame N on, no captures come
     //   no_color            captures without colour
     //   no_depth            captures without depth
     //   skip_color=N        frame N has no colour
-    //   apart               colour comes in a capture of its own, after the depth
+    //   apart               colour comes in a separate capture after the depth
     //   color_first         the same, before the depth
-    //   depth_width=N, depth_stride=N, depth_bytes=N, depth_format=N   lies about depth
-    //   color_bytes=N, color_format=N, not_jpeg                        lies about colour
-    //   color_later_us=N    colour is dated so much after its depth
+    //   depth_width=N, depth_stride=N, depth_bytes=N, depth_format=N   false values for depth
+    //   color_bytes=N, color_format=N, not_jpeg                        false values for colour
+    //   color_later_us=N    time stamp of colour, relative to its depth
     //   padding=N           bytes after each row of depth
-    //   clock=steady|wall|none   what the system time stamps count
+    //   clock=steady|wall|none   clock of the system time stamps
     //   device_clock=none   no device time stamps
-    //   period_us=N         real time from frame to frame (device time goes by the frame rate)
+    //   period_us=N         real time between frames (device time follows the frame rate)
     bool has(const std::string& word) const { return words_.count(word) > 0; }
     std::string text(const std::string& key, const std::string& otherwise) const;
     long number(const std::string& key, long otherwise) const;

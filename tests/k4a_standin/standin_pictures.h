@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stand-in's cameras see, and the calibration they carry.
+// The pictures of the stand-in's cameras, and their calibration.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace standin {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A sloping wall with a box in front that moves with `frame`; pixel (0, 0) holds
-// `frame` itself. Rows are `stride` bytes long; what lies between them is 0xee.
+// A sloping wall with a box in front that moves with `frame`; pixel (0, 0) is `frame`. Rows are
+// `stride` bytes apart; padding bytes are 0xee.
 Bytes depth_picture(int width, int height, int stride, int frame);
 
-// A JPEG of a gradient, the number of the frame in a comment right behind its start.
+// A JPEG of a gradient, with the frame number in a comment directly after the start marker.
 Bytes color_picture(int width, int height, int frame);
 
-// A made-up factory calibration as the devices store it.
+// An invented factory calibration in the devices' format.
 std::string calibration();
 
 }  // namespace standin
