@@ -11,10 +11,10 @@ namespace theatron::cli {
 // Three years: longer than anything runs, and well within a clock's range.
 inline constexpr double longest_seconds = 1e8;
 
-// Takes `seconds` from --seconds; refuses what is not a time greater than 0.
-inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds,
-                                       const std::string& help) {
-    return command.add_option("--seconds", seconds, help)
+// Takes `seconds` from --seconds, or the option `name`; refuses what is not a time greater than 0.
+inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds, const std::string& help,
+                                       const char* name = "--seconds") {
+    return command.add_option(name, seconds, help)
         ->check([](const std::string& text) -> std::string {
             double value = 0;
             const bool is_number = CLI::detail::lexical_cast(text, value);

@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "commands.h"
 #include "export/export_formats.h"
+#include "export/export_places.h"
 #include "files/json_text.h"
 #include "host/filter_choice.h"
 
@@ -22,6 +23,7 @@ struct Flags {
     bool merged = false;
     bool undistort = false;
     bool registered = false;
+    bool overwrite = false;
     bool json = false;
 };
 
@@ -64,16 +66,6 @@ struct Exported {
     }
 };
 
-// "points" at first, and after calibrations changed "points.2" and so on; "kinect.2.mkv".
-std::filesystem::path place_of(const std::filesystem::path& place, std::size_t calibration) {
-    if (calibration == 0)
-        return place;
-    std::filesystem::path name = place.stem();
-    name += "." + std::to_string(calibration + 1);
-    name += place.extension();
-    return place.parent_path() / name;
-}
-
 // All lines that name filters which the depth went through before it was recorded.
 std::vector<std::string> filters_of(const record::RecordingFile& recording,
                                     std::optional<int> camera) {
@@ -109,6 +101,12 @@ void run(const Flags& flags) {
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
     bool damaged = !recording->intact();
 
+    for (const std::string& folder : {flags.ply, flags.png})
+        if (!folder.empty())
+            exporting::clear_folder(folder, flags.overwrite);
+    if (!flags.k4a.empty())
+        exporting::clear_file(flags.k4a, flags.overwrite);
+
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;
         if (flags.json)
@@ -135,7 +133,7 @@ void run(const Flags& flags) {
         for (std::size_t n = 0; n < calibrations; ++n) {
             exporting::ExportSource source = open_source(flags, recording, n);
             if (!source.cameras.empty())
-                exported.add(source, write(source, place_of(place, n)));
+                exported.add(source, write(source, exporting::place_of(place, n)));
         }
         report(what, exported, place);
     };
@@ -203,6 +201,8 @@ void add_export_command(CLI::App& app) {
                         "Write a file like an Azure Kinect's, as mkv:FILE reads it");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")
         ->check(CLI::Range(0, 62));
+    command->add_flag("--overwrite", flags->overwrite,
+                      "Replace an export that is there; other files in its folders stay");
     command->add_flag("--json", flags->json, "Print what was written as JSON lines");
     command->callback([flags] { run(*flags); });
 }

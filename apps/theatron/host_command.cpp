@@ -20,6 +20,7 @@
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "commands.h"
+#include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "host/host.h"
 #include "host/host_identity.h"
@@ -99,6 +100,8 @@ void run(Flags& flags) {
     flags.options.state = flags.state;
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
+    if (!flags.summary.empty())
+        files::require_writable(flags.summary);
     cli::catch_stop_signals();
     host::Host host(flags.options, cli::show_progress());
     draw_regions(host, flags.regions);

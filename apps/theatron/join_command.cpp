@@ -3,7 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,6 +18,7 @@
 #include "cli/stop_signal.h"
 #include "client/participant.h"
 #include "commands.h"
+#include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/png_file.h"
 #include "input_lines.h"
@@ -131,6 +135,19 @@ struct OffscreenPicture {
     viewer::OffscreenView scene;
 };
 
+// A picture is written at the end: what cannot be is said at the beginning.
+void check_picture_file(const std::string& file) {
+    if (file.empty())
+        return;
+    std::string ending = std::filesystem::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* other : {".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".ppm"})
+        if (ending == other)
+            throw Error("Pictures are written as PNG; name '" + file + "' with the ending .png.");
+    files::require_writable(file);
+}
+
 std::uint32_t to_kbit(double mbit) {
     return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
 }
@@ -203,6 +220,8 @@ void run(const Flags& flags) {
     }
 
     std::unique_ptr<OffscreenPicture> picture;
+    check_picture_file(flags.offscreen);
+    check_picture_file(flags.depth_file);
     if (!flags.offscreen.empty() || !flags.depth_file.empty())
         picture = std::make_unique<OffscreenPicture>(flags);
 
@@ -356,7 +375,13 @@ void add_join_command(CLI::App& app) {
     command
         ->add_option("--max-mbit", flags->max_mbit,
                      "The host sends at most so many megabits a second to you; 0: no ceiling")
-        ->check(CLI::NonNegativeNumber);
+        ->check([](const std::string& text) -> std::string {
+            double value = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            if (is_number && std::isfinite(value) && value >= 0)
+                return "";
+            return "'" + text + "' is not a number of megabits, 0 or more";
+        });
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_flag("--no-window", flags->no_window,
                       "Receive and tell the figures, draw nothing");

@@ -2,6 +2,8 @@
 // theatron: the command-line program.
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <iostream>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -9,6 +11,21 @@
 #include "commands.h"
 #include "link_argument.h"
 #include "unknown_command.h"
+
+namespace {
+
+// What was printed may still be on its way, and its disk full.
+int with_output_written(int code) {
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout)
+        return code;
+    std::fprintf(stderr,
+                 "theatron: What there was to print could not be written: its disk is full "
+                 "or its reader gone.\n");
+    return code != 0 ? code : 1;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
@@ -51,13 +68,17 @@ int main(int argc, char** argv) {
             taken.push_back(argument.c_str());
         app.parse(argc, taken.data());
     } catch (const CLI::ParseError& e) {
-        return app.exit(e);
+        return with_output_written(app.exit(e));
     } catch (const theatron::Error& e) {
         std::fprintf(stderr, "theatron: %s\n", e.what());
+        return 1;
+    } catch (const std::filesystem::filesystem_error& e) {
+        std::fprintf(stderr, "theatron: Cannot use '%s': %s.\n", e.path1().c_str(),
+                     e.code().message().c_str());
         return 1;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "theatron: something unexpected went wrong: %s\n", e.what());
         return 1;
     }
-    return 0;
+    return with_output_written(0);
 }

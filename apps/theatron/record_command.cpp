@@ -34,7 +34,7 @@ struct Flags {
     std::vector<std::string> cameras;
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
-    double seconds = 0;
+    double seconds = 0, wait = 0;  // 0: not given
     int buffer_mb = int(record::Recorder::Options{}.buffer_bytes >> 20);
     bool raw = false;
     bool overwrite = false;
@@ -70,14 +70,17 @@ std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
     const record::RecordCodecs codecs = check_codecs(flags);
     const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
-    if (!flags.overwrite && std::filesystem::exists(file))
+    std::error_code unknown;  // whoever creates the file says why that cannot be
+    if (!flags.overwrite && std::filesystem::exists(file, unknown))
         throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
     if (flags.cameras.empty()) {
         if (flags.names.size() != 2)
             throw Error(
                 "Say what to record: 'theatron record LINK FILE.mkv' or 'theatron record "
                 "--camera SPEC FILE.mkv'.");
-        return client::record_session(parse_link_argument(flags.names[0]), file, codecs, options);
+        return client::record_session(
+            parse_link_argument(flags.names[0]), file, codecs, options,
+            flags.wait > 0 ? std::optional(seconds_to_duration(flags.wait)) : std::nullopt);
     }
     if (flags.names.size() != 1)
         throw Error("With --camera, only the file to record into can be named.");
@@ -127,8 +130,9 @@ nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& 
             cameras.push_back({{"camera", int(camera)},
                                {"name", stream.camera},
                                {"not_encoded", source.not_encoded(camera)},
+                               {"lost_in_source", source.lost_in_source(camera)},
                                {"was_gone", source.was_gone(camera)}});
-            missing.lost += source.not_encoded(camera);
+            missing.lost += source.not_encoded(camera) + source.lost_in_source(camera);
             missing.interruptions += source.was_gone(camera);
         }
         const auto time = [&](const std::optional<TimePoint>& came) {
@@ -300,6 +304,11 @@ void add_record_command(CLI::App& app) {
     command->add_flag("--raw", flags->raw,
                       "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    cli::add_seconds_option(
+        *command, flags->wait,
+        "How long to wait for a host that is not there (at the beginning 15, after a "
+        "loss 600)",
+        "--wait");
     command
         ->add_option("--buffer", flags->buffer_mb,
                      "Megabytes of pictures that may wait for a disk that stands still")

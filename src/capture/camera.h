@@ -52,6 +52,10 @@ public:
     // frame when it is due, and skip frames that are more than one period late. After end or
     // failed, all calls return the same.
     virtual Capture next(Duration timeout) = 0;
+
+    // Pictures, depth and colour counted each, that its recording had and that are damaged or refer
+    // to damaged ones, as far as it was played. In further rounds they count no more.
+    virtual std::uint64_t lost_pictures() const { return 0; }
 };
 
 // Reports the progress of long preparations: the current activity, and its share done (0 to 1).

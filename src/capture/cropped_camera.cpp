@@ -102,6 +102,7 @@ public:
     }
 
     const CameraInfo& info() const override { return info_; }
+    std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
 
     Capture next(Duration timeout) override {
         Capture capture = camera_->next(timeout);

@@ -152,6 +152,15 @@ std::unique_ptr<Camera> open_mkv_camera(Options& options, const Progress& progre
     info.calibration = read_calibration(path, file->file());
     info.frames_per_second = file->frames_per_second();
 
+    int frames = 0;
+    for (; frames <= playback.start && playback.start > 0 && file->offset(); ++frames)
+        file->skip();
+    if (frames <= playback.start && playback.start > 0)
+        throw Error("'" + path.string() + "' has " + std::to_string(frames) +
+                    " frames, so start=" + std::to_string(playback.start) + " is too far.");
+    if (frames > 0)
+        file->rewind();
+
     std::unique_ptr<Recording> recording;
     if (playback.preload.value_or(fs::file_size(path) <= usual_preload_bytes)) {
         const std::size_t bytes_per_frame = file->file().depth_size().area() * 2;

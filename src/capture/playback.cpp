@@ -20,6 +20,7 @@ public:
                     options.start) {}
 
     const CameraInfo& info() const override { return info_; }
+    std::uint64_t lost_pictures() const override { return recording_->lost_pictures(); }
 
     Capture next(Duration timeout) override {
         if (over_)
@@ -139,6 +140,7 @@ MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
             progress("reading frames",
                      std::min(1.0, double(frames_.size()) / double(expected_frames)));
     }
+    lost_pictures_ = source.lost_pictures();
 }
 
 std::optional<Duration> MemoryRecording::offset() {

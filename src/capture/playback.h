@@ -32,6 +32,8 @@ public:
     // The duration of one round of a loop, so that the cameras of one recording stay in step.
     // Nullopt: one period after the last frame.
     virtual std::optional<Duration> round() const { return std::nullopt; }
+    // As in Camera.
+    virtual std::uint64_t lost_pictures() const { return 0; }
 };
 
 // Options of all recorded cameras.
@@ -89,6 +91,7 @@ public:
     std::shared_ptr<Frame> share() override;
     void rewind() override { next_ = 0; }
     std::optional<Duration> round() const override { return round_; }
+    std::uint64_t lost_pictures() const override { return lost_pictures_; }
 
 private:
     struct Kept {
@@ -98,6 +101,7 @@ private:
     std::vector<Kept> frames_;
     std::size_t next_ = 0;
     std::optional<Duration> round_;
+    std::uint64_t lost_pictures_ = 0;
 };
 
 // A camera that plays a recording in real time.

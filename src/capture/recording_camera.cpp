@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
 
@@ -112,6 +113,7 @@ void RecordedFrames::rewind() {
     next_ = begin_;
     is_decoded_ = false;
     last_offset_ = {};
+    lost_before_ = std::max(lost_before_, losses_.depth() + losses_.color());
     losses_ = {};
     begin_part(0);
 }
@@ -141,6 +143,11 @@ std::optional<Duration> RecordedFrames::offset() {
 
 std::optional<Duration> RecordedFrames::round() const {
     return recording_->duration() + seconds_to_duration(1 / info_.frames_per_second);
+}
+
+std::uint64_t RecordedFrames::lost_pictures() const {
+    return content_.depth.damaged + content_.color.damaged +
+           std::max(lost_before_, losses_.depth() + losses_.color());
 }
 
 wire::MediaHeader RecordedFrames::upcoming() const {
@@ -257,8 +264,13 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
     if (options.value().empty())
         throw Error("The camera 'recording' needs a file, as in recording:FILE.mkv.");
     const std::string& file = options.value();
-    auto frames = std::make_unique<RecordedFrames>(record::RecordingFile::open(file),
-                                                   std::size_t(camera), file);
+    const std::shared_ptr<const record::RecordingFile> opened = record::RecordingFile::open(file);
+    if (!opened->intact())
+        log::warning("capture", "the recording is damaged; what is whole of it plays",
+                     {{"file", file},
+                      {"damaged_pictures", opened->refused()},
+                      {"missing_segments", opened->missing_segments()}});
+    auto frames = std::make_unique<RecordedFrames>(opened, std::size_t(camera), file);
     if (frames->frames() == 0)
         throw Error("'" + file + "' holds no frame of camera " + std::to_string(camera) + ".");
     if (std::size_t(playback.start) >= frames->frames())

@@ -55,6 +55,7 @@ public:
     void read(Frame& out) override;
     void rewind() override;
     std::optional<Duration> round() const override;
+    std::uint64_t lost_pictures() const override;
 
     // The next frame's header as recorded. Precondition: offset() returned a value.
     wire::MediaHeader upcoming() const;
@@ -87,6 +88,7 @@ private:
     Duration last_offset_{};
     Bytes payload_;
     PictureLosses losses_;
+    std::uint64_t lost_before_ = 0;  // in the worst round before this one
 };
 
 }  // namespace theatron::capture

@@ -125,12 +125,14 @@ WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration time
     const PictureMark mark = got.kind == Capture::Kind::frame && info_.live
                                  ? mark_of(got.frame->depth.view())
                                  : PictureMark{};
+    const std::uint64_t lost = camera.lost_pictures();
 
     std::shared_ptr<Camera> closing;  // destroyed outside the lock
     const std::lock_guard lock(mutex_);
     if (unsigned(turn) != turn_)
         return {nullptr, true};
     entered_driver_ = {};
+    note_lost(lost, got.kind == Capture::Kind::end);
     switch (got.kind) {
         case Capture::Kind::frame: {
             const FrameTimes& times = got.frame->times;
@@ -151,6 +153,17 @@ WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration time
             return {};
     }
     return {};
+}
+
+// Not with every picture of a recording that is all damage.
+void WatchedCamera::note_lost(std::uint64_t pictures, bool at_once) {
+    constexpr Duration interval = 1s;
+    const TimePoint now = clock_.now();
+    if (pictures == lost_pictures_ ||
+        (lost_pictures_ > 0 && now - lost_noted_ < interval && !at_once))
+        return;
+    lost_pictures_ = pictures;
+    lost_noted_ = now;
 }
 
 WatchedCamera::Step WatchedCamera::end(CameraCondition how, std::string problem) {
@@ -187,6 +200,10 @@ WatchedCamera::Status WatchedCamera::status() const {
         status.trouble = care_.trouble();
         status.problem = sentence(status.trouble, care_.problem());
     }
+    status.lost_pictures = lost_pictures_;
+    if (status.problem.empty() && lost_pictures_ > 0)
+        status.problem = "Its recording is damaged: " + std::to_string(lost_pictures_) +
+                         (lost_pictures_ == 1 ? " picture is lost." : " pictures are lost.");
     status.figures = care_.figures();
     status.without_picture = now - care_.last_good();
     status.hangs = entered_driver_ != TimePoint{} &&

@@ -60,12 +60,16 @@ public:
         CameraCare::Figures figures;
         Duration without_picture{};  // since the last good one
         bool hangs = false;          // step() does not return from the camera's code
+        // Camera::lost_pictures(), as of the last second; `problem` names it where nothing else is
+        // wrong.
+        std::uint64_t lost_pictures = 0;
     };
     Status status() const;
 
 private:
     Step reopen(Turn turn);
     Step take(Turn turn, Camera& camera, Duration timeout);
+    void note_lost(std::uint64_t pictures, bool at_once);
     Step end(wire::CameraCondition how, std::string problem);
 
     const CameraInfo info_;
@@ -81,6 +85,8 @@ private:
     bool over_ = false;
     wire::CameraCondition how_over_{};
     std::string problem_;
+    std::uint64_t lost_pictures_ = 0;
+    TimePoint lost_noted_;
 };
 
 // The mark of a picture, for the comparison with the next.

@@ -279,11 +279,16 @@ void Participant::on_camera_states() {
             if (found == session_.camera_states().end())
                 continue;
             const wire::CameraCondition before = camera.state.condition;
+            const bool had_problem = !camera.state.problem.empty();
             camera.state = found->second;
-            if (camera.state.condition == before)
-                continue;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
+            const bool plays_damage =
+                camera.state.condition == Condition::live && !camera.state.problem.empty();
+            if (plays_damage && (!had_problem || before != Condition::live))
+                news.push_back(name + ": " + camera.state.problem);
+            if (camera.state.condition == before)
+                continue;
             if (camera.state.condition == Condition::ended)
                 news.push_back(name + " has ended; its last picture stays.");
             else if (camera.state.condition == Condition::failed)

@@ -13,6 +13,9 @@ namespace theatron::client {
 namespace {
 
 constexpr Duration join_patience = std::chrono::seconds(15);
+// A host that was lost may be started again by hand.
+constexpr Duration return_patience = std::chrono::minutes(10);
+constexpr Duration said_after = std::chrono::seconds(1);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -22,11 +25,18 @@ static_assert(
         session::RequestBudget::limits[std::size_t(session::RequestBudget::Kind::key)].per_second >=
     1);
 
+std::string seconds_text(Duration duration) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%g s", to_seconds(duration));
+    return text;
+}
+
 class SessionRecording final : public record::RecordSource {
 public:
     SessionRecording(const net::Link& link, const std::string& file,
-                     const record::RecordCodecs& codecs, const record::Recorder::Options& recorder)
-        : created_(steady_now()), intake_(file, recorder) {
+                     const record::RecordCodecs& codecs, const record::Recorder::Options& recorder,
+                     std::optional<Duration> patience)
+        : created_(steady_now()), patience_(patience), intake_(file, recorder) {
         Participant::Options options;
         options.link = link;
         options.name = "recorder";
@@ -51,9 +61,10 @@ public:
     void tick() override {
         const Participant::Status status = participant_->status();
         const bool begun = intake_.recorder() != nullptr;
+        wait(status);
         if (status.phase == Participant::Phase::refused && !begun)
             throw Error(status.problem);
-        if (!begun && steady_now() - created_ > join_patience)
+        if (!begun && steady_now() - created_ > patience_.value_or(join_patience))
             throw Error(status.problem.empty() ? "The host sent nothing to record."
                                                : status.problem);
         if (status.phase == Participant::Phase::refused)
@@ -70,6 +81,7 @@ public:
     }
     std::optional<End> ended() override { return end_; }
     std::uint64_t not_encoded(CameraId) const override { return 0; }
+    std::uint64_t lost_in_source(CameraId) const override { return 0; }
     bool was_gone(CameraId) const override { return false; }
 
     void stop() override {
@@ -82,6 +94,28 @@ public:
     }
 
 private:
+    // How long the host has not been there; says so, and ends the recording in the end.
+    void wait(const Participant::Status& status) {
+        const TimePoint now = steady_now();
+        const bool there = status.phase != Participant::Phase::connecting &&
+                           status.phase != Participant::Phase::lost;
+        if (there || gone_since_ == TimePoint{}) {
+            gone_since_ = now;
+            said_ = false;
+        }
+        const bool begun = intake_.recorder() != nullptr;
+        const Duration patience = patience_.value_or(begun ? return_patience : join_patience);
+        if (there)
+            return;
+        if (now - gone_since_ > said_after && !std::exchange(said_, true))
+            std::fprintf(stderr, "Waiting for the host, up to %s.\n",
+                         seconds_text(patience).c_str());
+        if (begun && now - gone_since_ > patience)
+            end_ = End{"The host did not come back within " + seconds_text(patience) +
+                           ", so the recording ends here.",
+                       true};
+    }
+
     struct Early {
         wire::MediaHeader header;
         std::shared_ptr<const Bytes> message;
@@ -187,6 +221,9 @@ private:
     }
 
     const TimePoint created_;
+    const std::optional<Duration> patience_;
+    TimePoint gone_since_;
+    bool said_ = false;
     record::Intake intake_;
     std::optional<End> end_;
 
@@ -207,8 +244,9 @@ private:
 
 std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& file,
                                                      const record::RecordCodecs& codecs,
-                                                     const record::Recorder::Options& options) {
-    return std::make_unique<SessionRecording>(link, file, codecs, options);
+                                                     const record::Recorder::Options& options,
+                                                     std::optional<Duration> patience) {
+    return std::make_unique<SessionRecording>(link, file, codecs, options, patience);
 }
 
 }  // namespace theatron::client

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "net/link.h"
@@ -10,9 +11,11 @@
 
 namespace theatron::client {
 
-// Joins the session and records what comes as it comes.
+// Joins the session and records what comes as it comes. `patience`: how long to wait for a host
+// that is not there, at the beginning and whenever it was lost; not given: 15 s, then 10 minutes.
 std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& file,
                                                      const record::RecordCodecs& codecs,
-                                                     const record::Recorder::Options& options);
+                                                     const record::Recorder::Options& options,
+                                                     std::optional<Duration> patience = {});
 
 }  // namespace theatron::client

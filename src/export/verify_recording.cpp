@@ -2,8 +2,11 @@
 #include "export/verify_recording.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "base/error.h"
 #include "capture/recording_camera.h"
+#include "video/color_codec.h"
 #include "video/jpeg_native.h"
 
 namespace theatron::exporting {
@@ -30,34 +33,92 @@ void count_gaps(const record::StreamContent& stream, double frames_per_second,
     }
 }
 
-// Decodes the camera's pictures of one calibration.
-void decode_all(capture::RecordedFrames& camera, Minutes& minutes,
-                const std::function<void()>& picture_done) {
-    video::JpegDecompressor jpeg;
-    ColorImage color;
-    Frame frame;
+// Decodes the camera's depth of one calibration.
+void decode_depth(capture::RecordedFrames& camera, Minutes& minutes,
+                  const std::function<void()>& picture_done) {
     capture::PictureLosses before;
     while (true) {
         const auto offset = camera.offset();
-        VerifiedMinute& minute = minutes[offset            ? minute_of(*offset)
-                                         : minutes.empty() ? 0
-                                                           : minutes.rbegin()->first];
-        if (offset) {
-            camera.read(frame);
-            ++minute.depth.pictures;
-            if (frame.color.is_jpeg() && jpeg.decompress(frame.color.jpeg, color) != Status::ok)
-                ++minute.color.damaged;
-            else
-                minute.color.pictures += !frame.color.empty();
-        }
+        VerifiedPictures& minute = minutes[offset            ? minute_of(*offset)
+                                           : minutes.empty() ? 0
+                                                             : minutes.rbegin()->first]
+                                       .depth;
         const capture::PictureLosses& losses = camera.losses();
-        minute.depth.damaged += losses.damaged_depth - before.damaged_depth;
-        minute.depth.undecodable += losses.undecodable_depth - before.undecodable_depth;
-        minute.color.damaged += losses.damaged_color - before.damaged_color;
-        minute.color.undecodable += losses.undecodable_color - before.undecodable_color;
+        minute.damaged += losses.damaged_depth - before.damaged_depth;
+        minute.undecodable += losses.undecodable_depth - before.undecodable_depth;
         before = losses;
         if (!offset)
             return;
+        ++minute.pictures;
+        camera.skip();
+        picture_done();
+    }
+}
+
+// Decoders of a camera's colour in one of its parts.
+class ColorCheck {
+public:
+    explicit ColorCheck(const record::CameraPart& part)
+        : size_{part.color.width, part.color.height} {
+        if (part.color.codec.starts_with("jpeg"))
+            return;
+        const auto parsed = video::parse_color_setting(part.color.codec);
+        if (!parsed.problem.empty())
+            throw Error("The colour is encoded in a way that this Theatron does not know: " +
+                        parsed.problem);
+        decoder_ = video::make_color_decoder(parsed.setting.id);
+    }
+
+    // missing_reference: it is whole, and what it refers to is not.
+    Status decode(const wire::MediaHeader& header, ByteView payload) {
+        if (!decoder_) {
+            const Status status = jpeg_.decompress(payload, image_);
+            return status == Status::ok && image_.size != size_ ? Status::size_mismatch : status;
+        }
+        // One that is no key frame refers to the one before it, and so on to a key frame.
+        if (!header.key && last_ != header.reference)
+            return Status::missing_reference;
+        last_.reset();
+        Status status = decoder_->submit(payload, header.frame);
+        if (status != Status::ok)
+            return status;
+        last_ = header.frame;
+        status = Status::malformed;
+        while (auto decoded = decoder_->poll()) {
+            status = decoded->image.size == size_ ? Status::ok : Status::size_mismatch;
+            decoder_->recycle(std::move(decoded->image));
+        }
+        return status;
+    }
+
+private:
+    Size size_;
+    std::unique_ptr<video::ColorDecoder> decoder_;  // null: JPEG
+    std::optional<FrameNumber> last_;               // that it decoded
+    video::JpegDecompressor jpeg_;
+    ColorImage image_;
+};
+
+// Decodes all colour of a camera, whatever depth there is.
+void decode_color(const record::RecordingFile& recording, const record::CameraContent& camera,
+                  Minutes& minutes, const std::function<void()>& picture_done) {
+    std::optional<ColorCheck> check;
+    const record::CameraPart* part = nullptr;
+    Bytes payload;
+    for (const record::RecordedFrame& frame : camera.color.frames) {
+        if (!part || part->segment != frame.segment) {
+            part = &*std::find_if(camera.parts.begin(), camera.parts.end(),
+                                  [&](const auto& p) { return p.segment == frame.segment; });
+            check.emplace(*part);
+        }
+        const auto header = recording.read_header(frame);
+        Status status = header ? recording.read_payload(frame, payload) : header.error();
+        if (status == Status::ok)
+            status = check->decode(*header, payload);
+        VerifiedPictures& minute = minutes[minute_of(frame.time())].color;
+        minute.pictures += status == Status::ok;
+        minute.undecodable += status == Status::missing_reference;
+        minute.damaged += status != Status::ok && status != Status::missing_reference;
         picture_done();
     }
 }
@@ -76,7 +137,7 @@ Verification verify(const std::shared_ptr<const record::RecordingFile>& recordin
     found.damaged = !recording->intact();
     std::size_t all = 0, done = 0;
     for (const record::CameraContent& camera : recording->cameras())
-        all += camera.depth.frames.size();
+        all += camera.depth.frames.size() + camera.color.frames.size();
     const auto picture_done = [&] {
         if (++done % 16 == 0 && progress)
             progress("verifying", double(done) / double(all));
@@ -88,8 +149,9 @@ Verification verify(const std::shared_ptr<const record::RecordingFile>& recordin
         count_gaps(content.color, content.frames_per_second, &VerifiedMinute::color, minutes);
         for (std::size_t n = 0; n < capture::calibrations_of(content); ++n) {
             capture::RecordedFrames frames(recording, i, file, n);
-            decode_all(frames, minutes, picture_done);
+            decode_depth(frames, minutes, picture_done);
         }
+        decode_color(*recording, content, minutes, picture_done);
         for (const auto& [minute, pictures] : minutes)
             for (const VerifiedPictures& p : {pictures.depth, pictures.color})
                 found.damaged |= p.damaged > 0 || p.undecodable > 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/file_bytes.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -60,6 +62,18 @@ void write_file(const std::filesystem::path& path, ByteView bytes) {
         std::remove(draft.c_str());
         refuse("write", path, std::strerror(reason));
     }
+}
+
+void require_writable(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        refuse("write", path, "it is a folder");
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    // Devices are written as they are.
+    const bool is_device =
+        std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+    if (access(is_device ? path.c_str() : folder.c_str(), is_device ? W_OK : W_OK | X_OK) != 0)
+        refuse("write", path, std::strerror(errno));
 }
 
 }  // namespace theatron::files

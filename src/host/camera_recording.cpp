@@ -113,6 +113,10 @@ public:
         return begun_ ? lanes_[i]->figures().dropped_newest - not_encoded_before_[i] : 0;
     }
 
+    std::uint64_t lost_in_source(CameraId camera) const override {
+        return lanes_[std::size_t(camera)]->figures().camera.lost_pictures;
+    }
+
     bool was_gone(CameraId camera) const override {
         const std::lock_guard lock(mutex_);
         return failed_.contains(camera) ||
@@ -141,6 +145,10 @@ private:
         const std::lock_guard lock(mutex_);
         const std::string camera = "Camera " + names_[std::size_t(state.camera)];
         Condition& before = conditions_[state.camera];
+        const bool plays_damage = !state.problem.empty() && (state.condition == Condition::live ||
+                                                             state.condition == Condition::ended);
+        if (plays_damage && (damage_said_.insert(state.camera).second || state.condition != before))
+            std::fprintf(stderr, "%s: %s\n", camera.c_str(), state.problem.c_str());
         if (state.condition == before)
             return;
         before = state.condition;
@@ -168,7 +176,7 @@ private:
 
     mutable std::mutex mutex_;  // guards all up to the workers
     std::map<CameraId, wire::CameraCondition> conditions_;
-    std::set<CameraId> ended_, failed_;
+    std::set<CameraId> ended_, failed_, damage_said_;
     TimePoint over_since_;
 
     send::Workers workers_;

@@ -69,6 +69,7 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
             {"dropped", dropped},
             {"troubles", troubles},
             {"reopens", f.camera.figures.reopens},
+            {"lost_pictures", f.camera.lost_pictures},
             {"bytes", f.bytes},
             {"stages", stages}};
 }
@@ -123,11 +124,14 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"name", participant.name},
                                 {"sent", participant.sent},
                                 {"renderer", participant.renderer},
+                                {"refused_requests", participant.refused},
                                 {"age_ms", age_ms(participant)}});
     return {{"name", figures.name},
             {"seconds", figures.seconds},
             {"cameras", cameras},
-            {"participants", participants}};
+            {"participants", participants},
+            {"turned_away", figures.turned_away},
+            {"faults", figures.faults}};
 }
 
 std::string to_prometheus(const HostFigures& figures) {
@@ -174,6 +178,9 @@ std::string to_prometheus(const HostFigures& figures) {
         for (int kind = 1; kind < capture::trouble_kinds; ++kind)
             out.value(labels(i) + ",kind=\"" + capture::text_of(capture::Trouble(kind)) + "\"",
                       double(figures.cameras[i].lane.camera.figures.troubles[std::size_t(kind)]));
+    per_camera("recorded_pictures_lost_total", "counter",
+               "Pictures of a damaged recording that cannot be played.",
+               [](const Camera& c) { return double(c.lane.camera.lost_pictures); });
     per_camera("reopens_total", "counter", "How often the camera was opened again.",
                [](const Camera& c) { return double(c.lane.camera.figures.reopens); });
 
@@ -184,6 +191,17 @@ std::string to_prometheus(const HostFigures& figures) {
     for (const auto& participant : figures.participants)
         out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
                   age_ms(participant) / 1000);
+    out.family("requests_refused_total", "counter",
+               "Requests that came too often, by participant.");
+    for (const auto& participant : figures.participants)
+        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
+                  double(participant.refused));
+    out.family("strangers_turned_away_total", "counter",
+               "Connections that showed no token in time.");
+    out.value("", double(figures.turned_away));
+    out.family("faults_total", "counter",
+               "Faults that cost a connection, a picture or a camera and not the host.");
+    out.value("", double(figures.faults));
     out.family("uptime_seconds", "counter", "Since the host began.");
     out.value("", figures.seconds);
     return out.take();
@@ -207,6 +225,14 @@ std::string to_table(const nlohmann::json& figures) {
                   text(figures, "name").c_str(), cameras.size(), participants.size(),
                   number(figures, "seconds"));
     std::string table = line;
+    const auto count = [&](const char* field, const char* what) {
+        if (const double value = number(figures, field); value > 0) {
+            std::snprintf(line, sizeof(line), "%s: %.0f\n", what, value);
+            table += line;
+        }
+    };
+    count("faults", "faults inside the host, see its log");
+    count("turned_away", "strangers turned away");
     std::snprintf(line, sizeof(line), "%-24s %-7s %6s %8s %8s %8s %8s %8s  %s\n", "camera", "state",
                   "fps", "age ms", "lane ms", "p99 ms", "dropped", "reopens", "filter");
     table += line;
@@ -230,11 +256,16 @@ std::string to_table(const nlohmann::json& figures) {
     for (const auto& participant : participants) {
         const std::string renderer = text(participant, "renderer");
         std::snprintf(line, sizeof(line),
-                      "participant %.0f %.100s: newest picture %.0f ms old%s%.40s\n",
+                      "participant %.0f %.100s: newest picture %.0f ms old%s%.40s",
                       number(participant, "id"), text(participant, "name").c_str(),
                       number(participant, "age_ms"), renderer.empty() ? "" : ", drawn with ",
                       renderer.c_str());
         table += line;
+        if (const double refused = number(participant, "refused_requests"); refused > 0) {
+            std::snprintf(line, sizeof(line), ", %.0f requests refused", refused);
+            table += line;
+        }
+        table += "\n";
     }
     return table;
 }

@@ -26,13 +26,16 @@ struct HostFigures {
         std::string sent;                         // how much of what it asked for
         std::vector<wire::StreamReport> streams;  // its newest report
         std::string renderer;                     // how it draws; empty: unknown
+        std::uint64_t refused = 0;                // requests that came too often
     };
     std::vector<Participant> participants;
+    std::uint64_t turned_away = 0;  // strangers, since the host began
+    std::uint64_t faults = 0;       // that cost a connection, a picture or a camera (base/fault.h)
 };
 
 // {"name","seconds","cameras":[{"name","state","problem","fps","age_ms","stages":[…],
-// "dropped":{…},…}],"participants":[{"id","name","age_ms",
-// "renderer",…}]}
+// "dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
+// "renderer","refused_requests",…}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

@@ -22,6 +22,7 @@ net::Server::Handler Host::Impl::handler() {
     net::Server::Handler h;
     h.invited = [this](ByteView first) { return is_invited(first); };
     h.turned_away = [this](const std::string& address, const std::string& why) {
+        ++turned_away;
         if (const auto left_out = strangers.take(address, steady_now()))
             log::info("host", "stranger turned away",
                       {{"address", address}, {"why", why}, {"left_out", *left_out}});
@@ -235,6 +236,9 @@ void Host::Impl::on_camera_states() {
         else if (state.condition == Condition::stale)
             log::warning("host", "camera is stale",
                          {{"camera", int(camera)}, {"problem", state.problem}});
+        else if (!state.problem.empty())
+            log::warning("host", "camera plays a damaged recording",
+                         {{"camera", int(camera)}, {"problem", state.problem}});
         else if (state.condition == Condition::live)
             log::info("host", "camera is live", {{"camera", int(camera)}});
         session->on_camera(state);
@@ -278,7 +282,8 @@ void Host::Impl::note_participants() {
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
             list.push_back({id, participant.name, participant.delivery.step().what,
-                            participant.report, participant.renderer});
+                            participant.report, participant.renderer,
+                            participant.budget.refused()});
     participants = list.size();
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
@@ -296,6 +301,8 @@ HostFigures Host::Impl::figures() const {
             {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
     }
     figures.participants = participant_figures;
+    figures.turned_away = turned_away;
+    figures.faults = fault_count();
     return figures;
 }
 

@@ -48,6 +48,8 @@ struct Host::Impl {
     std::vector<std::string> http_tokens;
     const TimePoint begun = steady_now();
 
+    std::atomic<std::uint64_t> turned_away = 0;  // strangers
+
     std::set<net::PeerId> leaving;  // told that the session is over; server's thread
     std::mutex goodbye_mutex;
     std::condition_variable goodbye_changed;

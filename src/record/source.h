@@ -36,6 +36,8 @@ public:
 
     // Frames that a camera gave but that were never encoded.
     virtual std::uint64_t not_encoded(CameraId camera) const = 0;
+    // Pictures that were lost in the recording that a camera plays.
+    virtual std::uint64_t lost_in_source(CameraId camera) const = 0;
     // A camera was gone for a while.
     virtual bool was_gone(CameraId camera) const = 0;
     // No more frames from now on.

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "export/export_places.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace theatron::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Found {
+    std::vector<fs::path> files;
+    std::vector<fs::path> folders;  // inner ones first
+};
+
+// As export_folders.cpp names them: five digits or more. Also one whose writing was cut off.
+bool is_picture(fs::path name, std::initializer_list<const char*> endings) {
+    if (name.extension() == ".part")
+        name = name.stem();
+    const std::string stem = name.stem().string();
+    constexpr std::size_t digits = 5;
+    return stem.size() >= digits &&
+           std::all_of(stem.begin(), stem.end(), [](char c) { return '0' <= c && c <= '9'; }) &&
+           std::any_of(endings.begin(), endings.end(),
+                       [&](const char* ending) { return name.extension() == ending; });
+}
+
+bool is_camera(const std::string& name) {
+    constexpr std::string_view front = "camera-";
+    return name.starts_with(front) && name.size() > front.size() &&
+           name.find_first_not_of("0123456789", front.size()) == std::string::npos;
+}
+
+template <class Visit>
+void for_each_in(const fs::path& folder, Visit visit) {
+    std::error_code problem;
+    for (fs::directory_iterator at(folder, problem), end; !problem && at != end;
+         at.increment(problem))
+        visit(at->path());
+}
+
+// What an export has made in `folder`.
+void find(const fs::path& folder, bool may_have_cameras, Found& found) {
+    for_each_in(folder, [&](const fs::path& path) {
+        const std::string name = path.filename().string();
+        std::error_code ignored;
+        if (is_picture(name, {".ply"}) || name == "calibration.json" ||
+            name == "calibration.json.part") {
+            found.files.push_back(path);
+        } else if (fs::is_directory(path, ignored) && (name == "depth" || name == "color")) {
+            for_each_in(path, [&](const fs::path& picture) {
+                if (is_picture(picture.filename(), {".png", ".jpg"}))
+                    found.files.push_back(picture);
+            });
+            found.folders.push_back(path);
+        } else if (may_have_cameras && fs::is_directory(path, ignored) && is_camera(name)) {
+            find(path, false, found);
+            found.folders.push_back(path);
+        }
+    });
+}
+
+void clear(const fs::path& folder, bool overwrite) {
+    Found found;
+    find(folder, true, found);
+    if (found.files.empty())
+        return;
+    if (!overwrite)
+        throw Error("'" + folder.string() +
+                    "' holds an export already; name another folder, or give --overwrite.");
+    for (const fs::path& file : found.files) {
+        std::error_code problem;
+        if (!fs::remove(file, problem) && problem)
+            throw Error("Cannot remove '" + file.string() + "': " + problem.message() + ".");
+    }
+    // Those that hold something else stay.
+    for (const fs::path& one : found.folders) {
+        std::error_code ignored;
+        fs::remove(one, ignored);
+    }
+}
+
+}  // namespace
+
+fs::path place_of(const fs::path& place, std::size_t calibration) {
+    if (calibration == 0)
+        return place;
+    fs::path name = place.stem();
+    name += "." + std::to_string(calibration + 1);
+    name += place.extension();
+    return place.parent_path() / name;
+}
+
+void clear_folder(const fs::path& folder, bool overwrite) {
+    clear(folder, overwrite);
+    std::error_code ignored;
+    for (std::size_t n = 1; fs::is_directory(place_of(folder, n), ignored); ++n)
+        clear(place_of(folder, n), overwrite);
+}
+
+void clear_file(const fs::path& file, bool overwrite) {
+    std::error_code ignored;
+    for (std::size_t n = 0; fs::exists(place_of(file, n), ignored); ++n) {
+        const fs::path one = place_of(file, n);
+        if (!overwrite)
+            throw Error("'" + one.string() +
+                        "' exists already; name another file, or give --overwrite.");
+        std::error_code problem;
+        if (!fs::remove(one, problem))
+            throw Error("Cannot remove '" + one.string() + "': " + problem.message() + ".");
+    }
+}
+
+}  // namespace theatron::exporting
