@@ -22,7 +22,7 @@
 #include "cli/progress.h"
 #include "codec/depth_codec.h"
 #include "codec/rows.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 

@@ -10,7 +10,7 @@
 #include "base/statistics.h"
 #include "geometry/camera_model.h"
 #include "render/ball_scene.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/gl.h"
 #include "render/offscreen_context_native.h"
 #include "render/render_target.h"
@@ -19,7 +19,7 @@ namespace theatron::bench {
 namespace {
 
 using render::CameraView;
-using render::CloudScene;
+using render::CloudSet;
 using render::Picture;
 
 constexpr Rgb black{};
@@ -35,7 +35,7 @@ double timed_ms(const Work& work) {
         .count();
 }
 
-void upload(CloudScene& scene, int id, const RenderBenchCamera& camera) {
+void upload(CloudSet& scene, int id, const RenderBenchCamera& camera) {
     if (scene.upload(CameraId(id), camera.depth.view(), camera.color.view()) != Status::ok)
         throw Error("A camera's images do not have the size of its calibration.");
 }
@@ -72,7 +72,7 @@ bool shown_near(const Picture& drawn, Vec2 place, double mm, std::optional<Rgb> 
 
 // Renders one camera from its own position and checks each of its pixels.
 void check_renderer(const RenderBenchCamera& camera, const std::string& renderer) {
-    CloudScene scene;
+    CloudSet scene;
     scene.set_camera(CameraId{0}, camera.calibration);
     upload(scene, 0, camera);
     const CameraModel& lens = camera.calibration.depth;
@@ -134,7 +134,7 @@ nlohmann::json bench_render(const RenderBench& bench) {
     const int count = int(bench.cameras.size());
     std::vector<std::vector<double>> frame_ms(renderers.size()), upload_ms(renderers.size());
     {
-        CloudScene scene;
+        CloudSet scene;
         scene.set_depth_step(bench.depth_step);
         for (int i = 0; i < count; ++i)
             scene.set_camera(CameraId(i), bench.cameras[std::size_t(i)].calibration);

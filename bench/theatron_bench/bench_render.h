@@ -26,7 +26,7 @@ struct RenderBench {
     std::vector<RenderBenchCamera> cameras;
     Size picture{1280, 720};
     std::vector<std::string> renderers;  // empty: all
-    int depth_step = 1;                  // see render::CloudScene::set_depth_step; the check uses 1
+    int depth_step = 1;                  // see render::CloudSet::set_depth_step; the check uses 1
     int repetitions = 15;
 };
 

@@ -6,14 +6,14 @@
 
 #include "base/error.h"
 #include "files/png_file.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/offscreen_context_native.h"
 #include "render/picture_quality.h"
 
 namespace theatron::bench {
 namespace {
 
-using render::CloudScene;
+using render::CloudSet;
 using render::Picture;
 
 constexpr int before_last = ViewBenchCamera::frames - 2;
@@ -55,7 +55,7 @@ constexpr ColorKind color_kinds[] = {
                                  camera.color[frame].view());
      }}};
 
-void show(CloudScene& scene, const std::vector<ViewBenchCamera>& cameras, int frame,
+void show(CloudSet& scene, const std::vector<ViewBenchCamera>& cameras, int frame,
           const ColorKind& kind) {
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const ViewBenchImages images = kind.images(cameras[i], frame);
@@ -84,7 +84,7 @@ nlohmann::json bench_view(const ViewBenchScene& truth, std::vector<std::string> 
     std::vector<Figures> figures(renderers.size());
     {
         // Renderers may use earlier frames, so all frames are shown in order.
-        CloudScene scene;
+        CloudSet scene;
         for (int frame = 0; frame < before_last; ++frame) {
             show(scene, truth.cameras, frame, color_kinds[0]);
             for (const std::string& renderer : renderers)
@@ -118,7 +118,7 @@ nlohmann::json bench_view(const ViewBenchScene& truth, std::vector<std::string> 
         }
     }
     for (const ColorKind& kind : color_kinds) {
-        CloudScene scene;
+        CloudSet scene;
         for (int frame = 0; frame < ViewBenchCamera::frames; ++frame) {
             show(scene, truth.cameras, frame, kind);
             for (const std::string& renderer : renderers)

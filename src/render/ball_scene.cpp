@@ -68,7 +68,7 @@ Seen look(const Pose& room_from_eye, Vec2 direction) {
     return {*t * 1000, color_of(room_from_eye.translation + along * *t)};
 }
 
-void show(CloudScene& scene, int id, const Calibration& camera) {
+void show(CloudSet& scene, int id, const Calibration& camera) {
     const BallSceneImages images = ball_scene_images(camera, 0, 0);
     scene.set_camera(CameraId(id), camera);
     if (scene.upload(CameraId(id), images.depth.view(), images.color.view()) != Status::ok)
@@ -128,12 +128,12 @@ CameraView golden_view() {
     return view_towards({-0.2, 1.6, 1.7}, ball_scene_middle, 50, golden_picture_size);
 }
 
-void show_golden_scene(CloudScene& scene) {
+void show_golden_scene(CloudSet& scene) {
     for (int i = 0; i < 2; ++i)
         show(scene, i, ball_scene_camera(i, 2, 80, {160, 144}, {320, 180}));
 }
 
-void show_mixed_golden_scene(CloudScene& scene) {
+void show_mixed_golden_scene(CloudSet& scene) {
     Calibration wide = ball_scene_camera(0, 3, 100, {192, 90}, {200, 150});
     wide.depth.k = {0.15, -0.05, 0.01, 0.05, 0.01, 0};
     wide.depth_unit_mm = 0.25;

@@ -6,7 +6,7 @@
 
 #include "geometry/calibration.h"
 #include "image/image.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 
 namespace theatron::render {
 
@@ -35,9 +35,9 @@ inline constexpr Vec3 ball_scene_middle{0, 0.9, 0};
 // The picture that every renderer's golden picture is of: two cameras, seen from between.
 inline constexpr Size golden_picture_size{80, 60};
 CameraView golden_view();
-void show_golden_scene(CloudScene& scene);
+void show_golden_scene(CloudSet& scene);
 // The same view of three cameras of different sensors: sizes, lenses, units of depth, and colour
 // beside the depth camera, registered to it, or none.
-void show_mixed_golden_scene(CloudScene& scene);
+void show_mixed_golden_scene(CloudSet& scene);
 
 }  // namespace theatron::render

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "render/ball_scene.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/gl.h"
 #include "render/render_target.h"
 #include "render/test_context.h"
@@ -24,7 +24,7 @@ class BlendTest : public ::testing::Test {
 protected:
     void SetUp() override {
         test_context();
-        scene = std::make_unique<CloudScene>();
+        scene = std::make_unique<CloudSet>();
         for (int i = 0; i < 3; ++i)
             exact.push_back(ball_scene_camera(i, 3, 90, {160, 144}, {320, 180}));
         registered = exact;
@@ -71,7 +71,7 @@ protected:
     const CameraView view = view_towards({0.3, 1.5, 1.9}, ball_scene_middle, 50, picture_size);
     const int errors_before = test_context().errors();
     std::vector<Calibration> exact, registered;
-    std::unique_ptr<CloudScene> scene;
+    std::unique_ptr<CloudSet> scene;
 };
 
 int squared_difference(Rgb a, Rgb b) {
@@ -116,7 +116,7 @@ TEST_F(BlendTest, IsCloserToTheTruthThanTheMeshesAndFlickersLess) {
 TEST_F(BlendTest, DoesNotDependOnTheOrderOfTheCameras) {
     show_all(1);
     const Picture one = scene->render(view, picture_size, "blend");
-    scene = std::make_unique<CloudScene>();
+    scene = std::make_unique<CloudSet>();
     show(0, 2, 1);
     show(1, 0, 2);
     show(2, 1, 3);

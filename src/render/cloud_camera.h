@@ -63,7 +63,7 @@ public:
     void set_calibration(const Calibration& calibration);
     void take_settings(const CloudCamera& before);
 
-    // See CloudScene. The buffer is only for the way to the GPU.
+    // See CloudSet. The buffer is only for the way to the GPU.
     Status upload(DepthView depth, ColorView color, const Buffer& staging);
 
     // Uploads what the shaders of cloud.glsl know of the camera for this view.
@@ -83,7 +83,7 @@ public:
     // colour lens, but not by where the camera stands.
     unsigned content() const { return content_; }
 
-    double presence = 1;        // see CloudScene
+    double presence = 1;        // see CloudSet
     Vec3 color_gain{1, 1, 1};   // red, green, blue; see ColorBalance
     double depth_offset_m = 0;  // see DepthOffsets
     CloudCut cut;

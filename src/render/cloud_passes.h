@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/cloud_camera.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/gl.h"
 
 namespace theatron::render {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "render/ball_scene.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/test_context.h"
 
 namespace theatron::render {
@@ -73,7 +73,7 @@ void expect_golden(const ColorImage& drawn, const std::string& file) {
 
 TEST_P(GoldenTest, DrawsThePictureThatWasLookedAt) {
     test_context();
-    CloudScene scene;
+    CloudSet scene;
     show_golden_scene(scene);
     expect_golden(scene.render(golden_view(), picture_size, GetParam()).color,
                   "tests/golden/render_" + GetParam() + ".ppm");
@@ -81,7 +81,7 @@ TEST_P(GoldenTest, DrawsThePictureThatWasLookedAt) {
 
 TEST_P(GoldenTest, DrawsSensorsOfDifferentKindsTogether) {
     test_context();
-    CloudScene scene;
+    CloudSet scene;
     show_mixed_golden_scene(scene);
     expect_golden(scene.render(golden_view(), picture_size, GetParam()).color,
                   "tests/golden/render_mixed_" + GetParam() + ".ppm");

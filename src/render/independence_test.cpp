@@ -8,7 +8,7 @@
 
 #include "geometry/camera_model.h"
 #include "render/cloud_camera.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/test_context.h"
 
 namespace theatron::render {
@@ -55,14 +55,14 @@ class IndependenceTest : public ::testing::TestWithParam<std::string> {
 protected:
     void SetUp() override { test_context(); }
 
-    static void upload(CloudScene& scene, CameraId id, const Calibration& calibration,
+    static void upload(CloudSet& scene, CameraId id, const Calibration& calibration,
                        unsigned frame) {
         scene.set_camera(id, calibration);
         ASSERT_EQ(scene.upload(id, noisy_depth(calibration.depth.size, frame).view(),
                                noisy_color(calibration.color.size, frame).view()),
                   Status::ok);
     }
-    static Picture render(CloudScene& scene) {
+    static Picture render(CloudSet& scene) {
         const Calibration camera = calibrated({97, 71}, {122, 63}, {0, 1.5, 0});
         const CameraView view =
             orbited(view_of_camera(camera.depth, camera.room_from_camera, {120, 90}),
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(EveryRenderer, IndependenceTest, ::testing::ValuesIn(re
                          [](const auto& test) { return test.param; });
 
 TEST_P(IndependenceTest, ACameraLooksTheSameBesideALargerOne) {
-    CloudScene alone, together;
+    CloudSet alone, together;
     upload(alone, shown, camera, 1);
     upload(together, other, larger, 2);
     upload(together, shown, camera, 1);
@@ -89,7 +89,7 @@ TEST_P(IndependenceTest, ACameraLooksTheSameBesideALargerOne) {
 }
 
 TEST_P(IndependenceTest, WhoComesOrGoesDoesNotDisturbTheOthersOverTime) {
-    CloudScene alone, together;
+    CloudSet alone, together;
     for (unsigned frame = 0; frame < 8; ++frame) {
         upload(alone, shown, camera, frame);
         upload(together, shown, camera, frame);
@@ -102,8 +102,8 @@ TEST_P(IndependenceTest, WhoComesOrGoesDoesNotDisturbTheOthersOverTime) {
 }
 
 TEST_P(IndependenceTest, MovingACameraIsNoNewFrame) {
-    CloudScene still, moved;
-    for (CloudScene* scene : {&still, &moved})
+    CloudSet still, moved;
+    for (CloudSet* scene : {&still, &moved})
         for (unsigned frame = 0; frame < 3; ++frame) {
             upload(*scene, shown, camera, frame);
             (void)render(*scene);
@@ -120,7 +120,7 @@ TEST_P(IndependenceTest, MovingACameraIsNoNewFrame) {
 }
 
 TEST_P(IndependenceTest, ANewCameraHasNoMemoryOfOneThatWent) {
-    CloudScene fresh, reused;
+    CloudSet fresh, reused;
     for (unsigned frame = 0; frame < 4; ++frame) {
         Calibration before = camera;
         before.depth_unit_mm = 1.03;
@@ -135,7 +135,7 @@ TEST_P(IndependenceTest, ANewCameraHasNoMemoryOfOneThatWent) {
 }
 
 TEST_P(IndependenceTest, ANewLensStartsAnewAndStaysAsPresent) {
-    CloudScene fresh, changed;
+    CloudSet fresh, changed;
     Calibration before = camera;
     before.depth = pinhole(camera.depth.size, 50);
     for (unsigned frame = 0; frame < 4; ++frame) {

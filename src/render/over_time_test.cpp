@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "geometry/camera_model.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/test_context.h"
 
 namespace theatron::render {
@@ -21,7 +21,7 @@ class OverTimeTest : public ::testing::TestWithParam<std::string> {
 protected:
     OverTimeTest() {
         test_context();
-        scene = std::make_unique<CloudScene>();
+        scene = std::make_unique<CloudSet>();
         calibration.depth = calibration.color = pinhole(size, 60);
         calibration.registered = true;
     }
@@ -43,7 +43,7 @@ protected:
 
     const int errors_before = test_context().errors();
     Calibration calibration;
-    std::unique_ptr<CloudScene> scene;
+    std::unique_ptr<CloudSet> scene;
 };
 
 INSTANTIATE_TEST_SUITE_P(EveryRenderer, OverTimeTest, ::testing::ValuesIn(renderer_names()),
@@ -101,7 +101,7 @@ TEST_P(OverTimeTest, WhatMovedLeavesNoTrace) {
         }
         show(0, board_at(60, behind), red);
         const Picture moved = render(GetParam());
-        scene = std::make_unique<CloudScene>();
+        scene = std::make_unique<CloudSet>();
         show(0, board_at(60, behind), red);
         const Picture fresh = render(GetParam());
         for_inside([&](int x, int y) {

@@ -2,7 +2,7 @@
 // A picture to draw into and to read back: colour, and metric depth beside it.
 #pragma once
 
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/gl.h"
 
 namespace theatron::render {

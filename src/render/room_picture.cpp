@@ -10,14 +10,16 @@ constexpr Rgb background{32, 34, 38};
 
 }  // namespace
 
-void draw(const RoomPicture& picture, CloudScene& clouds, ScenePasses* passes) {
-    check_renderer_name(picture.renderer);
+void draw(const RoomPicture& picture, ScenePasses* passes) {
+    for (const DrawnClouds& clouds : picture.clouds)
+        check_renderer_name(clouds.renderer);
     if (picture.scene)
         passes->prepare(*picture.scene);
     for (const EyePicture& eye : picture.eyes) {
         if (picture.scene)
             passes->draw_opaque(*picture.scene, eye.view, eye.target);
-        clouds.draw(eye.view, eye.target, picture.renderer);
+        for (const DrawnClouds& clouds : picture.clouds)
+            clouds.set->draw(eye.view, eye.target, clouds.renderer);
         if (picture.scene)
             passes->draw_translucent(*picture.scene, eye.view, eye.target);
     }
@@ -30,16 +32,15 @@ std::array<CameraView, 2> stereo_pair(const CameraView& middle, double eye_dista
     return eyes;
 }
 
-Picture draw_and_read(const SceneFrame* scene, const std::string& renderer,
-                      const std::vector<CameraView>& eyes, Size size, CloudScene& clouds,
-                      ScenePasses* passes) {
+Picture draw_and_read(const SceneFrame* scene, const std::vector<DrawnClouds>& clouds,
+                      const std::vector<CameraView>& eyes, Size size, ScenePasses* passes) {
     const RenderTarget target({size.width * int(eyes.size()), size.height});
     target.clear(background);
-    RoomPicture picture{scene, renderer, {}};
+    RoomPicture picture{scene, clouds, {}};
     for (const CameraView& view : eyes)
         picture.eyes.push_back(
             {view, {target.target().framebuffer, size.width * int(picture.eyes.size()), 0, size}});
-    draw(picture, clouds, passes);
+    draw(picture, passes);
     return target.read();
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/scene_passes.h"
 
 namespace theatron::render {
@@ -20,24 +20,30 @@ struct EyePicture {
     DrawTarget target;
 };
 
+// A set of clouds and how it is drawn: "blend" for the cameras of a room, say, and "mesh" for those
+// of a person.
+struct DrawnClouds {
+    CloudSet* set = nullptr;
+    std::string renderer;
+};
+
 // All that is drawn at one moment. Which cameras, how present they are and what is cut off them
-// is kept by the CloudScene, as it changes seldom.
+// is kept by the CloudSet, as it changes seldom.
 struct RoomPicture {
     const SceneFrame* scene = nullptr;  // none: the clouds alone
-    std::string renderer;               // of the clouds
-    std::vector<EyePicture> eyes;       // one, or left and right
+    std::vector<DrawnClouds> clouds;
+    std::vector<EyePicture> eyes;  // one, or left and right
 };
 
 // `passes` may be null where there is no scene. Throws Error if there is no such renderer.
-void draw(const RoomPicture& picture, CloudScene& clouds, ScenePasses* passes);
+void draw(const RoomPicture& picture, ScenePasses* passes);
 
 // The left and the right eye of a person whose eyes are so far apart, looking ahead side by side,
 // each through the window that `middle` looks through.
 std::array<CameraView, 2> stereo_pair(const CameraView& middle, double eye_distance_m);
 
 // The same read back: the eyes' pictures of this size beside each other. Slow, waits for the GPU.
-Picture draw_and_read(const SceneFrame* scene, const std::string& renderer,
-                      const std::vector<CameraView>& eyes, Size size, CloudScene& clouds,
-                      ScenePasses* passes);
+Picture draw_and_read(const SceneFrame* scene, const std::vector<DrawnClouds>& clouds,
+                      const std::vector<CameraView>& eyes, Size size, ScenePasses* passes);
 
 }  // namespace theatron::render

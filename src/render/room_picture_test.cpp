@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "base/error.h"
@@ -86,7 +88,7 @@ protected:
         scene.objects.push_back({&*box, {Quat{}, place}, {{0.05, 0.1, 0.9}, 0, 0.7, opacity}});
     }
     Picture draw(const std::vector<CameraView>& eyes) {
-        return draw_and_read(&scene, GetParam(), eyes, picture_size, *clouds, &*passes);
+        return draw_and_read(&scene, {{&*clouds, GetParam()}}, eyes, picture_size, &*passes);
     }
     // The place that is seen so far to the right, below and away, as tangents and metres.
     static Vec3 seen_at(double right, double below, double away) {
@@ -115,7 +117,7 @@ protected:
         }
     }
 
-    std::optional<CloudScene> clouds;
+    std::optional<CloudSet> clouds;
     std::optional<ScenePasses> passes;
     std::optional<SceneMesh> box, wide;
     SceneFrame scene;
@@ -210,6 +212,47 @@ TEST_P(RoomPictureTest, NearThingsLieFurtherApartInTheTwoEyesThanFarOnes) {
     EXPECT_NEAR(disparity(0.65, 0.95), pixels_per_tangent * eye_distance_m / 2.0, 0.8);
 }
 
+// A second set whose camera stands where the first one does.
+void show_flat(CloudSet& set, std::uint16_t mm, Rgb color) {
+    set.set_camera(camera, calibration());
+    DepthImage depth(depth_size);
+    std::fill(depth.pixels.begin(), depth.pixels.end(), mm);
+    ColorImage picture(depth_size);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), color);
+    ASSERT_EQ(set.upload(camera, depth.view(), picture.view()), Status::ok);
+}
+
+TEST_P(RoomPictureTest, SetsOfCloudsHideEachOtherByDistanceInEitherOrder) {
+    constexpr Rgb green{20, 200, 20};
+    const auto programs = std::make_shared<CloudPrograms>();
+    CloudSet room(programs);
+    // Between the board and the wall of the other set.
+    show_flat(room, 1600, green);
+    const DrawnClouds own{&*clouds, GetParam()}, between{&room, "mesh"};
+    const auto picture = [&](std::vector<DrawnClouds> order) {
+        return draw_and_read(nullptr, order, {own_view()}, picture_size, nullptr);
+    };
+    const Picture one = picture({own, between}), other = picture({between, own});
+    EXPECT_EQ(one.color.view().row(50)[70], grey) << "the board hides it";
+    EXPECT_EQ(one.color.view().row(120)[70], green) << "it hides the wall";
+    EXPECT_EQ(one.depth_mm, other.depth_mm);
+}
+
+TEST_P(RoomPictureTest, SetsThatShareProgramsDrawAsAlone) {
+    const auto programs = std::make_shared<CloudPrograms>();
+    CloudSet red_set(programs), grey_set(programs), alone;
+    for (int frame = 0; frame < 3; ++frame) {
+        for (CloudSet* set : {&red_set, &alone})
+            show_flat(*set, 1500, red);
+        show_flat(grey_set, 1700, grey);
+        const Picture expected = alone.render(own_view(), picture_size, GetParam());
+        (void)grey_set.render(own_view(), picture_size, GetParam());
+        const Picture drawn = red_set.render(own_view(), picture_size, GetParam());
+        ASSERT_EQ(drawn.color, expected.color);
+        ASSERT_EQ(drawn.depth_mm, expected.depth_mm);
+    }
+}
+
 TEST(RoomPicture, EyesStandBesideEachOtherHoweverTheHeadIsTurned) {
     CameraView view = view_towards({1, 1.7, 2}, {0, 1, 0}, 60, {100, 100});
     const auto eyes = stereo_pair(view, 0.064);
@@ -222,8 +265,8 @@ TEST(RoomPicture, EyesStandBesideEachOtherHoweverTheHeadIsTurned) {
 
 TEST(RoomPicture, AnUnknownRendererIsNamed) {
     test_context();
-    CloudScene clouds;
-    EXPECT_THROW(draw({nullptr, "fog", {}}, clouds, nullptr), Error);
+    CloudSet clouds;
+    EXPECT_THROW(draw({nullptr, {{&clouds, "fog"}}, {}}, nullptr), Error);
 }
 
 }  // namespace

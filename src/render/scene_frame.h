@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn beside the clouds: the room, organs, texts; a description that whoever makes
-// a picture fills in anew for each picture. No GL type appears here.
+// What is drawn beside the clouds: the room, organs, people, panels, texts. The viewer owns the
+// description of a picture; room, organs and people append to it, anew for each picture. No GL type
+// appears here.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +11,27 @@
 
 #include "geometry/vec.h"
 #include "image/image.h"
+#include "render/draw_target.h"
 
 namespace theatron::render {
 
-// Triangles with a normal at each corner, counter-clockwise seen from outside. Metres.
+class TriangleTree;
+
+// Triangles with a normal at each corner, counter-clockwise seen from outside. Metres. A corner's
+// place in a texture is (u, v), from (0, 0) at the upper left to (1, 1) at the lower right.
 struct MeshData {
     struct Vertex {
         float px = 0, py = 0, pz = 0, nx = 0, ny = 0, nz = 0;
+        float u = 0, v = 0;
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
 };
 
 MeshData make_box_mesh(Vec3 low, Vec3 high);
+// A rectangle for a texture, in the frame of SceneText: x right, y down, z away from who reads it;
+// the origin is in its middle.
+MeshData make_panel_mesh(double width_m, double height_m);
 MeshData make_sphere_mesh(double radius, int rings);
 
 // A mesh on the GPU. Needs the GL context current in which it was made.
@@ -35,9 +44,35 @@ public:
 
     struct Buffers;
     const Buffers& buffers() const { return *buffers_; }
+    // For picking; made when first asked for.
+    const TriangleTree& triangles() const;
 
 private:
     std::unique_ptr<Buffers> buffers_;
+};
+
+// A picture on the GPU that surfaces can have. Needs the GL context current in which it was made.
+class SceneTexture {
+public:
+    // Transparent black. Throws Error where the driver cannot draw into such a texture.
+    explicit SceneTexture(Size size);
+    ~SceneTexture();
+    SceneTexture(SceneTexture&&) noexcept;
+    SceneTexture& operator=(SceneTexture&&) noexcept;
+
+    Size size() const;
+    // Opaque; of the texture's size.
+    void set(ColorView picture);
+    // To be drawn into instead, with colour and opacity; the row y = 0 is the upper one. What was
+    // drawn is seen after finish().
+    DrawTarget target() const;
+    void finish();
+
+    struct Parts;
+    const Parts& parts() const { return *parts_; }
+
+private:
+    std::unique_ptr<Parts> parts_;
 };
 
 // Metal-rough, as in glTF. Colours are linear, 0 to 1.
@@ -46,7 +81,14 @@ struct SurfaceLook {
     double metallic = 0, roughness = 0.6;
     double opacity = 1;  // below 1: what is behind shows through
     double grid_m = 0;   // faint lines so far apart in the room, that tell distances; 0: none
+    // Multiplies the colour; its opacity counts where that of the surface is below 1.
+    const SceneTexture* texture = nullptr;
+    // Screens and panels: the texture's colours times base_color as they are, without any light.
+    bool unlit = false;
 };
+
+// What a ray found (pick.h); given by whoever appends an object.
+enum class ObjectId : std::uint32_t { none = 0 };
 
 struct SceneObject {
     const SceneMesh* mesh = nullptr;
@@ -55,6 +97,7 @@ struct SceneObject {
     // Floor and walls of the room, whose inside is convex: behind all else, however far that is,
     // so that they never hide a real floor that was measured a little lower.
     bool backdrop = false;
+    ObjectId id = ObjectId::none;  // none: rays pass through it
 };
 
 // One line of text. Its frame: x along the line, y down, z away from who reads it; the origin is at
@@ -78,6 +121,8 @@ struct SceneFrame {
     Vec3 shadow_middle{0, 1, 0};
     double shadow_radius_m = 2.5;
     SceneQuality quality = SceneQuality::high;
+
+    bool empty() const { return objects.empty() && texts.empty(); }
 };
 
 }  // namespace theatron::render

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/scene_mesh.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
+
+#include "base/error.h"
 
 namespace theatron::render {
 
@@ -21,13 +26,23 @@ MeshData make_box_mesh(Vec3 low, Vec3 high) {
                 p[v] = corner >= 2 ? h[v] : l[v];
                 n[axis] = side ? 1 : -1;
                 mesh.vertices.push_back(
-                    {float(p[0]), float(p[1]), float(p[2]), float(n[0]), float(n[1]), float(n[2])});
+                    {float(p[0]), float(p[1]), float(p[2]), float(n[0]), float(n[1]), float(n[2]),
+                     corner == 1 || corner == 2 ? 1.0f : 0.0f, corner >= 2 ? 0.0f : 1.0f});
             }
             const std::uint32_t outside[] = {0, 1, 2, 0, 2, 3}, inside[] = {0, 2, 1, 0, 3, 2};
             for (const std::uint32_t i : side ? outside : inside)
                 mesh.indices.push_back(first + i);
         }
     return mesh;
+}
+
+MeshData make_panel_mesh(double width_m, double height_m) {
+    const auto x = float(width_m / 2), y = float(height_m / 2);
+    return {{{-x, -y, 0, 0, 0, -1, 0, 0},
+             {x, -y, 0, 0, 0, -1, 1, 0},
+             {x, y, 0, 0, 0, -1, 1, 1},
+             {-x, y, 0, 0, 0, -1, 0, 1}},
+            {0, 2, 1, 0, 3, 2}};
 }
 
 MeshData make_sphere_mesh(double radius, int rings) {
@@ -39,7 +54,8 @@ MeshData make_sphere_mesh(double radius, int rings) {
             const Vec3 n{std::sin(down) * std::sin(around), std::cos(down),
                          std::sin(down) * std::cos(around)};
             mesh.vertices.push_back({float(n.x * radius), float(n.y * radius), float(n.z * radius),
-                                     float(n.x), float(n.y), float(n.z)});
+                                     float(n.x), float(n.y), float(n.z), float(c) / float(columns),
+                                     float(r) / float(rings)});
         }
     const auto at = [&](int r, int c) { return std::uint32_t(r * (columns + 1) + c); };
     for (int r = 0; r < rings; ++r)
@@ -65,13 +81,82 @@ SceneMesh::SceneMesh(const MeshData& data) : buffers_(std::make_unique<Buffers>(
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, px)));
     glEnableVertexAttribArray(1);
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, nx)));
+    glEnableVertexAttribArray(2);
+    glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, u)));
     glBindVertexArray(0);
     buffers_->count = GLsizei(data.indices.size());
+    const auto corner = [&](std::size_t i) {
+        const Vertex& v = data.vertices[data.indices[i]];
+        return Vec3{v.px, v.py, v.pz};
+    };
+    for (std::size_t i = 0; i + 2 < data.indices.size(); i += 3)
+        buffers_->triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
+}
+
+const TriangleTree& SceneMesh::triangles() const {
+    if (!buffers_->tree)
+        buffers_->tree.emplace(std::exchange(buffers_->triangles, {}));
+    return *buffers_->tree;
 }
 
 SceneMesh::~SceneMesh() = default;
 SceneMesh::SceneMesh(SceneMesh&&) noexcept = default;
 SceneMesh& SceneMesh::operator=(SceneMesh&&) noexcept = default;
+
+SceneTexture::SceneTexture(Size size) : parts_(std::make_unique<Parts>()) {
+    parts_->size = size;
+    int levels = 1;
+    while (std::max(size.width, size.height) >> levels > 0)
+        ++levels;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, parts_->texture.name());
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, size.width, size.height);
+    set_sampling(GL_TEXTURE_2D, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, parts_->framebuffer.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           parts_->texture.name(), 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw Error("The graphics driver cannot draw into a texture of " +
+                    std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels.");
+    const float nothing[] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    finish();
+}
+
+SceneTexture::~SceneTexture() = default;
+SceneTexture::SceneTexture(SceneTexture&&) noexcept = default;
+SceneTexture& SceneTexture::operator=(SceneTexture&&) noexcept = default;
+
+Size SceneTexture::size() const {
+    return parts_->size;
+}
+
+void SceneTexture::set(ColorView picture) {
+    assert(picture.size == size());
+    std::vector<std::uint8_t> rgba;
+    rgba.reserve(4 * picture.size.area());
+    for (int y = 0; y < picture.size.height; ++y)
+        for (int x = 0; x < picture.size.width; ++x) {
+            const Rgb p = picture.row(y)[x];
+            rgba.insert(rgba.end(), {p.r, p.g, p.b, 255});
+        }
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, parts_->texture.name());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.size.width, picture.size.height, GL_RGBA,
+                    GL_UNSIGNED_BYTE, rgba.data());
+    finish();
+}
+
+DrawTarget SceneTexture::target() const {
+    return {parts_->framebuffer.name(), 0, 0, parts_->size};
+}
+
+void SceneTexture::finish() {
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, parts_->texture.name());
+    glGenerateMipmap(GL_TEXTURE_2D);
+}
 
 void SceneMesh::Buffers::draw() const {
     glBindVertexArray(attributes.name());

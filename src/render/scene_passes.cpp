@@ -13,7 +13,7 @@
 namespace theatron::render {
 namespace {
 
-constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2;
+constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2, surface_unit = 3;
 
 void set_matrix(GLint uniform, const Mat4& matrix) {
     float values[16];
@@ -40,6 +40,40 @@ struct LightView {
     }
 };
 
+// The shaders of surfaces in one quality, with or without a texture: software drivers pay for all
+// branches.
+struct LitProgram {
+    Program program;
+    GLint clip_from_room = program.uniform("clip_from_room");
+    GLint light_from_room = program.uniform("light_from_room");
+    GLint eye = program.uniform("eye");
+    GLint to_light = program.uniform("to_light");
+    GLint light = program.uniform("light");
+    GLint shadow_texel = program.uniform("shadow_texel");
+    GLint depth_from_w = program.uniform("depth_from_w");
+    GLint occludes = program.uniform("occludes");
+    GLint room_from_object = program.uniform("room_from_object");
+    GLint base_color = program.uniform("base_color");
+    GLint look = program.uniform("look");
+    GLint tells_distance = program.uniform("tells_distance");
+    GLint unlit = program.uniform("unlit");
+
+    LitProgram(std::string_view quality, std::string_view texture)
+        : program({quality, texture, "scene.vert"},
+                  {"output.glsl", quality, texture, "scene.frag"}) {
+        program.set_sampler("environment", environment_unit);
+        program.set_sampler("shadow_map", shadow_unit);
+        program.set_sampler("scene_depth", scene_depth_unit);
+        program.set_sampler("surface_texture", surface_unit);
+    }
+};
+
+struct LitPicture {
+    const SceneFrame& frame;
+    const CameraView& view;
+    bool occludes;  // with ambient occlusion
+};
+
 bool is_translucent(const SceneObject& object) {
     return object.look.opacity < 1;
 }
@@ -47,9 +81,11 @@ bool is_translucent(const SceneObject& object) {
 }  // namespace
 
 struct ScenePasses::Parts {
-    std::optional<Program> lit_high, lit_low;  // made when first used
-    const Program* lit = nullptr;              // the one in use
+    std::optional<LitProgram> lit[2][2];  // high quality, textured; made when first used
+    const LitProgram* in_use = nullptr;
     Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
+    GLint shadow_clip_from_object = shadow.uniform("clip_from_object");
+    SceneTexture white{{1, 1}};  // for surfaces without a texture
     Texture environment;
     Texture shadow_map;
     int shadow_side = 0;
@@ -62,23 +98,10 @@ struct ScenePasses::Parts {
     explicit Parts(const FontAtlas* atlas) {
         glActiveTexture(GL_TEXTURE0 + environment_unit);
         environment = make_environment();
+        constexpr Rgb one{255, 255, 255};
+        white.set({&one, {1, 1}});
         if (atlas)
             text.emplace(*atlas);
-    }
-
-    void use_lit(SceneQuality quality) {
-        const bool high = quality == SceneQuality::high;
-        std::optional<Program>& program = high ? lit_high : lit_low;
-        if (!program) {
-            const std::string_view define = high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY";
-            program.emplace(ShaderFiles{define, "scene.vert"},
-                            ShaderFiles{"output.glsl", define, "scene.frag"});
-            program->set_sampler("environment", environment_unit);
-            program->set_sampler("shadow_map", shadow_unit);
-            program->set_sampler("scene_depth", scene_depth_unit);
-        }
-        lit = &*program;
-        lit->use();
     }
 
     void make_scene_depth(Size size) {
@@ -112,8 +135,7 @@ struct ScenePasses::Parts {
             // What is half transparent would hide light as something solid does.
             if (is_translucent(object) || (object.backdrop && !with_backdrop))
                 continue;
-            set_matrix(shadow.uniform("clip_from_object"),
-                       clip_from_room * matrix(object.room_from_object));
+            set_matrix(shadow_clip_from_object, clip_from_room * matrix(object.room_from_object));
             object.mesh->buffers().draw();
         }
         glBindVertexArray(0);
@@ -138,7 +160,7 @@ struct ScenePasses::Parts {
         glReadBuffer(GL_NONE);
     }
 
-    void begin_lit(const SceneFrame& frame, const CameraView& view, const DrawTarget& target) {
+    void begin_lit(const DrawTarget& target) {
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glViewport(target.x, target.y, target.size.width, target.size.height);
         glEnable(GL_DEPTH_TEST);
@@ -148,23 +170,45 @@ struct ScenePasses::Parts {
         glBindTexture(GL_TEXTURE_2D, shadow_map.name());
         glActiveTexture(GL_TEXTURE0 + environment_unit);
         glBindTexture(GL_TEXTURE_CUBE_MAP, environment.name());
-        use_lit(frame.quality);
-        set_matrix(lit->uniform("clip_from_room"),
-                   projection(view) * matrix(inverse(view.room_from_eye)));
-        set_matrix(lit->uniform("light_from_room"), LightView(frame).clip_from_room);
-        set_vector(lit->uniform("eye"), view.room_from_eye.translation);
-        set_vector(lit->uniform("to_light"), normalized(frame.to_light));
-        glUniform1f(lit->uniform("light"), float(frame.light));
-        glUniform1f(lit->uniform("shadow_texel"), 1.0f / float(shadow_side));
+        in_use = nullptr;
     }
 
-    void draw(const SceneObject& object) const {
-        set_matrix(lit->uniform("room_from_object"), matrix(object.room_from_object));
-        set_vector(lit->uniform("base_color"), object.look.base_color);
-        glUniform4f(lit->uniform("look"), float(object.look.metallic),
-                    float(std::clamp(object.look.roughness, 0.05, 1.0)), float(object.look.opacity),
-                    float(object.look.grid_m));
-        glUniform1i(lit->uniform("tells_distance"), !object.backdrop);
+    // Makes the right program current, with all that is the same for the whole picture.
+    void use_lit(const LitPicture& picture, bool textured) {
+        const SceneFrame& frame = picture.frame;
+        const CameraView& view = picture.view;
+        const bool high = frame.quality == SceneQuality::high;
+        std::optional<LitProgram>& wanted = lit[high][textured];
+        if (!wanted)
+            wanted.emplace(high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
+                           textured ? "#define TEXTURED" : "#define PLAIN");
+        if (in_use == &*wanted)
+            return;
+        in_use = &*wanted;
+        in_use->program.use();
+        set_matrix(in_use->clip_from_room, projection(view) * matrix(inverse(view.room_from_eye)));
+        set_matrix(in_use->light_from_room, LightView(frame).clip_from_room);
+        set_vector(in_use->eye, view.room_from_eye.translation);
+        set_vector(in_use->to_light, normalized(frame.to_light));
+        glUniform1f(in_use->light, float(frame.light));
+        glUniform1f(in_use->shadow_texel, 1.0f / float(shadow_side));
+        const double n = view.near_m, f = view.far_m;
+        glUniform2f(in_use->depth_from_w, float(f / (f - n)), float(-f * n / (f - n)));
+        glUniform1i(in_use->occludes, picture.occludes);
+    }
+
+    void draw(const LitPicture& picture, const SceneObject& object) {
+        const SurfaceLook& look = object.look;
+        use_lit(picture, look.texture || look.unlit);
+        set_matrix(in_use->room_from_object, matrix(object.room_from_object));
+        set_vector(in_use->base_color, look.base_color);
+        glUniform4f(in_use->look, float(look.metallic),
+                    float(std::clamp(look.roughness, 0.05, 1.0)), float(look.opacity),
+                    float(look.grid_m));
+        glUniform1i(in_use->tells_distance, !object.backdrop);
+        glUniform1i(in_use->unlit, look.unlit);
+        const SceneTexture& texture = look.texture ? *look.texture : white;
+        bind_texture(surface_unit, &texture.parts().texture);
         object.mesh->buffers().draw();
     }
 };
@@ -206,10 +250,8 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
         glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
         glBindTexture(GL_TEXTURE_2D, p.scene_depth.name());
     }
-    p.begin_lit(frame, view, target);
-    const double n = view.near_m, f = view.far_m;
-    glUniform2f(p.lit->uniform("depth_from_w"), float(f / (f - n)), float(-f * n / (f - n)));
-    glUniform1i(p.lit->uniform("occludes"), occludes);
+    p.begin_lit(target);
+    const LitPicture picture{frame, view, occludes};
     glDisable(GL_BLEND);
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
@@ -217,7 +259,7 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
         glDepthMask(backdrop ? GL_FALSE : GL_TRUE);
         for (const SceneObject& object : frame.objects)
             if (!is_translucent(object) && object.backdrop == backdrop)
-                p.draw(object);
+                p.draw(picture, object);
     }
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
@@ -236,8 +278,8 @@ void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& vi
     std::stable_sort(sorted.begin(), sorted.end(), [&](const SceneObject* a, const SceneObject* b) {
         return distance(a) > distance(b);
     });
-    p.begin_lit(frame, view, target);
-    glUniform1i(p.lit->uniform("occludes"), 0);
+    p.begin_lit(target);
+    const LitPicture picture{frame, view, false};
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -245,7 +287,7 @@ void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& vi
     for (const SceneObject* object : sorted)
         for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
             glCullFace(hidden);
-            p.draw(*object);
+            p.draw(picture, *object);
         }
     glDisable(GL_CULL_FACE);
     if (p.text)

@@ -2,14 +2,14 @@
 // Draws a SceneFrame: shadows, lit opaque surfaces, texts, and what is translucent.
 //
 // A picture with clouds is drawn by room_picture.h, in this order: prepare, and for each eye
-// draw_opaque, CloudScene::draw, draw_translucent.
+// draw_opaque, CloudSet::draw, draw_translucent.
 //
 // All functions need the GL context current in which the object was made.
 #pragma once
 
 #include <memory>
 
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 #include "render/font_atlas.h"
 #include "render/scene_frame.h"
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "render/render_target.h"
 #include "render/test_context.h"
@@ -142,6 +143,68 @@ TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
     // The stem of the L, and the free space above its foot.
     EXPECT_GT(at(picture, {-0.33, 0.95, 0.1}).r, 200);
     EXPECT_LT(at(picture, {-0.29, 0.95, 0.1}).r, 100);
+}
+
+// A panel in front of the eye, whose four quarters have colours of their own.
+TEST_F(SceneTest, APanelShowsItsTextureAsItIs) {
+    constexpr Rgb red{200, 20, 30}, green{20, 200, 30}, blue{30, 20, 200}, white{250, 250, 250};
+    ColorImage quarters({8, 8});
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            quarters.view().row(y)[x] = y < 4 ? (x < 4 ? red : green) : (x < 4 ? blue : white);
+    SceneTexture texture({8, 8});
+    texture.set(std::as_const(quarters).view());
+    const SceneMesh panel(make_panel_mesh(0.8, 0.8));
+    const CameraView view = view_towards({0.2, 1.1, 2.2}, {0, 0.3, 0}, 45, {160, 120});
+    SurfaceLook look{{1, 1, 1}};
+    look.texture = &texture;
+    look.unlit = true;
+    Pose place = view.room_from_eye;
+    place.translation = place * Vec3{0, 0, 1};
+    frame.objects.push_back({&panel, place, look});
+    for (const SceneQuality quality : {SceneQuality::low, SceneQuality::high}) {
+        frame.quality = quality;
+        const ColorImage drawn = draw({160, 120}).color;
+        EXPECT_EQ(drawn.view().row(40)[60], red);
+        EXPECT_EQ(drawn.view().row(40)[100], green);
+        EXPECT_EQ(drawn.view().row(80)[60], blue);
+        EXPECT_EQ(drawn.view().row(80)[100], white);
+    }
+    frame.objects.back().look.opacity = 0.5;
+    const Rgb through = draw({160, 120}).color.view().row(40)[60];
+    EXPECT_GT(through.r, 80);
+    EXPECT_LT(through.r, 190) << "half of it is what lies behind";
+}
+
+TEST_F(SceneTest, ATextureColorsALitSurface) {
+    ColorImage stripes({2, 1});
+    stripes.pixels = {{240, 240, 240}, {40, 40, 40}};
+    SceneTexture texture({2, 1});
+    texture.set(std::as_const(stripes).view());
+    frame.objects[0].look = {{1, 1, 1}, 0, 0.9};
+    frame.objects[0].look.texture = &texture;
+    const Picture picture = draw({320, 240});
+    // The floor's upper side has u along z, from the back to the front.
+    const Rgb one = at(picture, {-0.8, 0, -1.2}), other = at(picture, {-0.1, 0, 0.75});
+    EXPECT_GT(one.g, other.g + 60) << int(one.g) << ' ' << int(other.g);
+}
+
+TEST_F(SceneTest, WhatIsDrawnIntoATextureIsSeenOnAPanel) {
+    SceneTexture texture({64, 32});
+    const DrawTarget target = texture.target();
+    EXPECT_EQ(target.size, (Size{64, 32}));
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    const float yellow[] = {1, 1, 0, 1};
+    glClearBufferfv(GL_COLOR, 0, yellow);
+    texture.finish();
+    const SceneMesh panel(make_panel_mesh(0.8, 0.4));
+    Pose place = view_towards({0.2, 1.1, 2.2}, {0, 0.3, 0}, 45, {160, 120}).room_from_eye;
+    place.translation = place * Vec3{0, 0, 1};
+    SurfaceLook look{{1, 1, 1}};
+    look.texture = &texture;
+    look.unlit = true;
+    frame.objects.push_back({&panel, place, look});
+    EXPECT_EQ(draw({160, 120}).color.view().row(60)[80], (Rgb{255, 255, 0}));
 }
 
 }  // namespace

@@ -122,34 +122,32 @@ void VirtualRoom::set_cameras(const std::vector<RoomCamera>& cameras) {
     walls_.emplace(wall_meshes(*extent));
     if (!mark_)
         mark_.emplace(mark_mesh());
-    frame_.to_light = {0.25, 1, 0.35};
-    frame_.shadow_middle = {(extent->left + extent->right) / 2, extent->height / 2,
-                            (extent->back + extent->front) / 2};
-    frame_.shadow_radius_m =
-        0.5 * length({extent->right - extent->left, extent->height, extent->front - extent->back});
 }
 
-const render::SceneFrame* VirtualRoom::frame_for(const render::CameraView& view) {
+void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& view) const {
     if (!extent_)
-        return nullptr;
-    frame_.objects = {{&*floor_, {}, floor_look, true}, {&*walls_, {}, wall_look, true}};
-    frame_.texts.clear();
+        return;
+    const RoomExtent& e = *extent_;
+    frame.to_light = {0.25, 1, 0.35};
+    frame.shadow_middle = {(e.left + e.right) / 2, e.height / 2, (e.back + e.front) / 2};
+    frame.shadow_radius_m = 0.5 * length({e.right - e.left, e.height, e.front - e.back});
+    frame.objects.push_back({&*floor_, {}, floor_look, true});
+    frame.objects.push_back({&*walls_, {}, wall_look, true});
     const Vec3 eye = view.room_from_eye.translation;
     for (const RoomCamera& camera : cameras_) {
         const Pose& pose = camera.calibration.room_from_camera;
         const double distance = length(pose.translation - eye);
         if (!camera.calibration.registered || distance < free_around_eye_m)
             continue;
-        frame_.objects.push_back({&*mark_, pose, mark_look});
+        frame.objects.push_back({&*mark_, pose, mark_look});
         if (distance < label_from_m)
             continue;
         // Cameras hang high.
         Pose place = facing(pose.translation - Vec3{0, label_below_m, 0}, eye);
         const double half_width = 0.5 * label_height_m * letter_width * double(camera.label.size());
         place.translation = place * Vec3{-half_width, 0, 0};
-        frame_.texts.push_back({camera.label, place, label_height_m, {225, 230, 230}});
+        frame.texts.push_back({camera.label, place, label_height_m, {225, 230, 230}});
     }
-    return &frame_;
 }
 
 }  // namespace theatron::room

@@ -39,17 +39,15 @@ public:
     // Changes what is there. Cheap if nothing has changed.
     void set_cameras(const std::vector<RoomCamera>& cameras);
 
-    // What is to be drawn for an eye there: labels face it, and what it stands in is left out.
-    // Nothing where there is no room. Valid until the next call.
-    const render::SceneFrame* frame_for(const render::CameraView& view);
-
-    void set_quality(render::SceneQuality quality) { frame_.quality = quality; }
+    // Appends what an eye there sees of the room, and sets the light: labels face the eye, and the
+    // mark that it stands in is left out. Nothing where there is no room. What was appended is
+    // valid until the next call of set_cameras.
+    void add_to(render::SceneFrame& frame, const render::CameraView& view) const;
 
 private:
     std::vector<RoomCamera> cameras_;
     std::optional<RoomExtent> extent_;
     std::optional<render::SceneMesh> floor_, walls_, mark_;
-    render::SceneFrame frame_;
 };
 
 }  // namespace theatron::room

@@ -84,29 +84,30 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
     room_.set_cameras(marks);
 }
 
-const render::SceneFrame* LiveScene::room_for(const render::CameraView& view) {
-    const render::SceneFrame* frame = choice_.shown ? room_.frame_for(view) : nullptr;
-    if (frame && !passes_) {
+const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
+    frame_.objects.clear();
+    frame_.texts.clear();
+    if (choice_.shown)
+        room_.add_to(frame_, view);
+    if (frame_.empty())
+        return nullptr;
+    if (!passes_) {
         const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
         passes_ = std::make_unique<render::ScenePasses>(&atlas);
-        room_.set_quality(choice_.quality.value_or(render::usual_quality()));
+        frame_.quality = choice_.quality.value_or(render::usual_quality());
     }
-    return frame;
+    return &frame_;
 }
 
 void LiveScene::draw(const render::CameraView& view, const render::DrawTarget& target,
                      const std::string& renderer) {
-    const render::SceneFrame* room = room_for(view);
-    if (room)
-        render::draw({room, renderer, {{view, target}}}, clouds_, passes_.get());
-    else
-        clouds_.draw(view, target, renderer);
+    render::draw({scene_for(view), {{&clouds_, renderer}}, {{view, target}}}, passes_.get());
 }
 
 render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, Size size,
                                   const std::string& renderer, bool with_room) {
-    const render::SceneFrame* room = with_room ? room_for(eyes.front()) : nullptr;
-    return render::draw_and_read(room, renderer, eyes, size, clouds_, passes_.get());
+    const render::SceneFrame* scene = with_room ? scene_for(eyes.front()) : nullptr;
+    return render::draw_and_read(scene, {{&clouds_, renderer}}, eyes, size, passes_.get());
 }
 
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {

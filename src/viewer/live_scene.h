@@ -29,7 +29,7 @@ public:
     // is new. Throws Error if somebody is to be seen by a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
-    // See render::CloudScene; what the cameras show stays.
+    // See render::CloudSet; what the cameras show stays.
     void set_depth_step(int step);
 
     // Lets cameras that stand still fade, and others come back. True while it changes
@@ -52,12 +52,14 @@ private:
     Status upload(const receive::CameraFrame& frame);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
-    const render::SceneFrame* room_for(const render::CameraView& view);
+    // What is drawn beside the clouds, null if nothing.
+    const render::SceneFrame* scene_for(const render::CameraView& view);
 
     RoomChoice choice_;
     std::vector<SeenPerson> people_;
-    render::CloudScene clouds_;
+    render::CloudSet clouds_;
     room::VirtualRoom room_;
+    render::SceneFrame frame_;                     // of the picture that is drawn
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
     std::map<CameraId, double> presence_;

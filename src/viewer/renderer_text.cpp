@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 
 namespace theatron::viewer {
 namespace {

@@ -17,7 +17,7 @@ namespace theatron::xr {
 // A way of drawing the clouds.
 struct DrawingWay {
     std::string renderer;
-    int depth_step = 1;  // see render::CloudScene::set_depth_step
+    int depth_step = 1;  // see render::CloudSet::set_depth_step
     double scale = 1;    // of the window's pixels, on each side
 
     bool operator==(const DrawingWay&) const = default;

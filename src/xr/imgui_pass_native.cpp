@@ -11,6 +11,7 @@ namespace {
 // Places are in pixels from the top left corner.
 constexpr const char* vertex_shader = R"(
 uniform vec2 window;
+uniform float upwards;  // 1: the upper row is the picture's last one, as in windows; -1: its first
 layout(location = 0) in vec2 place;
 layout(location = 1) in vec2 glyph;
 layout(location = 2) in vec4 color;
@@ -20,7 +21,7 @@ void main() {
     v_glyph = glyph;
     v_color = color;
     vec2 unit = place / window;
-    gl_Position = vec4(2.0 * unit.x - 1.0, 1.0 - 2.0 * unit.y, 0.0, 1.0);
+    gl_Position = vec4(2.0 * unit.x - 1.0, upwards * (1.0 - 2.0 * unit.y), 0.0, 1.0);
 }
 )";
 
@@ -58,6 +59,7 @@ ImGuiPass::ImGuiPass() {
     if (!linked)
         throw Error("The graphics driver does not accept the shaders of the texts.");
     window_uniform_ = glGetUniformLocation(program_.name(), "window");
+    upwards_uniform_ = glGetUniformLocation(program_.name(), "upwards");
 
     glBindVertexArray(vertex_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -83,18 +85,34 @@ void ImGuiPass::upload_fonts() {
 }
 
 void ImGuiPass::draw(const ImDrawData& data) {
-    const auto width = GLsizei(data.DisplaySize.x), height = GLsizei(data.DisplaySize.y);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
+    draw(data, Picture{0, {int(data.DisplaySize.x), int(data.DisplaySize.y)}, false});
+}
+
+void ImGuiPass::draw(const ImDrawData& data, render::SceneTexture& panel, Rgb background) {
+    const render::DrawTarget target = panel.target();
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    const float color[] = {background.r / 255.0f, background.g / 255.0f, background.b / 255.0f, 1};
+    glClearBufferfv(GL_COLOR, 0, color);
+    draw(data, Picture{target.framebuffer, target.size, true});
+    panel.finish();
+}
+
+void ImGuiPass::draw(const ImDrawData& data, const Picture& picture) {
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer);
+    glViewport(0, 0, picture.size.width, picture.size.height);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    // A panel stays opaque.
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_SCISSOR_TEST);
 
     glUseProgram(program_.name());
     glUniform2f(window_uniform_, data.DisplaySize.x, data.DisplaySize.y);
+    glUniform1f(upwards_uniform_, picture.first_row_on_top ? -1.0f : 1.0f);
+    const float scale_x = float(picture.size.width) / data.DisplaySize.x;
+    const float scale_y = float(picture.size.height) / data.DisplaySize.y;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, fonts_.name());
     glBindVertexArray(vertex_array_.name());
@@ -107,8 +125,9 @@ void ImGuiPass::draw(const ImDrawData& data) {
                      list.IdxBuffer.Data, GL_STREAM_DRAW);
         for (const ImDrawCmd& command : list.CmdBuffer) {
             const ImVec4 clip = command.ClipRect;  // left, top, right, bottom
-            const auto left = GLint(clip.x), bottom = GLint(data.DisplaySize.y - clip.w);
-            glScissor(left, bottom, GLsizei(clip.z - clip.x), GLsizei(clip.w - clip.y));
+            const float first_row = picture.first_row_on_top ? clip.y : data.DisplaySize.y - clip.w;
+            glScissor(GLint(clip.x * scale_x), GLint(first_row * scale_y),
+                      GLsizei((clip.z - clip.x) * scale_x), GLsizei((clip.w - clip.y) * scale_y));
             const std::size_t first = command.IdxOffset * sizeof(ImDrawIdx);
             glDrawElements(GL_TRIANGLES, GLsizei(command.ElemCount),
                            sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,

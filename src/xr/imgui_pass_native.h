@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws what Dear ImGui has put together, with OpenGL ES 3.
+// Draws what Dear ImGui has put together, with OpenGL ES 3, into the window or onto a panel.
 #pragma once
 
 #include <imgui.h>
 
 #include "render/gl.h"
+#include "render/scene_frame.h"
 
 namespace theatron::xr {
 
@@ -17,14 +18,25 @@ public:
     void upload_fonts();
     // Into the window's framebuffer.
     void draw(const ImDrawData& data);
+    // Into a texture, over the whole of which ImGui's display is spread, on a background of this
+    // colour: a panel that stands in the room.
+    void draw(const ImDrawData& data, render::SceneTexture& panel, Rgb background);
 
 private:
+    // How ImGui's display becomes a picture in a framebuffer.
+    struct Picture {
+        unsigned framebuffer = 0;
+        Size size;
+        bool first_row_on_top = false;
+    };
+    void draw(const ImDrawData& data, const Picture& picture);
+
     struct ProgramKind {
         static GLuint make() { return glCreateProgram(); }
         static void destroy(GLuint name) { glDeleteProgram(name); }
     };
     render::GlObject<ProgramKind> program_;
-    GLint window_uniform_ = -1;
+    GLint window_uniform_ = -1, upwards_uniform_ = -1;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, indices_;
     render::Texture fonts_;

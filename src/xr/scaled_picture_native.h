@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 
 namespace theatron::xr {
 

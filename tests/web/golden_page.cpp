@@ -22,6 +22,9 @@ void draw_lit_scene() {
     frame.objects = {{&floor, {}, {{0.5, 0.5, 0.5}, 0, 0.5, 1, 1}, true},
                      {&ball, {}, {}},
                      {&ball, {Quat{}, {0.5, 0, 0}}, {{0.8, 0.1, 0.1}, 0, 0.4, 0.5}}};
+    const SceneTexture texture({16, 8});
+    frame.objects.push_back({&ball, {Quat{}, {-0.5, 0, 0}}, {}});
+    frame.objects.back().look.texture = &texture;
     ScenePasses passes;
     const RenderTarget target(golden_picture_size);
     target.clear({});
@@ -39,9 +42,9 @@ void report_errors(const std::string& what) {
 }
 
 // Prints the picture of a golden scene, as hexadecimal digits.
-void draw_golden(const std::string& name, const std::string& renderer, void (*show)(CloudScene&)) {
+void draw_golden(const std::string& name, const std::string& renderer, void (*show)(CloudSet&)) {
     try {
-        CloudScene scene;
+        CloudSet scene;
         show(scene);
         const ColorImage drawn = scene.render(golden_view(), golden_picture_size, renderer).color;
         std::string line = "picture " + name + " " + std::to_string(drawn.size.width) + " " +

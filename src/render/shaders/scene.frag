@@ -12,6 +12,10 @@ uniform vec4 look;  // metallic, roughness, opacity, distance of the grid's line
 uniform bool tells_distance;
 uniform float light;
 uniform float shadow_texel;
+#ifdef TEXTURED
+uniform sampler2D surface_texture;  // sRGB; white where the surface has none
+uniform bool unlit;
+#endif
 
 // Ambient occlusion, by what the opaque objects' depth shows around a place.
 uniform bool occludes;
@@ -21,6 +25,9 @@ uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
 
 in vec3 v_place;
 in vec3 v_normal;
+#ifdef TEXTURED
+in vec2 v_uv;
+#endif
 #ifdef LOW_QUALITY
 in vec3 v_around;
 in float v_lamp;
@@ -124,8 +131,20 @@ float open_share(vec3 n) {
 #endif
 
 void main() {
+    float distance_m = tells_distance ? 1.0 / gl_FragCoord.w : 0.0;
+#ifdef TEXTURED
+    vec4 texel = texture(surface_texture, v_uv);
+    if (unlit) {
+        write_surface(texel.rgb * base_color, distance_m);
+        out_color.a = look.z < 1.0 ? look.z * texel.a : 1.0;
+        return;
+    }
+    vec3 material = base_color * pow(texel.rgb, vec3(2.2));
+#else
+    vec3 material = base_color;
+#endif
     vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
-    vec3 surface = base_color * (1.0 - 0.25 * line_share(n));
+    vec3 surface = material * (1.0 - 0.25 * line_share(n));
     vec3 v = normalize(eye - v_place);
 #ifdef LOW_QUALITY
     vec3 color = surface * (v_lamp * lit_share(n) + v_around);
@@ -135,7 +154,11 @@ void main() {
     vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
                  from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
 #endif
-    write_surface(shown(color), tells_distance ? 1.0 / gl_FragCoord.w : 0.0);
+    write_surface(shown(color), distance_m);
     // A thin wall seen along itself lets less light through.
     out_color.a = look.z < 1.0 ? 1.0 - pow(1.0 - look.z, 1.0 / max(dot(n, v), 0.2)) : 1.0;
+#ifdef TEXTURED
+    if (look.z < 1.0)
+        out_color.a *= texel.a;
+#endif
 }

@@ -11,9 +11,15 @@ uniform float light;
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
+#ifdef TEXTURED
+layout(location = 2) in vec2 uv;
+#endif
 
 out vec3 v_place;   // in the room
 out vec3 v_normal;
+#ifdef TEXTURED
+out vec2 v_uv;  // place in the texture
+#endif
 #ifdef LOW_QUALITY
 out vec3 v_around;  // light from all around
 out float v_lamp;   // light from the lamp, where no shadow falls
@@ -22,6 +28,9 @@ out float v_lamp;   // light from the lamp, where no shadow falls
 void main() {
     vec4 in_room = room_from_object * vec4(place, 1.0);
     v_place = in_room.xyz;
+#ifdef TEXTURED
+    v_uv = uv;
+#endif
     v_normal = mat3(room_from_object) * normal;
 #ifdef LOW_QUALITY
     v_around = textureLod(environment, v_normal, 4.0).rgb;

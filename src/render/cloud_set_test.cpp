@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -71,11 +71,11 @@ CameraView own_view(const Calibration& calibration) {
     return view_of_camera(calibration.depth, calibration.room_from_camera, calibration.depth.size);
 }
 
-class CloudSceneTest : public ::testing::TestWithParam<std::string> {
+class CloudSetTest : public ::testing::TestWithParam<std::string> {
 protected:
     void SetUp() override {
         test_context();
-        scene = std::make_unique<CloudScene>();
+        scene = std::make_unique<CloudSet>();
     }
     void TearDown() override {
         scene.reset();
@@ -94,10 +94,10 @@ protected:
     }
 
     const int errors_before = test_context().errors();
-    std::unique_ptr<CloudScene> scene;
+    std::unique_ptr<CloudSet> scene;
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryRenderer, CloudSceneTest, ::testing::ValuesIn(renderer_names()),
+INSTANTIATE_TEST_SUITE_P(EveryRenderer, CloudSetTest, ::testing::ValuesIn(renderer_names()),
                          [](const auto& test) { return test.param; });
 
 // Pixels at a step or at a hole may belong to either side, and "blend" may close a hole's
@@ -113,7 +113,7 @@ bool near_an_edge(int x, int y, const std::string& renderer) {
     return false;
 }
 
-TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheDepthIsTheDepthImage) {
+TEST_P(CloudSetTest, FromTheCamerasOwnPoseTheDepthIsTheDepthImage) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const DepthImage expected = wall_and_board(calibration.depth.size);
@@ -126,7 +126,7 @@ TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheDepthIsTheDepthImage) {
             }
 }
 
-TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheColorIsNotShifted) {
+TEST_P(CloudSetTest, FromTheCamerasOwnPoseTheColorIsNotShifted) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const ColorImage expected = position_colors(calibration.color.size);
@@ -141,7 +141,7 @@ TEST_P(CloudSceneTest, FromTheCamerasOwnPoseTheColorIsNotShifted) {
             }
 }
 
-TEST_P(CloudSceneTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
+TEST_P(CloudSetTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
     const Calibration calibration = real_calibration();
     show(calibration);
     CameraModel eye = calibration.depth;  // without its distortion: what the view shows
@@ -180,7 +180,7 @@ TEST_P(CloudSceneTest, LensesAreCorrectedAndTheColorComesFromItsOwnCamera) {
     EXPECT_NEAR(sum_y / compared, 0, 0.5);
 }
 
-TEST_P(CloudSceneTest, WhatTheColorCameraDoesNotSeeIsNotPaintedWithTheForeground) {
+TEST_P(CloudSetTest, WhatTheColorCameraDoesNotSeeIsNotPaintedWithTheForeground) {
     Calibration calibration = simple_calibration();
     calibration.color = pinhole({384, 288}, 60);
     calibration.color_from_depth.translation = {-0.1, 0, 0};
@@ -214,7 +214,7 @@ int count_drawn(const Picture& picture) {
                              [](std::uint16_t mm) { return mm > 0; }));
 }
 
-TEST_P(CloudSceneTest, WithHalfThePresenceHalfOfItIsSeen) {
+TEST_P(CloudSetTest, WithHalfThePresenceHalfOfItIsSeen) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const Picture full = render(own_view(calibration));
@@ -231,7 +231,7 @@ TEST_P(CloudSceneTest, WithHalfThePresenceHalfOfItIsSeen) {
     EXPECT_GT(count_drawn(full), 6000);
 }
 
-TEST_P(CloudSceneTest, OfAPersonOnlyWhatIsNearTheirBodyIsShown) {
+TEST_P(CloudSetTest, OfAPersonOnlyWhatIsNearTheirBodyIsShown) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     CloudCut cut;
@@ -242,7 +242,7 @@ TEST_P(CloudSceneTest, OfAPersonOnlyWhatIsNearTheirBodyIsShown) {
     EXPECT_EQ(drawn.depth_mm.view().row(10)[80], 0) << "the wall behind";
 }
 
-TEST_P(CloudSceneTest, WhatBlocksOnesViewIsNotShownAndFadesAtItsBorder) {
+TEST_P(CloudSetTest, WhatBlocksOnesViewIsNotShownAndFadesAtItsBorder) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     CloudCut cut;
@@ -268,7 +268,7 @@ TEST_P(CloudSceneTest, WhatBlocksOnesViewIsNotShownAndFadesAtItsBorder) {
     EXPECT_EQ(drawn.depth_mm.view().row(10)[80], wall_mm);
 }
 
-TEST_P(CloudSceneTest, HolesStayHoles) {
+TEST_P(CloudSetTest, HolesStayHoles) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const Picture drawn = render(own_view(calibration));
@@ -279,7 +279,7 @@ TEST_P(CloudSceneTest, HolesStayHoles) {
         }
 }
 
-TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
+TEST_P(CloudSetTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const CameraView side =
@@ -305,7 +305,7 @@ TEST_P(CloudSceneTest, NothingIsDrawnBetweenTheBoardAndTheWall) {
     EXPECT_EQ(between, 0);
 }
 
-TEST_P(CloudSceneTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
+TEST_P(CloudSetTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
     // The camera looks along the wall at 30 degrees: its points are two pixels apart
     // across the wall when one looks at it straight.
     const Calibration calibration = simple_calibration();
@@ -326,7 +326,7 @@ TEST_P(CloudSceneTest, ASteepWallHasNoGapsWhenSeenFromTheFront) {
             ASSERT_NEAR(drawn.depth_mm.view().row(y)[x], 2000, 60) << "at " << x << ", " << y;
 }
 
-TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
+TEST_P(CloudSetTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     const Size size{384, 288};
@@ -347,7 +347,7 @@ TEST_P(CloudSceneTest, FromTheSideACornerIsWhereGeometrySaysItIs) {
     EXPECT_GT(std::abs(depth_at(-4, -8) - eye.z * 1000), 300);
 }
 
-TEST_P(CloudSceneTest, MovingACameraInTheRoomMovesItsPicture) {
+TEST_P(CloudSetTest, MovingACameraInTheRoomMovesItsPicture) {
     Calibration calibration = simple_calibration();
     show(calibration);
     const CameraView view = own_view(calibration);
@@ -360,7 +360,7 @@ TEST_P(CloudSceneTest, MovingACameraInTheRoomMovesItsPicture) {
     EXPECT_EQ(after.view().row(0)[0], 0) << "the picture became smaller";
 }
 
-TEST_P(CloudSceneTest, CamerasOfDifferentSizesAreDrawnTogether) {
+TEST_P(CloudSetTest, CamerasOfDifferentSizesAreDrawnTogether) {
     const Calibration near = simple_calibration();
     Calibration far = simple_calibration({160, 40});
     far.room_from_camera.translation.x += 40;
@@ -380,7 +380,7 @@ TEST_P(CloudSceneTest, CamerasOfDifferentSizesAreDrawnTogether) {
     EXPECT_EQ(render(own_view(far), far.depth.size).depth_mm.view().row(20)[80], 1500);
 }
 
-TEST_P(CloudSceneTest, WhatHasItsColorWinsOverWhatHasNone) {
+TEST_P(CloudSetTest, WhatHasItsColorWinsOverWhatHasNone) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     scene->set_camera(second_camera, calibration);
@@ -391,7 +391,7 @@ TEST_P(CloudSceneTest, WhatHasItsColorWinsOverWhatHasNone) {
     EXPECT_NEAR(render(own_view(calibration)).color.view().row(40)[75].r, 75, 1);
 }
 
-TEST_P(CloudSceneTest, DepthUnitsAreThoseOfTheCalibration) {
+TEST_P(CloudSetTest, DepthUnitsAreThoseOfTheCalibration) {
     Calibration calibration = simple_calibration();
     calibration.depth_unit_mm = 0.25;
     show(calibration);
@@ -399,7 +399,7 @@ TEST_P(CloudSceneTest, DepthUnitsAreThoseOfTheCalibration) {
 }
 
 // An odd size: the last column and row have no partner.
-TEST_P(CloudSceneTest, WithFewerPointsEverythingStaysInItsPlace) {
+TEST_P(CloudSetTest, WithFewerPointsEverythingStaysInItsPlace) {
     Calibration calibration = real_calibration();
     calibration.depth.size = {95, 71};
     show(calibration);
@@ -431,7 +431,7 @@ TEST_P(CloudSceneTest, WithFewerPointsEverythingStaysInItsPlace) {
     EXPECT_EQ(render(view).depth_mm.pixels, all.depth_mm.pixels);
 }
 
-TEST_P(CloudSceneTest, WithFewerPointsPresenceAndCutsStay) {
+TEST_P(CloudSetTest, WithFewerPointsPresenceAndCutsStay) {
     const Calibration calibration = simple_calibration();
     show(calibration);
     CloudCut board_only;
@@ -450,16 +450,16 @@ TEST_P(CloudSceneTest, WithFewerPointsPresenceAndCutsStay) {
     EXPECT_EQ(farthest(), 0);
 }
 
-TEST(CloudScene, RefusesImagesOfAnotherSizeThanCalibrated) {
+TEST(CloudSet, RefusesImagesOfAnotherSizeThanCalibrated) {
     test_context();
-    CloudScene scene;
+    CloudSet scene;
     const DepthImage depth({64, 48});
     EXPECT_EQ(scene.upload(first_camera, depth.view(), {}), Status::size_mismatch);
     scene.set_camera(first_camera, simple_calibration());
     EXPECT_EQ(scene.upload(first_camera, depth.view(), {}), Status::size_mismatch);
 }
 
-TEST(CloudScene, AnUnknownRendererIsAnsweredWithTheChoices) {
+TEST(CloudSet, AnUnknownRendererIsAnsweredWithTheChoices) {
     try {
         check_renderer_name("raytrace");
         FAIL() << "accepted";
@@ -470,9 +470,9 @@ TEST(CloudScene, AnUnknownRendererIsAnsweredWithTheChoices) {
     }
 }
 
-TEST(CloudScene, AnEmptySceneIsItsBackground) {
+TEST(CloudSet, AnEmptySceneIsItsBackground) {
     test_context();
-    CloudScene scene;
+    CloudSet scene;
     const Picture picture = scene.render({}, {4, 4}, "mesh");
     EXPECT_EQ(picture.depth_mm.pixels, std::vector<std::uint16_t>(16, 0));
     EXPECT_EQ(picture.color.pixels.front(), picture.color.pixels.back());

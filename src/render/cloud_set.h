@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The live clouds: what the cameras see, kept on the GPU and drawn from any side.
+// Live clouds: what a set of cameras sees, kept on the GPU and drawn from any side.
+//
+// A set are cameras that belong together: those of a room, or those of one person. Its cameras are
+// drawn in one way, and balanced and blended with each other; several sets are drawn one after
+// the other into the same target, whose depth decides what hides what. Memory follows the set's own
+// cameras; programs are shared by the sets that were made with the same CloudPrograms.
 //
 // Depth and colour stay images: points come into being in the vertex shader, from
 // the depth texture, a table of rays and the calibration. No GL type appears
@@ -20,19 +25,12 @@
 #include "image/image.h"
 #include "render/camera_view.h"
 #include "render/cloud_cut.h"
+#include "render/draw_target.h"
 
 namespace theatron::render {
 
-// At most so many cameras are in one scene.
+// At most so many cameras are in one set.
 inline constexpr int max_cameras = 16;
-
-// A part of a framebuffer: the one with this GL name (0 is the window's), and in
-// it the rectangle whose lower left corner is (x, y).
-struct DrawTarget {
-    unsigned framebuffer = 0;
-    int x = 0, y = 0;
-    Size size;
-};
 
 // A picture read back. `depth_mm` is the distance along the view's axis in
 // millimetres, 0 where no cloud was drawn and beyond 65 m.
@@ -54,13 +52,28 @@ inline constexpr std::string_view yardstick_renderer = "bare_grid";
 // Throws an Error that names the choices if there is no such renderer.
 void check_renderer_name(std::string_view name);
 
-class CloudScene {
+// The shaders of all renderers, made when first used, and all else that does not depend on cameras.
+class CloudPrograms {
 public:
-    // Throws Error where the context lacks what the shaders need.
-    CloudScene();
-    ~CloudScene();
-    CloudScene(CloudScene&&) noexcept;
-    CloudScene& operator=(CloudScene&&) noexcept;
+    CloudPrograms();
+    ~CloudPrograms();
+    CloudPrograms(const CloudPrograms&) = delete;
+    CloudPrograms& operator=(const CloudPrograms&) = delete;
+
+private:
+    friend class CloudSet;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+class CloudSet {
+public:
+    // Throws Error where the context lacks what the shaders need. Without programs the set makes
+    // its own; those of other sets must be of the same context.
+    explicit CloudSet(std::shared_ptr<CloudPrograms> programs = nullptr);
+    ~CloudSet();
+    CloudSet(CloudSet&&) noexcept;
+    CloudSet& operator=(CloudSet&&) noexcept;
 
     // Adds a camera or changes its calibration. Changing only where it stands is cheap, and
     // changes nothing else. A new depth lens costs some tens of milliseconds and the camera's
@@ -87,7 +100,7 @@ public:
     // camera; nothing was changed.
     Status upload(CameraId camera, DepthView depth, ColorView color);
 
-    // Draws all clouds over what the target holds, tested against its depth. Color goes
+    // Draws the clouds of this set over what the target holds, tested against its depth. Color goes
     // to the first draw buffer, millimetres to the second (an unsigned integer
     // one), if there is one. Throws Error if there is no such renderer.
     void draw(const CameraView& view, const DrawTarget& target, std::string_view renderer);

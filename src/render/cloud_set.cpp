@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/cloud_scene.h"
+#include "render/cloud_set.h"
 
 #include <algorithm>
 #include <map>
@@ -58,23 +58,13 @@ void check_renderer_name(std::string_view name) {
                 ".");
 }
 
-struct CloudScene::Parts {
-    struct Camera {
-        Calibration calibration;  // of the images as they come
-        CloudCamera drawn;
-    };
-    std::map<CameraId, Camera> cameras;
-    int depth_step = 1;
-    ColorBalance balance;
-    DepthOffsets offsets;
+struct CloudPrograms::Parts {
     ColorVisibility visibility;
     GridMeshes grids;
-    BlendLayers layers;
     Buffer staging;
     // Core profiles draw nothing without one, though no attributes are used.
     VertexArray no_attributes;
     std::map<std::string, std::unique_ptr<CloudPass>, std::less<>> passes;  // made when first used
-    std::optional<RenderTarget> picture;
 
     CloudPass& pass(std::string_view name) {
         check_renderer_name(name);
@@ -85,6 +75,26 @@ struct CloudScene::Parts {
                     known = passes.emplace(name, candidate.make()).first;
         return *known->second;
     }
+};
+
+CloudPrograms::CloudPrograms() : parts_(std::make_unique<Parts>()) {}
+CloudPrograms::~CloudPrograms() = default;
+
+struct CloudSet::Parts {
+    struct Camera {
+        Calibration calibration;  // of the images as they come
+        CloudCamera drawn;
+    };
+    std::shared_ptr<CloudPrograms> programs;
+    std::map<CameraId, Camera> cameras;
+    int depth_step = 1;
+    ColorBalance balance;
+    DepthOffsets offsets;
+    BlendLayers layers;
+    std::optional<RenderTarget> picture;
+
+    explicit Parts(std::shared_ptr<CloudPrograms> given)
+        : programs(given ? std::move(given) : std::make_shared<CloudPrograms>()) {}
 
     Calibration of_drawn(Calibration calibration) const {
         calibration.depth = every_nth(calibration.depth, depth_step);
@@ -92,7 +102,7 @@ struct CloudScene::Parts {
     }
     CloudCamera make_camera(const Calibration& calibration) {
         const Calibration drawn = of_drawn(calibration);
-        return {drawn, grids.of(drawn.depth.size)};
+        return {drawn, programs->parts_->grids.of(drawn.depth.size)};
     }
     // With other images the camera starts anew, but for how it is to be shown.
     void replace(Camera& camera) {
@@ -114,17 +124,18 @@ struct CloudScene::Parts {
     }
 };
 
-CloudScene::CloudScene() : parts_(std::make_unique<Parts>()) {}
-CloudScene::~CloudScene() = default;
-CloudScene::CloudScene(CloudScene&&) noexcept = default;
-CloudScene& CloudScene::operator=(CloudScene&&) noexcept = default;
+CloudSet::CloudSet(std::shared_ptr<CloudPrograms> programs)
+    : parts_(std::make_unique<Parts>(std::move(programs))) {}
+CloudSet::~CloudSet() = default;
+CloudSet::CloudSet(CloudSet&&) noexcept = default;
+CloudSet& CloudSet::operator=(CloudSet&&) noexcept = default;
 
-void CloudScene::set_camera(CameraId id, const Calibration& calibration) {
+void CloudSet::set_camera(CameraId id, const Calibration& calibration) {
     Parts& p = *parts_;
     const auto known = p.cameras.find(id);
     if (known == p.cameras.end()) {
         if (p.cameras.size() == std::size_t(max_cameras))
-            throw Error("A scene shows at most " + std::to_string(max_cameras) + " cameras.");
+            throw Error("A set of clouds has at most " + std::to_string(max_cameras) + " cameras.");
         p.cameras.emplace(id, Parts::Camera{calibration, p.make_camera(calibration)});
         return;
     }
@@ -137,17 +148,17 @@ void CloudScene::set_camera(CameraId id, const Calibration& calibration) {
         p.replace(camera);
 }
 
-void CloudScene::set_presence(CameraId id, double presence) {
+void CloudSet::set_presence(CameraId id, double presence) {
     if (CloudCamera* camera = parts_->find(id))
         camera->presence = std::clamp(presence, 0.0, 1.0);
 }
 
-void CloudScene::set_cut(CameraId id, const CloudCut& cut) {
+void CloudSet::set_cut(CameraId id, const CloudCut& cut) {
     if (CloudCamera* camera = parts_->find(id))
         camera->cut = cut;
 }
 
-bool CloudScene::set_depth_step(int step) {
+bool CloudSet::set_depth_step(int step) {
     if (step == parts_->depth_step)
         return false;
     parts_->depth_step = step;
@@ -156,22 +167,23 @@ bool CloudScene::set_depth_step(int step) {
     return true;
 }
 
-void CloudScene::remove_camera(CameraId id) {
+void CloudSet::remove_camera(CameraId id) {
     parts_->cameras.erase(id);
     parts_->balance.remove(id);
     parts_->offsets.remove(id);
 }
 
-Status CloudScene::upload(CameraId id, DepthView depth, ColorView color) {
+Status CloudSet::upload(CameraId id, DepthView depth, ColorView color) {
     Parts& p = *parts_;
     const auto known = p.cameras.find(id);
     if (known == p.cameras.end() || depth.size != known->second.calibration.depth.size)
         return Status::size_mismatch;
     Parts::Camera& camera = known->second;
+    const Buffer& staging = p.programs->parts_->staging;
     const Status status =
         p.depth_step == 1
-            ? camera.drawn.upload(depth, color, p.staging)
-            : camera.drawn.upload(every_nth(depth, p.depth_step).view(), color, p.staging);
+            ? camera.drawn.upload(depth, color, staging)
+            : camera.drawn.upload(every_nth(depth, p.depth_step).view(), color, staging);
     if (status == Status::ok) {
         p.balance.add(id, camera.calibration, depth, color);
         p.offsets.add(id, camera.calibration, depth, color);
@@ -179,9 +191,10 @@ Status CloudScene::upload(CameraId id, DepthView depth, ColorView color) {
     return status;
 }
 
-void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::string_view renderer) {
+void CloudSet::draw(const CameraView& view, const DrawTarget& target, std::string_view renderer) {
     Parts& p = *parts_;
-    CloudPass& pass = p.pass(renderer);
+    CloudPrograms::Parts& programs = *p.programs->parts_;
+    CloudPass& pass = programs.pass(renderer);
     if (p.cameras.empty())
         return;
 #ifndef __EMSCRIPTEN__
@@ -190,14 +203,14 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
 #endif
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // surfaces are seen from behind, too
-    glBindVertexArray(p.no_attributes.name());
+    glBindVertexArray(programs.no_attributes.name());
     p.take_estimates();
     std::vector<CloudCamera*> cameras;
     for (auto& [id, camera] : p.cameras) {
         cameras.push_back(&camera.drawn);
         camera.drawn.set_view(view);
         camera.drawn.bind();
-        p.visibility.update(camera.drawn);
+        programs.visibility.update(camera.drawn);
         pass.prepare(camera.drawn);
     }
 
@@ -212,7 +225,7 @@ void CloudScene::draw(const CameraView& view, const DrawTarget& target, std::str
     glActiveTexture(GL_TEXTURE0);
 }
 
-Picture CloudScene::render(const CameraView& view, Size size, std::string_view renderer) {
+Picture CloudSet::render(const CameraView& view, Size size, std::string_view renderer) {
     check_renderer_name(renderer);
     if (!parts_->picture || parts_->picture->size() != size)
         parts_->picture.emplace(size);
