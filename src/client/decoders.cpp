@@ -3,19 +3,18 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/fault.h"
 #include "base/thread_name.h"
 
 namespace theatron::client {
 
-Decoders::Decoders(const receive::Receiver::Events& events)
-    : now_(events.now), needs_key_(events.needs_key) {
+Decoders::Decoders(Events events) : events_(std::move(events)) {
     const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
-    for (unsigned i = 0; i < cores; ++i) {
-        workers_.push_back(std::make_unique<Worker>(events));
-        workers_.back()->thread =
-            std::thread([this, worker = workers_.back().get()] { run(*worker); });
-    }
+    for (unsigned i = 0; i < cores; ++i)
+        workers_.push_back(std::make_unique<Worker>(receiver_events(i)));
+    for (const auto& worker : workers_)
+        worker->thread = std::thread([this, own = worker.get()] { run(*own); });
 }
 
 Decoders::~Decoders() {
@@ -29,108 +28,180 @@ Decoders::~Decoders() {
     }
 }
 
+receive::Receiver::Events Decoders::receiver_events(std::size_t worker) {
+    receive::Receiver::Events events;
+    events.frame = [this, worker](receive::CameraFramePtr frame) {
+        events_.frame(std::move(frame), workers_[worker]->generation);
+    };
+    events.needs_key = events_.needs_key;
+    events.now = events_.now;
+    return events;
+}
+
 void Decoders::run(Worker& worker) {
     name_this_thread("decode");
     std::unique_lock lock(worker.mutex);
     while (true) {
-        worker.changed.wait(lock, [&] { return !worker.waiting.empty() || worker.stopping; });
+        worker.changed.wait(lock, [&] {
+            return !worker.waiting.empty() || worker.stopping || worker.figures_wanted;
+        });
         if (worker.stopping)
             return;
-        Bytes message = std::move(worker.waiting.front());
+        if (worker.figures_wanted)
+            note_figures(worker, lock);
+        if (worker.waiting.empty())
+            continue;
+        Work work = std::move(worker.waiting.front());
         worker.waiting.pop_front();
+        auto* message = std::get_if<Message>(&work);
+        if (message)
+            worker.bytes_waiting -= message->cost();
         worker.busy = true;
         lock.unlock();
-        {
-            const std::lock_guard receiving(worker.receiver_mutex);
-            // Damage is counted there, and a key frame asked for.
-            if (!contain("decode", [&] { (void)worker.receiver.on_media(message, now_()); }))
-                ask_for_key(message);
-        }
+        // Damage is counted there, and a key frame asked for.
+        if (!contain("decode", [&] { work_on(worker, work); }) && message)
+            // The picture is lost, and what its decoder holds may be anything.
+            if (const auto header = wire::parse_media_header(message->bytes))
+                (void)contain("decode",
+                              [&] { events_.needs_key(header->stream, header->setting); });
         lock.lock();
         worker.busy = false;
-        worker.bytes_waiting -= message.size();
-        if (worker.bytes_spare + message.capacity() <= most_bytes_spare) {
-            worker.bytes_spare += message.capacity();
-            worker.spare.push_back(std::move(message));
-        }
-        worker.changed.notify_all();
+        if (message)
+            keep_memory(worker, std::move(message->bytes));
     }
 }
 
-// The picture is lost, and what its decoder holds may be anything.
-void Decoders::ask_for_key(ByteView message) {
-    const auto header = wire::parse_media_header(message);
-    if (header && needs_key_)
-        (void)contain("decode", [&] { needs_key_(header->stream, header->setting); });
+void Decoders::note_figures(Worker& worker, std::unique_lock<std::mutex>& lock) {
+    worker.figures_wanted = false;
+    const bool reset = std::exchange(worker.reset_wanted, false);
+    worker.busy = true;
+    lock.unlock();
+    std::vector<receive::StreamFigures> figures;
+    const TimePoint now = events_.now();
+    (void)contain("decode", [&] {
+        if (reset)
+            worker.receiver.reset_figures();
+        figures = worker.receiver.figures(now);
+    });
+    lock.lock();
+    worker.busy = false;
+    // Counting begins anew: what was counted before is not shown.
+    if (worker.reset_wanted)
+        return;
+    worker.figures = std::move(figures);
+    worker.figures_at = now;
 }
 
-void Decoders::drain(Worker& worker) {
-    std::unique_lock lock(worker.mutex);
-    worker.changed.wait(lock, [&] { return worker.waiting.empty() && !worker.busy; });
+void Decoders::work_on(Worker& worker, Work& work) {
+    if (auto* message = std::get_if<Message>(&work)) {
+        if (!message->is_taken)
+            events_.taken(message->connection, message->bytes.size());
+        (void)worker.receiver.on_media(message->bytes, events_.now());
+    } else if (auto* cameras = std::get_if<Cameras>(&work)) {
+        worker.generation = cameras->generation;
+        worker.receiver.set_cameras(cameras->cameras);
+    } else if (auto* settings = std::get_if<Settings>(&work)) {
+        try {
+            worker.receiver.set_settings(settings->settings);
+        } catch (const Error& e) {
+            if (!settings->problem_told->test_and_set())
+                events_.problem(e.what());
+        }
+    }
 }
 
-void Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
+void Decoders::keep_memory(Worker& worker, Bytes memory) {
+    if (worker.bytes_spare + memory.capacity() > most_bytes_spare)
+        return;
+    worker.bytes_spare += memory.capacity();
+    worker.spare.push_back(std::move(memory));
+}
+
+void Decoders::queue(Worker& worker, Work work) {
+    {
+        const std::lock_guard lock(worker.mutex);
+        worker.waiting.push_back(std::move(work));
+    }
+    worker.changed.notify_all();
+}
+
+std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
+    ++generation_;
     max_sizes_.clear();
     for (const wire::Camera& camera : cameras)
         for (const StreamId stream : {camera.depth_stream, camera.color_stream})
             max_sizes_[stream] = receive::max_media_size(camera, stream);
     for (const auto& worker : workers_) {
-        std::vector<wire::Camera> own;
+        Cameras own{{}, generation_};
         for (const wire::Camera& camera : cameras)
             if (&worker_of(camera.depth_stream) == worker.get())
-                own.push_back(camera);
-        drain(*worker);
-        const std::lock_guard lock(worker->receiver_mutex);
-        worker->receiver.set_cameras(own);
+                own.cameras.push_back(camera);
+        std::deque<Work> left_out;
+        {
+            const std::lock_guard lock(worker->mutex);
+            left_out.swap(worker->waiting);
+            worker->bytes_waiting = 0;
+            worker->figures.clear();
+        }
+        for (const Work& work : left_out)
+            if (const auto* message = std::get_if<Message>(&work); message && !message->is_taken)
+                events_.taken(message->connection, message->bytes.size());
+        queue(*worker, std::move(own));
     }
+    return generation_;
 }
 
 void Decoders::set_settings(const std::vector<wire::StreamSetting>& settings) {
-    for (const auto& worker : workers_) {
-        drain(*worker);
-        const std::lock_guard lock(worker->receiver_mutex);
-        worker->receiver.set_settings(settings);  // those of others are unknown there
-    }
+    const auto problem_told = std::make_shared<std::atomic_flag>();
+    for (const auto& worker : workers_)
+        queue(*worker, Settings{settings, problem_told});  // those of others are unknown there
 }
 
-void Decoders::on_media(ByteView message) {
+bool Decoders::on_media(Bytes& message, std::uint64_t connection) {
     const auto header = wire::parse_media_header(message);
+    const auto known = header ? max_sizes_.find(header->stream) : max_sizes_.end();
+    if (header && known == max_sizes_.end())
+        return true;
     Worker& worker = header ? worker_of(header->stream) : *workers_.front();
-    if (header) {
-        const auto known = max_sizes_.find(header->stream);
-        if (known == max_sizes_.end())
-            return;
-        // Without its payload it is refused and counted like any other damage.
-        if (message.size() > known->second)
-            message = message.first(wire::media_header_size);
-    } else {
-        message = message.first(std::min(message.size(), wire::media_header_size));
+    // Without its payload it is refused and counted like any other damage.
+    if (!header || message.size() > known->second) {
+        message.resize(std::min(message.size(), wire::media_header_size));
+        message.shrink_to_fit();
     }
-    const std::size_t share = most_bytes_waiting / workers_.size();
-    std::unique_lock lock(worker.mutex);
-    worker.changed.wait(lock, [&] {
-        return worker.waiting.size() < most_waiting &&
-               (worker.bytes_waiting == 0 || worker.bytes_waiting + message.size() <= share);
-    });
-    Bytes copy;
-    if (!worker.spare.empty()) {
-        copy = std::move(worker.spare.back());
-        worker.spare.pop_back();
-        worker.bytes_spare -= copy.capacity();
+    bool at_once = false;
+    {
+        const std::lock_guard lock(worker.mutex);
+        at_once = worker.waiting.empty() && !worker.busy;
+        Message work{std::move(message), connection, at_once};
+        message = {};
+        if (!at_once && worker.bytes_waiting + work.cost() > most_bytes_waiting / workers_.size())
+            return true;
+        worker.bytes_waiting += work.cost();
+        worker.waiting.push_back(std::move(work));
+        if (!worker.spare.empty()) {
+            message = std::move(worker.spare.back());
+            worker.spare.pop_back();
+            worker.bytes_spare -= message.capacity();
+        }
     }
-    copy.assign(message.begin(), message.end());
-    worker.bytes_waiting += copy.size();
-    worker.waiting.push_back(std::move(copy));
-    lock.unlock();
     worker.changed.notify_all();
+    return at_once;
 }
 
 std::vector<receive::StreamFigures> Decoders::figures() {
     std::vector<receive::StreamFigures> all;
+    const TimePoint now = events_.now();
     for (const auto& worker : workers_) {
-        const std::lock_guard lock(worker->receiver_mutex);
-        const auto own = worker->receiver.figures(now_());
-        all.insert(all.end(), own.begin(), own.end());
+        {
+            const std::lock_guard lock(worker->mutex);
+            worker->figures_wanted = true;
+            for (receive::StreamFigures f : worker->figures) {
+                if (f.frames > 0)
+                    f.age_now_ms += to_ms(now - worker->figures_at);
+                all.push_back(std::move(f));
+            }
+        }
+        worker->changed.notify_all();
     }
     std::sort(all.begin(), all.end(),
               [](const auto& a, const auto& b) { return a.stream < b.stream; });
@@ -139,8 +210,17 @@ std::vector<receive::StreamFigures> Decoders::figures() {
 
 void Decoders::reset_figures() {
     for (const auto& worker : workers_) {
-        const std::lock_guard lock(worker->receiver_mutex);
-        worker->receiver.reset_figures();
+        {
+            const std::lock_guard lock(worker->mutex);
+            worker->figures_wanted = worker->reset_wanted = true;
+            for (receive::StreamFigures& f : worker->figures) {
+                receive::StreamFigures anew;
+                anew.stream = f.stream;
+                anew.codec = f.codec;
+                f = anew;
+            }
+        }
+        worker->changed.notify_all();
     }
 }
 

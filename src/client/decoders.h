@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // receive::Receiver on several threads: each decodes some of the cameras, so that
-// many cameras use all cores of a viewer.
+// many cameras use all cores of a viewer. The caller never waits for a decoder.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "receive/receiver.h"
@@ -16,57 +18,96 @@ namespace theatron::client {
 
 class Decoders {
 public:
-    // The events come from the decoding threads; `now` must be given.
-    explicit Decoders(const receive::Receiver::Events& events);
+    // All are called from decoding threads.
+    struct Events {
+        // `generation` is what set_cameras() returned for the cameras of the frame.
+        std::function<void(receive::CameraFramePtr, std::uint64_t generation)> frame;
+        std::function<void(StreamId, SettingId)> needs_key;
+        // A message for which on_media() returned false is no longer waiting.
+        std::function<void(std::uint64_t connection, std::size_t bytes)> taken;
+        // One sentence: the host sends in a way that cannot be decoded.
+        std::function<void(const std::string&)> problem;
+        std::function<TimePoint()> now;  // session time
+    };
+    explicit Decoders(Events events);
     ~Decoders();
 
-    // As in Receiver, from one thread. Both wait until what came before is decoded.
-    void set_cameras(const std::vector<wire::Camera>& cameras);
+    // The functions below are for one thread, and none of them waits.
+
+    // As in Receiver, in the order of the calls; messages that wait for other cameras are left out.
+    // Returns a number that is new each time.
+    std::uint64_t set_cameras(const std::vector<wire::Camera>& cameras);
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
-    // Takes a copy. Waits while too much is undecoded, so that the sender notices. Messages that
-    // no camera's pictures can need are left out (receive::max_media_size).
-    void on_media(ByteView message);
+    // Takes the message away and leaves other memory for the next. True if a thread decodes it at
+    // once, or if it is left out: because no camera's pictures can need it
+    // (receive::max_media_size), or because far too much waits. `connection` is any number that
+    // comes back with Events::taken.
+    bool on_media(Bytes& message, std::uint64_t connection);
 
-    // From any thread.
+    // Of a short time ago, but for the ages, which are of now.
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
 
 private:
-    // About what the cameras of one thread send at once. More would only make frames older,
-    // and keep the host encoding what nobody decodes in time.
-    static constexpr std::size_t most_waiting = 10;
-    // Limit for all threads together, in bytes. A message that is larger waits alone.
+    // Limit for all threads together, in bytes: more is left out. A sender that heeds
+    // acknowledgements never gets there.
     static constexpr std::size_t most_bytes_waiting = std::size_t(128) << 20;
+    // What a message costs besides its bytes, about.
+    static constexpr std::size_t message_overhead = 256;
     // Memory of messages that is kept for the next ones, of each thread.
     static constexpr std::size_t most_bytes_spare = std::size_t(8) << 20;
 
-    struct Worker {
-        explicit Worker(const receive::Receiver::Events& events) : receiver(events) {}
+    struct Message {
+        Bytes bytes;
+        std::uint64_t connection = 0;
+        bool is_taken = false;  // as its sender was told
+        std::size_t cost() const { return bytes.capacity() + message_overhead; }
+    };
+    struct Cameras {
+        std::vector<wire::Camera> cameras;
+        std::uint64_t generation = 0;
+    };
+    struct Settings {
+        std::vector<wire::StreamSetting> settings;
+        std::shared_ptr<std::atomic_flag> problem_told;
+    };
+    using Work = std::variant<Message, Cameras, Settings>;
 
-        std::mutex receiver_mutex;
+    struct Worker {
+        explicit Worker(receive::Receiver::Events events) : receiver(std::move(events)) {}
+
+        // The worker's thread only.
         receive::Receiver receiver;
+        std::uint64_t generation = 0;
 
         std::mutex mutex;  // guards all below
         std::condition_variable changed;
-        std::deque<Bytes> waiting;
-        std::size_t bytes_waiting = 0;  // of these, and of the one that is being decoded
+        std::deque<Work> waiting;
+        std::size_t bytes_waiting = 0;  // cost of these messages
         std::vector<Bytes> spare;       // memory of messages that were decoded
         std::size_t bytes_spare = 0;
         bool busy = false;
         bool stopping = false;
+        bool figures_wanted = false, reset_wanted = false;
+        std::vector<receive::StreamFigures> figures;
+        TimePoint figures_at;
         std::thread thread;
     };
+    receive::Receiver::Events receiver_events(std::size_t worker);
     void run(Worker& worker);
-    void ask_for_key(ByteView message);
-    static void drain(Worker& worker);
+    void note_figures(Worker& worker, std::unique_lock<std::mutex>& lock);
+    void work_on(Worker& worker, Work& work);
+    void decode(Worker& worker, const Message& message);
+    static void keep_memory(Worker& worker, Bytes memory);
+    void queue(Worker& worker, Work work);
     Worker& worker_of(StreamId stream) {
         return *workers_[std::size_t(camera_of(stream)) % workers_.size()];
     }
 
-    std::function<TimePoint()> now_;
-    std::map<StreamId, std::size_t> max_sizes_;  // of messages; who calls on_media()
-    std::function<void(StreamId, SettingId)> needs_key_;
+    const Events events_;
+    std::uint64_t generation_ = 0;
+    std::map<StreamId, std::size_t> max_sizes_;  // of messages
     std::vector<std::unique_ptr<Worker>> workers_;
 };
 

@@ -32,6 +32,10 @@ struct Participant::Shared {
     std::uint64_t generation = 0;
     std::vector<wire::StreamSetting> settings;
     std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
+    std::uint64_t decoder_generation = 0;                // of the cameras that these belong to
+    std::uint64_t connection = 0;                        // counts them
+    std::size_t taken = 0;    // bytes of its messages that decoders took, not yet told
+    bool is_telling = false;  // tell_taken() has been posted
     std::vector<receive::StreamFigures> figures;
     bool reset_wanted = false;
     net::ClockSync clock;
@@ -83,11 +87,13 @@ Participant::~Participant() {
 }
 
 // From the decoding threads.
-receive::Receiver::Events Participant::decoded_events() {
-    receive::Receiver::Events events;
-    events.frame = [this](receive::CameraFramePtr frame) {
+Decoders::Events Participant::decoded_events() {
+    Decoders::Events events;
+    events.frame = [this](receive::CameraFramePtr frame, std::uint64_t generation) {
         {
             const std::lock_guard lock(shared_->mutex);
+            if (generation != shared_->decoder_generation)
+                return;
             shared_->newest[frame->camera] = std::move(frame);
         }
         announce();
@@ -97,8 +103,36 @@ receive::Receiver::Events Participant::decoded_events() {
         if (shared_->client)
             shared_->client->post([this, stream, setting] { request_key(stream, setting); });
     };
+    events.taken = [this](std::uint64_t connection, std::size_t bytes) {
+        on_taken(connection, bytes);
+    };
+    events.problem = [this](const std::string& text) {
+        const std::lock_guard lock(shared_->mutex);
+        if (shared_->client)
+            shared_->client->post([this, text] { remark(text); });
+    };
     events.now = [this] { return now(); };
     return events;
+}
+
+// From a decoding thread: the host is told by the participant's.
+void Participant::on_taken(std::uint64_t connection, std::size_t bytes) {
+    const std::lock_guard lock(shared_->mutex);
+    if (connection != shared_->connection || !shared_->client)
+        return;
+    shared_->taken += bytes;
+    if (!std::exchange(shared_->is_telling, true))
+        shared_->client->post([this] { tell_taken(); });
+}
+
+void Participant::tell_taken() {
+    std::size_t bytes = 0;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        bytes = std::exchange(shared_->taken, 0);
+        shared_->is_telling = false;
+    }
+    shared_->client->taken(bytes);
 }
 
 void Participant::run() {
@@ -112,6 +146,9 @@ void Participant::run() {
             if (shared_->stopping)
                 return;
             shared_->client = &client;
+            ++shared_->connection;
+            shared_->taken = 0;
+            shared_->is_telling = false;
             shared_->clock = {};
             shared_->status.round_trip = {};
             shared_->status.clock_known = false;
@@ -158,23 +195,19 @@ net::Client::Handler Participant::handler() {
         shared_->client->send_control(hello);
     };
     h.control = [this](ByteView message) { on_control(message); };
-    h.media = [this](ByteView message) { on_media(message); };
-    h.received = [this](std::uint64_t media_bytes, bool complete) {
-        if (const auto message = session_.on_received(media_bytes, complete, steady_now()))
-            shared_->client->send_acknowledgement(*message);
-    };
+    h.media = [this](Bytes& message) { return on_media(message); };
     h.now = [this] { return now(); };
     h.tick = [this] { on_tick(); };
     return h;
 }
 
-void Participant::on_media(ByteView message) {
-    if (!options_.media) {
-        decoders_->on_media(message);
-        return;
-    }
+bool Participant::on_media(Bytes& message) {
+    if (!options_.media)
+        // Only this thread changes the number.
+        return decoders_->on_media(message, shared_->connection);
     if (const auto header = wire::parse_media_header(message))
         options_.media(*header, message);
+    return true;
 }
 
 void Participant::request_key(StreamId stream, SettingId setting) {
@@ -185,7 +218,7 @@ void Participant::on_control(ByteView message) {
     using Change = session::ViewerSession::Change;
     switch (session_.on_control(message)) {
         case Change::welcomed: {
-            decoders_->set_cameras(session_.cameras());
+            const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
             std::vector<Camera> cameras;
             for (const wire::Camera& camera : session_.cameras()) {
                 const auto calibration = decode_calibration(camera.calibration);
@@ -196,6 +229,7 @@ void Participant::on_control(ByteView message) {
             std::unique_lock lock(shared_->mutex);
             shared_->cameras = std::move(cameras);
             ++shared_->generation;
+            shared_->decoder_generation = generation;
             shared_->newest.clear();
             shared_->settings.clear();
             shared_->status.phase = Phase::joined;
@@ -222,11 +256,7 @@ void Participant::on_control(ByteView message) {
             }
             if (options_.described)
                 options_.described();
-            try {
-                decoders_->set_settings(session_.settings());
-            } catch (const Error& e) {
-                remark(e.what());
-            }
+            decoders_->set_settings(session_.settings());
             break;
         case Change::camera:
             on_camera_states();
@@ -327,7 +357,6 @@ void Participant::on_tick() {
         color_wish = std::exchange(shared_->color_wish, "");
         delivery_wish = std::exchange(shared_->delivery_wish, std::nullopt);
     }
-    // Not under the lock that decoding threads take.
     if (reset_wanted) {
         decoders_->reset_figures();
         next_report_ = local;

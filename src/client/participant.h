@@ -105,9 +105,11 @@ private:
     void run();
     void give_up();
     net::Client::Handler handler();
-    receive::Receiver::Events decoded_events();
+    Decoders::Events decoded_events();
     void on_control(ByteView message);
-    void on_media(ByteView message);
+    bool on_media(Bytes& message);
+    void on_taken(std::uint64_t connection, std::size_t bytes);
+    void tell_taken();
     void on_camera_states();
     void on_tick();
     void ping(TimePoint local);

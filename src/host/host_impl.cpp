@@ -36,6 +36,11 @@ net::Server::Handler Host::Impl::handler() {
         session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
         carry_out();
     };
+    h.frame_left = [this](net::PeerId) { release_lanes(); };
+    h.control_lost = [this](net::PeerId peer) {
+        session->resynchronise(ParticipantId(std::uint32_t(peer)));
+        carry_out();
+    };
     h.closed = [this](net::PeerId peer, const std::string& why) {
         const std::string address = addresses[peer];
         addresses.erase(peer);
@@ -115,11 +120,6 @@ void Host::Impl::carry_out(const session::action::ChangeSettings&) {
     change_settings();
 }
 
-void Host::Impl::carry_out(const session::action::Acknowledged& a) {
-    server->acknowledge(peer_of(a.participant), a.media_bytes);
-    release_lanes();
-}
-
 void Host::Impl::carry_out(const session::action::KeepEverything& a) {
     server->keep_everything(peer_of(a.participant));
 }
@@ -194,7 +194,7 @@ void Host::Impl::hold_lanes() {
         hold_lane(camera);
 }
 
-// An acknowledgement can only end a wait.
+// A frame that leaves can only end a wait.
 void Host::Impl::release_lanes() {
     for (const std::size_t camera : std::vector(held.begin(), held.end()))
         hold_lane(camera);

@@ -81,7 +81,6 @@ struct Host::Impl {
     void carry_out(const session::action::Joined& a);
     void carry_out(const session::action::RequestKey& a);
     void carry_out(const session::action::ChangeSettings&);
-    void carry_out(const session::action::Acknowledged& a);
     void carry_out(const session::action::KeepEverything& a);
     void carry_out(const session::action::SetCeiling& a);
     void carry_out(const session::action::Stepped& a);

@@ -98,13 +98,13 @@ struct Client::Impl {
             Connection::Events events;
             events.control = handler.control;
             events.media = handler.media;
-            events.received = handler.received;
+            events.state = handler.state;
             events.closed = [this](const std::string& why) {
                 finish("The connection ended: " + why + ".");
             };
             events.now = handler.now;
             connection = std::make_shared<Connection>(
-                std::move(*socket), wire::Unwrapper::Takes::control_and_media, std::move(events));
+                std::move(*socket), wire::Unwrapper::Takes::everything, std::move(events));
             connection->start();
             handler.connected();
         });
@@ -154,9 +154,14 @@ void Client::post(std::function<void()> work) {
     asio::post(impl_->io, std::move(work));
 }
 
-void Client::send_acknowledgement(ByteView control) {
+void Client::send_states(std::span<const wire::State> states) {
     if (impl_->connection)
-        impl_->connection->send_acknowledgement(control);
+        impl_->connection->send_states(states);
+}
+
+void Client::taken(std::size_t bytes) {
+    if (impl_->connection)
+        impl_->connection->taken(bytes);
 }
 
 void Client::send_control(ByteView control) {

@@ -10,6 +10,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "net/link.h"
+#include "wire/envelope.h"
 
 namespace theatron::net {
 
@@ -19,12 +20,11 @@ public:
     struct Handler {
         std::function<void()> connected;
         std::function<void(ByteView)> control;
-        std::function<void(ByteView)> media;
-        // More media has come: bytes of all chunks so far, and whether they end a
-        // message. Before `media`. May be empty.
-        std::function<void(std::uint64_t media_bytes, bool message_complete)> received;
-        std::function<TimePoint()> now;  // session time
-        std::function<void()> tick;      // ten times a second
+        // See Connection::Events. May be empty.
+        std::function<bool(Bytes&)> media;
+        std::function<void(const wire::State&)> state;  // may be empty
+        std::function<TimePoint()> now;                 // session time
+        std::function<void()> tick;                     // ten times a second
     };
 
     Client(Link link, Handler handler);
@@ -45,8 +45,9 @@ public:
 
     // On the client's thread only.
     void send_control(ByteView control);
-    // For what each later one includes: the newest replaces one that still waits.
-    void send_acknowledgement(ByteView control);
+    void send_states(std::span<const wire::State> states);
+    // A media message of this size that waited has been taken.
+    void taken(std::size_t bytes);
 
 private:
     struct Impl;

@@ -4,6 +4,7 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <bit>
 #include <utility>
 
 namespace theatron::net {
@@ -27,10 +28,6 @@ std::string describe(const beast::error_code& error) {
 void tune_socket(asio::ip::tcp::socket& socket) {
     beast::error_code ignored;
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-    // Bytes that the kernel takes before the network has room for them.
-    constexpr int unsent_limit = 64 * 1024;
-    setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_limit,
-               sizeof(unsent_limit));
 }
 
 // A peer that stops reading must not find seconds of old frames when it wakes.
@@ -56,13 +53,16 @@ Connection::Connection(WebSocket socket, wire::Unwrapper::Takes takes, Events ev
       events_(std::make_shared<const Events>(std::move(events))),
       now_(events_->now),
       unwrapper_(takes),
-      ceiling_timer_(socket_.get_executor()) {}
+      ceiling_timer_(socket_.get_executor()),
+      acknowledgement_timer_(socket_.get_executor()) {}
 
 void Connection::start(ByteView first) {
     beast::get_lowest_layer(socket_).expires_never();
     guarded([&] {
-        if (!first.empty())
+        if (!first.empty()) {
+            acknowledger_.came(first.size() + 1, false, now_());
             events_->control(first);
+        }
         if (finished_)
             return;
         read();
@@ -73,16 +73,65 @@ void Connection::start(ByteView first) {
 void Connection::send_control(ByteView control) {
     if (finished_ || !closing_.empty())
         return;
-    if (!outbox_.push_control(wire::wrap_control(control)))
-        return finish("the other side does not read");
+    if (!outbox_.push_control(wire::wrap_control(control))) {
+        if (!events_->control_lost)
+            return finish("the other side does not read");
+        const auto events = events_;
+        events->control_lost();
+        if (finished_)
+            return;
+    }
     write();
 }
 
-void Connection::send_acknowledgement(ByteView control) {
+void Connection::send_states(std::span<const wire::State> states) {
     if (finished_ || !closing_.empty())
         return;
-    outbox_.put_acknowledgement(wire::wrap_control(control));
+    for (const wire::State& state : states)
+        outbox_.put_state(state);
     write();
+}
+
+void Connection::send_voice(const wire::Voice& voice) {
+    if (finished_ || !closing_.empty())
+        return;
+    outbox_.push_voice(voice);
+    write();
+}
+
+void Connection::taken(std::size_t bytes) {
+    acknowledger_.taken(bytes, now_());
+    acknowledge();
+}
+
+// Tells the other side what has been taken, now or when it is time.
+void Connection::acknowledge() {
+    if (finished_)
+        return;
+    if (const auto word = acknowledger_.due(now_())) {
+        outbox_.put_acknowledgement(*word);
+        write();
+    }
+    const auto again = acknowledger_.ask_again();
+    if (!again || std::exchange(acknowledgement_is_timed_, true))
+        return;
+    acknowledgement_timer_.expires_after(std::max(*again - now_(), Duration(0)));
+    acknowledgement_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        self->acknowledgement_is_timed_ = false;
+        if (!error)
+            self->guarded([&] { self->acknowledge(); });
+    });
+}
+
+// Keeps what the kernel holds back small, so that dropping happens in the outbox and not after the
+// fact, and what is sent next waits behind little.
+void Connection::limit_unsent() {
+    const std::size_t limit = std::bit_floor(outbox_.unsent_limit());
+    if (std::exchange(unsent_limit_, limit) == limit)
+        return;
+    const int value = int(limit);
+    setsockopt(beast::get_lowest_layer(socket_).socket().native_handle(), IPPROTO_TCP,
+               TCP_NOTSENT_LOWAT, &value, sizeof(value));
 }
 
 Outbox::Pushed Connection::send_media(Media media) {
@@ -92,11 +141,6 @@ Outbox::Pushed Connection::send_media(Media media) {
     const Outbox::Pushed pushed = outbox_.push_media(std::move(media));
     write();
     return pushed;
-}
-
-void Connection::acknowledge(std::uint64_t media_bytes) {
-    outbox_.acknowledge(media_bytes, now_());
-    write();
 }
 
 void Connection::set_ceiling(double bytes_per_second) {
@@ -126,22 +170,37 @@ void Connection::abandon() {
     finish("");
 }
 
-// What is called may end this connection, and `closed` may destroy who owns the handlers: they
-// are kept until the last call has returned.
 void Connection::take(ByteView envelope) {
-    const auto events = events_;
-    const std::uint64_t media_before = unwrapper_.media_bytes();
     const auto unwrapped = unwrapper_.take(envelope);
     if (!unwrapped)
         return finish("the other side sent a message that is " +
                       std::string(to_text(unwrapped.error())));
-    const std::uint64_t media_bytes = unwrapper_.media_bytes();
-    if (media_bytes != media_before && events->received)
-        events->received(media_bytes, !unwrapped->media.empty());
-    if (!finished_ && !unwrapped->control.empty())
-        events->control(unwrapped->control);
-    if (!finished_ && !unwrapped->media.empty())
-        events->media(unwrapped->media);
+    if (unwrapped->acknowledgement) {
+        outbox_.acknowledge(*unwrapped->acknowledgement, now_());
+        return write();
+    }
+    acknowledger_.came(envelope.size(), unwrapped->is_media, now_());
+    hand_on(*unwrapped);
+    acknowledge();
+}
+
+// What is called may end this connection, and `closed` may destroy who owns the handlers: they
+// are kept until the last call has returned.
+void Connection::hand_on(const wire::Unwrapper::Unwrapped& unwrapped) {
+    const auto events = events_;
+    if (!unwrapped.control.empty())
+        return events->control(unwrapped.control);
+    if (unwrapped.media) {
+        const std::size_t size = unwrapped.media->size();
+        acknowledger_.waits(size);
+        if (!events->media || events->media(*unwrapped.media))
+            acknowledger_.taken(size, now_());
+    }
+    if (unwrapped.voice && events->voice)
+        events->voice(*unwrapped.voice);
+    wire::StateReader states(unwrapped.states);
+    for (wire::State state; !finished_ && events->state && states.next(state);)
+        events->state(state);
 }
 
 void Connection::read() {
@@ -164,18 +223,15 @@ void Connection::read() {
 void Connection::write() {
     if (writing_ || finished_)
         return;
+    const std::uint64_t begun_before = outbox_.begun_frames();
     if (!outbox_.next(outgoing_, now_())) {
-        if (!closing_.empty())
+        if (!closing_.empty() && !outbox_.control_waits())
             return finish(closing_);
-        if (const auto again = outbox_.ask_again()) {
-            ceiling_timer_.expires_after(std::max(*again - now_(), Duration(1000)));
-            ceiling_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
-                if (!error)
-                    self->guarded([&] { self->write(); });
-            });
-        }
+        if (const auto again = outbox_.ask_again())
+            write_later(*again);
         return;
     }
+    limit_unsent();
     writing_ = true;
     socket_.async_write(asio::buffer(outgoing_),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -188,6 +244,18 @@ void Connection::write() {
                                 self->write();
                             });
                         });
+    if (outbox_.begun_frames() != begun_before && events_->frame_left) {
+        const auto events = events_;
+        events->frame_left();
+    }
+}
+
+void Connection::write_later(TimePoint then) {
+    ceiling_timer_.expires_after(std::max(then - now_(), Duration(1000)));
+    ceiling_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error)
+            self->guarded([&] { self->write(); });
+    });
 }
 
 void Connection::finish(const std::string& why) {
@@ -195,6 +263,7 @@ void Connection::finish(const std::string& why) {
         return;
     finished_ = true;
     ceiling_timer_.cancel();
+    acknowledgement_timer_.cancel();
     // No closing handshakes: they would wait for a peer that may be gone, and
     // every message is complete in itself.
     beast::error_code ignored;

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "base/fault.h"
+#include "net/acknowledger.h"
 #include "net/outbox.h"
 #include "wire/envelope.h"
 
@@ -26,8 +27,7 @@ using TcpStream = boost::beast::tcp_stream;
 using TlsStream = boost::beast::ssl_stream<TcpStream>;
 using WebSocket = boost::beast::websocket::stream<TlsStream>;
 
-// Keeps what the kernel holds back small, so that dropping happens in the
-// outbox and not after the fact. Call once the socket is open.
+// Sends small messages at once. Call once the socket is open.
 void tune_socket(boost::asio::ip::tcp::socket& socket);
 
 // A viewer's, so that pictures find room; a host's sockets need less.
@@ -40,13 +40,19 @@ void configure(WebSocket& socket);
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     // Called on the io thread. After `closed` nothing is called any more. A call that throws
-    // costs the connection.
+    // costs the connection. All but `control`, `closed` and `now` may be empty.
     struct Events {
         std::function<void(ByteView)> control;
-        std::function<void(ByteView)> media;
-        // More media has come: bytes of all chunks so far, and whether they end a
-        // message. Before `media`. May be empty.
-        std::function<void(std::uint64_t media_bytes, bool message_complete)> received;
+        // A complete media message, which may be moved away or exchanged for other memory. True:
+        // it has been taken. False: it waits, and taken() must be told its size later.
+        std::function<bool(Bytes&)> media;
+        std::function<void(const wire::State&)> state;
+        std::function<void(const wire::Voice&)> voice;
+        // A frame of media has begun to leave.
+        std::function<void()> frame_left;
+        // More control waited than is kept; what waited is gone. Without it that ends the
+        // connection.
+        std::function<void()> control_lost;
         std::function<void(const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
     };
@@ -58,12 +64,13 @@ public:
     void start(ByteView first = {});
 
     void send_control(ByteView control);
-    // The newest replaces one that waits.
-    void send_acknowledgement(ByteView control);
+    void send_states(std::span<const wire::State> states);
+    void send_voice(const wire::Voice& voice);
     Outbox::Pushed send_media(Media media);
+    // A media message that waited is no longer in the way: see Events::media.
+    void taken(std::size_t bytes);
 
     // See Outbox.
-    void acknowledge(std::uint64_t media_bytes);
     void set_ceiling(double bytes_per_second);
     void keep_everything() { outbox_.keep_everything(); }
     bool is_behind(StreamId stream) const { return outbox_.is_behind(stream); }
@@ -78,8 +85,12 @@ public:
 
 private:
     void take(ByteView envelope);
+    void hand_on(const wire::Unwrapper::Unwrapped& unwrapped);
+    void acknowledge();
+    void limit_unsent();
     void read();
     void write();
+    void write_later(TimePoint then);
     void finish(const std::string& why);
 
     // A fault in what is done for this connection ends this connection.
@@ -95,8 +106,11 @@ private:
     const std::function<TimePoint()> now_;
     boost::beast::flat_buffer incoming_;
     wire::Unwrapper unwrapper_;
+    Acknowledger acknowledger_;
     Outbox outbox_;
-    boost::asio::steady_timer ceiling_timer_;
+    std::size_t unsent_limit_ = 0;  // as the socket was told
+    boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_;
+    bool acknowledgement_is_timed_ = false;
     Bytes outgoing_;
     bool writing_ = false;
     bool finished_ = false;

@@ -47,7 +47,7 @@ Client::Handler client_handler() {
     Client::Handler h;
     h.connected = [] {};
     h.control = [](ByteView) {};
-    h.media = [](ByteView) {};
+    h.media = [](Bytes&) { return true; };
     h.now = steady_now;
     return h;
 }
@@ -77,11 +77,12 @@ TEST(Connection, CarriesControlBothWaysAndMediaWhole) {
     Client::Handler h = client_handler();
     h.connected = [&] { self->send_control(Bytes{std::byte{1}, std::byte{2}}); };
     h.control = [&](ByteView bytes) { echoed.assign(bytes.begin(), bytes.end()); };
-    h.media = [&](ByteView bytes) {
+    h.media = [&](Bytes& bytes) {
         media_size = bytes.size();
         EXPECT_EQ(bytes.back(), std::byte{42});
         EXPECT_TRUE(wire::parse_media_header(bytes));
         self->stop();
+        return true;
     };
     Client client(server.link(), h);
     self = &client;

@@ -223,10 +223,10 @@ private:
         incoming_.clear();
         web_->async_read(incoming_, step([this] {
                              const auto data = incoming_.cdata();
-                             wire::Unwrapper unwrapper(wire::Unwrapper::Takes::control);
+                             wire::Unwrapper unwrapper(wire::Unwrapper::Takes::all_but_media);
                              const auto first = unwrapper.take(
                                  {static_cast<const std::byte*>(data.data()), data.size()});
-                             if (!first)
+                             if (!first || first->control.empty())
                                  return leave("sent what is no message");
                              enter(first->control);
                          }));

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "wire/control.h"
-
 namespace theatron::net {
 namespace {
 
@@ -22,8 +20,14 @@ constexpr Duration bucket = std::chrono::seconds(5);
 // after so long without a short one, less is sent for a moment.
 constexpr Duration low_patience = std::chrono::seconds(3);
 constexpr double drain_share = 0.75;
-// Whatever the window, the peer's last word lets something more be sent.
-static_assert(wire::max_unacknowledged < std::size_t(Flight::smallest_window));
+// The allowed queue is so long, and what so many bytes take besides.
+constexpr double queue_s = 0.005, queue_bytes = 25e3;
+constexpr Duration shortest_queue = std::chrono::milliseconds(8);
+constexpr Duration longest_queue = std::chrono::milliseconds(30);
+// A chunk takes about so long, and what the kernel holds back.
+constexpr double chunk_s = 0.003, unsent_s = 0.006;
+constexpr std::size_t smallest_chunk = 2 * 1024;
+constexpr std::size_t smallest_unsent = 4 * 1024, largest_unsent = 64 * 1024;
 // A peer that acknowledges nothing must not cost memory.
 constexpr std::size_t max_chunks = 8192;
 
@@ -36,7 +40,7 @@ void Flight::sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePo
         chunks_.pop_front();
 }
 
-void Flight::acknowledge(std::uint64_t total, TimePoint now) {
+void Flight::acknowledge(std::uint64_t total, Duration held, TimePoint now) {
     if (total > sent_ || total <= acknowledged_)
         return;
     const double bytes = double(total - acknowledged_);
@@ -52,7 +56,7 @@ void Flight::acknowledge(std::uint64_t total, TimePoint now) {
     }
     if (!any)
         return;
-    const Duration took = std::max(now - newest.sent, Duration(0));
+    const Duration took = std::max(now - newest.sent - held, Duration(0));
     note_round_trip(took, now);
     learn(bytes, newest, took, now);
     last_answer_ = now;
@@ -98,15 +102,15 @@ Duration Flight::round_trip() const {
 }
 
 double Flight::bytes_per_second(TimePoint now) const {
-    return busy_seconds_ > 0 && now - busy_at_ < rate_validity ? busy_bytes_ / busy_seconds_ : 0;
+    return busy_seconds_ > 0 && now - busy_at_ < rate_validity ? rate() : 0;
 }
 
 double Flight::window(TimePoint now) const {
     if (busy_seconds_ <= 0)
         return window_at_first_;
     const double seconds = now < draining_until_ ? drain_share * to_seconds(round_trip())
-                                                 : to_seconds(round_trip() + allowed_queue);
-    return std::max(smallest_window, busy_bytes_ / busy_seconds_ * seconds);
+                                                 : to_seconds(round_trip() + allowed_queue(rate()));
+    return std::max(smallest_window, rate() * seconds);
 }
 
 bool Flight::may_send(TimePoint now) {
@@ -114,6 +118,29 @@ bool Flight::may_send(TimePoint now) {
         return true;
     held_back_ = held_back_ || double(bytes_on_the_way()) >= window(now);
     return double(bytes_on_the_way()) < window(now);
+}
+
+bool Flight::may_send_interaction(TimePoint now) const {
+    return !answering_ || double(bytes_on_the_way()) < window(now) + interaction_reserve;
+}
+
+Duration Flight::allowed_queue(double bytes_per_second) {
+    return std::clamp(seconds_to_duration(queue_s + queue_bytes / bytes_per_second), shortest_queue,
+                      longest_queue);
+}
+
+std::size_t Flight::chunk_size() const {
+    if (busy_seconds_ <= 0)
+        return wire::usual_chunk_size;
+    return std::size_t(
+        std::clamp(rate() * chunk_s, double(smallest_chunk), double(wire::usual_chunk_size)));
+}
+
+std::size_t Flight::unsent_limit() const {
+    if (busy_seconds_ <= 0)
+        return largest_unsent;
+    return std::size_t(
+        std::clamp(rate() * unsent_s, double(smallest_unsent), double(largest_unsent)));
 }
 
 Duration Flight::take_delay(TimePoint now) {

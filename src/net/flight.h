@@ -4,41 +4,59 @@
 // frames old than drop them.
 //
 // The peer says how many bytes it has taken. From chunks that had to queue
-// behind others comes the rate at which the narrowest place serves them; the
-// shortest round trip is the way's own delay. What is on its way is kept to what
-// that rate carries in one round trip and a small queue, so a frame that is
-// chosen late is also new when it arrives. Pure: time is an argument.
+// behind others comes the rate at which the narrowest place serves them, which may
+// be the link or the peer's decoders; the shortest round trip is the way's own delay.
+// Media on its way is kept to what that rate carries in one round trip and a small
+// queue, so a frame that is chosen late is also new when it arrives, and a state waits
+// behind little. Control, states and voice count, too, and may exceed the window by
+// interaction_reserve. Pure: time is an argument.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 
 #include "base/time.h"
+#include "wire/envelope.h"
 
 namespace theatron::net {
 
 class Flight {
 public:
-    // The queue that is allowed at the narrowest place.
-    static constexpr Duration allowed_queue = std::chrono::milliseconds(30);
     // Before anything is known about the way, and never less than the latter.
     static constexpr double first_window = 1 << 20;
-    static constexpr double smallest_window = 28 * 1024;
+    static constexpr double smallest_window = 12 * 1024;
+    // Bytes of control, states and voice that may be on the way beyond the window.
+    static constexpr double interaction_reserve = 8 * 1024;
+    static_assert(wire::max_untold < std::size_t(smallest_window));
 
-    // A chunk leaves. `queued` is when its message was there to be sent.
+    // The queue that is allowed at the narrowest place of a way with this rate: long enough for
+    // the rate to be used in full, short enough for what must not wait
+    // (docs/decisions/traffic-classes.md).
+    static Duration allowed_queue(double bytes_per_second);
+
+    // A chunk of media leaves. `queued` is when its message was there to be sent.
     void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now);
+    // Control, states or voice leave.
+    void sent_interaction(std::size_t bytes, TimePoint now) { sent(bytes, now, false, now); }
 
-    // The peer has taken `total` bytes since the beginning. What cannot be is ignored.
-    void acknowledge(std::uint64_t total, TimePoint now);
+    // The peer has taken `total` bytes since the beginning, and said so `held` later. What cannot
+    // be is ignored.
+    void acknowledge(std::uint64_t total, Duration held, TimePoint now);
 
     // False if what is on its way should arrive first. A peer that never
-    // acknowledges anything is not held back. Ask when there is something to send.
+    // acknowledges anything is not held back. Ask when there is media to send.
     bool may_send(TimePoint now);
+    // The same for control, states and voice.
+    bool may_send_interaction(TimePoint now) const;
     // There is nothing more to send now.
     void idle() { held_back_ = false; }
 
     std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
     double window(TimePoint now) const;
+
+    // What suits the rate of the way; the largest while it is not known.
+    std::size_t chunk_size() const;    // media in one envelope
+    std::size_t unsent_limit() const;  // what the kernel may hold that has not left yet
     // What the way carries; 0 while it is not known, or was last seen long ago.
     double bytes_per_second(TimePoint now) const;
     Duration round_trip() const;  // the shortest of the last seconds
@@ -55,6 +73,7 @@ private:
         bool held_back = false;  // had to wait for the window
     };
 
+    double rate() const { return busy_bytes_ / busy_seconds_; }  // if busy_seconds_ > 0
     void note_round_trip(Duration round_trip, TimePoint now);
     void learn(double bytes, const Chunk& newest, Duration round_trip, TimePoint now);
 

@@ -21,7 +21,7 @@ struct Way {
     void run(double seconds) {
         for (const TimePoint end = now + seconds_to_duration(seconds); now < end; now += 500us) {
             for (; !answers_.empty() && answers_.front().at <= now; answers_.pop_front()) {
-                flight.acknowledge(answers_.front().total, now);
+                flight.acknowledge(answers_.front().total, {}, now);
                 answered_ = true;
             }
             // Nothing holds back a sender that has had no answer yet.
@@ -53,7 +53,7 @@ TEST(Flight, FindsTheRateAndKeepsTheQueueShort) {
         way.bytes_per_second = rate;
         way.run(5);
         EXPECT_NEAR(way.flight.bytes_per_second(way.now), rate, 0.15 * rate);
-        EXPECT_LT(way.queue(), 3 * Flight::allowed_queue);
+        EXPECT_LT(way.queue(), 3 * Flight::allowed_queue(rate));
         const std::uint64_t before = way.total;
         way.run(5);
         EXPECT_GT(double(way.total - before), 5 * 0.8 * rate);
@@ -66,7 +66,7 @@ TEST(Flight, FollowsARateThatFallsAndRises) {
     way.bytes_per_second = 1e6;
     way.run(1.5);
     EXPECT_NEAR(way.flight.bytes_per_second(way.now), 1e6, 0.2e6);
-    EXPECT_LT(way.queue(), 3 * Flight::allowed_queue);
+    EXPECT_LT(way.queue(), 3 * Flight::allowed_queue(1e6));
     way.bytes_per_second = 5e6;
     way.run(3);
     EXPECT_NEAR(way.flight.bytes_per_second(way.now), 5e6, 1e6);
@@ -94,10 +94,10 @@ TEST(Flight, AnswersThatCannotBeAreIgnored) {
     Flight flight;
     const TimePoint now = from_us(1'000'000);
     flight.sent(chunk, now, true, now);
-    flight.acknowledge(chunk + 1, now + 50ms);
+    flight.acknowledge(chunk + 1, {}, now + 50ms);
     EXPECT_EQ(flight.bytes_on_the_way(), chunk);
-    flight.acknowledge(chunk, now + 50ms);
-    flight.acknowledge(10, now + 60ms);
+    flight.acknowledge(chunk, {}, now + 50ms);
+    flight.acknowledge(10, {}, now + 60ms);
     EXPECT_EQ(flight.bytes_on_the_way(), 0u);
     EXPECT_EQ(flight.round_trip(), 50ms);
 }

@@ -9,17 +9,40 @@
 namespace theatron::net {
 namespace {
 
-// So much later than the ceiling would have it a chunk may be paid for.
+// The burst that a ceiling allows before it holds media back, and all else.
 constexpr Duration ceiling_burst = std::chrono::milliseconds(20);
-// What TLS, WebSocket, TCP and IP add to a chunk, about.
-constexpr std::size_t chunk_overhead = 600;
+constexpr Duration interaction_burst = std::chrono::milliseconds(100);
+// What TLS, WebSocket, TCP and IP add to an envelope, about: so much, and a share of its bytes.
+constexpr std::size_t envelope_overhead = 90;
+constexpr double overhead_share = 0.03;
 
 }  // namespace
 
 bool Outbox::push_control(Bytes envelope) {
     control_bytes_ += envelope.size() + control_overhead;
     control_.push_back(std::move(envelope));
-    return control_bytes_ <= max_control_bytes;
+    if (control_bytes_ <= max_control_bytes)
+        return true;
+    control_.clear();
+    control_bytes_ = 0;
+    return false;
+}
+
+void Outbox::put_state(const wire::State& state) {
+    const auto found = states_.find(state.key);
+    if (found != states_.end())
+        found->second.assign(state.body.begin(), state.body.end());
+    else if (states_.size() < max_waiting_states)
+        states_.try_emplace(state.key, state.body.begin(), state.body.end());
+}
+
+void Outbox::push_voice(const wire::Voice& voice) {
+    const auto same = [&](const Packet& p) { return p.speaker == voice.speaker; };
+    if (std::size_t(std::count_if(voice_.begin(), voice_.end(), same)) >= max_waiting_voice)
+        voice_.erase(std::find_if(voice_.begin(), voice_.end(), same));
+    else if (voice_.size() >= max_waiting_voices)
+        voice_.pop_front();
+    voice_.push_back({voice.speaker, {voice.packet.begin(), voice.packet.end()}});
 }
 
 int Outbox::drop_waiting(Lane& lane) {
@@ -120,35 +143,77 @@ Outbox::Lane* Outbox::longest_unserved() {
     return chosen;
 }
 
-bool Outbox::below_ceiling(TimePoint now) {
-    if (ceiling_ <= 0 || paid_until_ <= now + ceiling_burst)
+bool Outbox::below_ceiling(TimePoint now, Duration ahead) {
+    if (ceiling_ <= 0 || paid_until_ <= now + ahead)
         return true;
-    ask_again_ = paid_until_ - ceiling_burst;
+    const TimePoint then = paid_until_ - ahead;
+    ask_again_ = ask_again_ ? std::min(*ask_again_, then) : then;
     return false;
+}
+
+void Outbox::pay(std::size_t bytes, TimePoint now) {
+    if (ceiling_ > 0)
+        paid_until_ =
+            std::max(paid_until_, now) +
+            seconds_to_duration((double(bytes) * (1 + overhead_share) + double(envelope_overhead)) /
+                                ceiling_);
 }
 
 bool Outbox::next(Bytes& envelope, TimePoint now) {
     ask_again_.reset();
-    if (!control_.empty()) {
-        envelope = std::move(control_.front());
-        control_.pop_front();
-        control_bytes_ -= envelope.size() + control_overhead;
-        idle_ = false;
-        moved_ += waiting_ == 0 && !sending_;
+    if (acknowledgement_) {
+        wire::wrap_acknowledgement(*std::exchange(acknowledgement_, std::nullopt), envelope);
         return true;
     }
-    if (!acknowledgement_.empty()) {
-        envelope = std::exchange(acknowledgement_, {});
-        idle_ = false;
-        return true;
-    }
-    idle_ = !sending_ && waiting_ == 0;
+    const bool media = sending_ || waiting_ > 0;
+    idle_ = !media && !interaction_waits();
     if (idle_) {
         flight_.idle();
         return false;
     }
-    if (!flight_.may_send(now) || !below_ceiling(now))
+    if (interaction_waits() && flight_.may_send_interaction(now) &&
+        below_ceiling(now, interaction_burst)) {
+        next_interaction(envelope, now);
+        moved_ += !media;
+        return true;
+    }
+    if (!media || !flight_.may_send(now) || !below_ceiling(now, ceiling_burst))
         return false;
+    next_chunk(envelope, now);
+    ++moved_;
+    return true;
+}
+
+void Outbox::next_interaction(Bytes& envelope, TimePoint now) {
+    if (!control_.empty()) {
+        envelope = std::move(control_.front());
+        control_.pop_front();
+        control_bytes_ -= envelope.size() + control_overhead;
+    } else if (!voice_.empty()) {
+        wire::wrap_voice({voice_.front().speaker, voice_.front().bytes}, envelope);
+        voice_.pop_front();
+    } else {
+        next_states(envelope);
+    }
+    flight_.sent_interaction(envelope.size(), now);
+    pay(envelope.size(), now);
+}
+
+// As many as one envelope holds, each in its turn.
+void Outbox::next_states(Bytes& envelope) {
+    envelope.clear();
+    while (!states_.empty()) {
+        auto state = states_.upper_bound(last_state_);
+        if (state == states_.end())
+            state = states_.begin();
+        if (!wire::append_state({state->first, state->second}, envelope))
+            return;
+        last_state_ = state->first;
+        states_.erase(state);
+    }
+}
+
+void Outbox::next_chunk(Bytes& envelope, TimePoint now) {
     if (!sending_) {
         Lane& lane = *longest_unserved();
         sending_ = std::move(lane.waiting.front().bytes);
@@ -160,23 +225,19 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
         --waiting_;
     }
     const std::size_t from = sent_;
-    sent_ = wire::wrap_chunk(*sending_, sent_, envelope);
+    sent_ = wire::wrap_chunk(*sending_, sent_, envelope, flight_.chunk_size());
     if (from == 0)
         wire::stamp_sent(std::span(envelope).subspan(wire::chunk_header_size), now);
     const bool ends = sent_ == sending_->size();
-    flight_.sent(sent_ - from, sending_queued_, ends, now);
-    if (ceiling_ > 0)
-        paid_until_ = std::max(paid_until_, now) +
-                      seconds_to_duration(double(sent_ - from + chunk_overhead) / ceiling_);
+    flight_.sent(envelope.size(), sending_queued_, ends, now);
+    pay(envelope.size(), now);
     if (ends)
         sending_.reset();
-    ++moved_;
-    return true;
 }
 
-void Outbox::acknowledge(std::uint64_t media_bytes, TimePoint now) {
+void Outbox::acknowledge(const wire::Acknowledgement& word, TimePoint now) {
     const std::uint64_t before = flight_.bytes_on_the_way();
-    flight_.acknowledge(media_bytes, now);
+    flight_.acknowledge(word.taken, word.held, now);
     moved_ += flight_.bytes_on_the_way() != before;
 }
 

@@ -2,13 +2,16 @@
 // What to send next to one peer, and what to drop: the sending policy, apart
 // from any socket.
 //
-// Control goes first, always whole. Media waits in short queues, one per
-// stream, and the newest frame wins: a frame that any receiver can do without
-// is dropped as soon as a newer one comes; a broken chain of references is cut
-// at once and taken up again at the next key frame. So a slow peer gets fewer
-// frames, never older ones, and memory is bounded. A peer that records is sent
-// everything instead, in order and however late, up to a bound of bytes. How much
-// may be on its way at once is up to Flight, how much in a second to a ceiling.
+// Each class of traffic (wire/envelope.h) has its rule. Acknowledgements go first, and only the
+// newest waits. Control is complete and in order; when a peer leaves too much of it waiting, all
+// that waits is given up, and the peer must be told everything anew. Of voice the oldest packets
+// are given up, of states the newest with a key replaces the one that waits. Media goes last. It
+// waits in short queues, one per stream, and the newest frame wins: a frame that any receiver can
+// do without is dropped as soon as a newer one comes; a broken chain of references is cut at once
+// and taken up again at the next key frame. So a slow peer gets fewer frames, never older ones, and
+// memory is bounded. A peer that records is sent everything instead, in order and however late, up
+// to a bound of bytes. How much may be on its way at once is up to Flight, how much in a second to
+// a ceiling; all classes but acknowledgements count in both.
 #pragma once
 
 #include <deque>
@@ -20,6 +23,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "net/flight.h"
+#include "wire/envelope.h"
 
 namespace theatron::net {
 
@@ -53,19 +57,24 @@ public:
     // What may wait for a peer for which everything is kept. When it is full, frames are given up
     // until half of it has left, and each stream goes on with a key frame.
     static constexpr std::size_t max_kept_bytes = std::size_t(64) << 20;
-    // More control than this waiting means that the peer reads nothing.
+    // More control than this is not kept for a peer that reads nothing.
     static constexpr std::size_t max_control_bytes = std::size_t(1) << 20;
     // What a message costs here besides its bytes.
     static constexpr std::size_t control_overhead = 64;
+    // States with different keys that may wait; further ones are left out.
+    static constexpr std::size_t max_waiting_states = 1024;
+    // Packets of one speaker that may wait, and of all together.
+    static constexpr std::size_t max_waiting_voice = 3, max_waiting_voices = 96;
     // Media waits and nothing is taken for so long: the peer should be given up.
     static constexpr Duration give_up_after = std::chrono::seconds(30);
 
-    // Queues a control envelope (wire::wrap_control). False if the peer should
-    // be given up.
+    // Queues a control envelope (wire::wrap_control). False if there was no room: this one and all
+    // that waited are gone, and the peer's picture of the session must be sent anew.
     [[nodiscard]] bool push_control(Bytes envelope);
 
-    // An envelope whose successor says all that it says: it replaces one that waits.
-    void put_acknowledgement(Bytes envelope) { acknowledgement_ = std::move(envelope); }
+    void put_acknowledgement(const wire::Acknowledgement& newest) { acknowledgement_ = newest; }
+    void put_state(const wire::State& state);
+    void push_voice(const wire::Voice& voice);
 
     struct Pushed {
         int dropped = 0;  // frames given up, this one included if need be
@@ -83,14 +92,16 @@ public:
     // as `sent`.
     bool next(Bytes& envelope, TimePoint now);
 
-    // When to ask next() again if only the ceiling held media back; otherwise after
+    // When to ask next() again if only the ceiling held something back; otherwise after
     // the next acknowledge() or push.
     std::optional<TimePoint> ask_again() const { return ask_again_; }
 
-    // The peer has taken so many bytes of media since the beginning.
-    void acknowledge(std::uint64_t media_bytes, TimePoint now);
+    void acknowledge(const wire::Acknowledgement& word, TimePoint now);
 
-    // At most so much media from now on; 0: no ceiling.
+    // How much of what has not left yet the kernel should hold at most.
+    std::size_t unsent_limit() const { return flight_.unsent_limit(); }
+
+    // At most so much from now on; 0: no ceiling.
     void set_ceiling(double bytes_per_second) { ceiling_ = bytes_per_second; }
 
     SendingFigures take_figures(TimePoint now);
@@ -109,8 +120,11 @@ public:
     }
 
     bool empty() const {
-        return control_.empty() && acknowledgement_.empty() && !sending_ && waiting_ == 0;
+        return !acknowledgement_ && !interaction_waits() && !sending_ && waiting_ == 0;
     }
+    bool control_waits() const { return !control_.empty(); }
+    // Counts frames that have begun to leave.
+    std::uint64_t begun_frames() const { return turn_; }
     std::size_t waiting_frames() const { return waiting_ + (sending_ ? 1 : 0); }
 
 private:
@@ -127,11 +141,25 @@ private:
     void wait(Lane& lane, Media media);
     int drop_waiting(Lane& lane);
     Lane* longest_unserved();
-    bool below_ceiling(TimePoint now);
+    bool below_ceiling(TimePoint now, Duration ahead);
+    void pay(std::size_t bytes, TimePoint now);
+    bool interaction_waits() const {
+        return !control_.empty() || !voice_.empty() || !states_.empty();
+    }
+    void next_interaction(Bytes& envelope, TimePoint now);
+    void next_states(Bytes& envelope);
+    void next_chunk(Bytes& envelope, TimePoint now);
 
+    struct Packet {
+        ParticipantId speaker{};
+        Bytes bytes;
+    };
     std::deque<Bytes> control_;
     std::size_t control_bytes_ = 0;
-    Bytes acknowledgement_;
+    std::optional<wire::Acknowledgement> acknowledgement_;
+    std::deque<Packet> voice_;
+    std::map<wire::StateKey, Bytes> states_;  // of those that wait the newest
+    wire::StateKey last_state_;               // the one that was sent last
     std::map<StreamId, Lane> lanes_;
     std::size_t waiting_ = 0, waiting_bytes_ = 0;
     bool keeps_everything_ = false;

@@ -25,7 +25,7 @@ constexpr const char* plain_answer = "This is a Theatron host. Join it with: the
 
 struct Server::Impl {
     asio::io_context io{1};
-    asio::steady_timer timer{io};
+    asio::steady_timer timer{io}, alarm{io};
     Handler handler;
     std::unique_ptr<Door> door;
     std::map<PeerId, std::shared_ptr<Connection>> peers;
@@ -85,6 +85,12 @@ void Server::Impl::enter(Door::Visitor visitor) {
     const PeerId peer{next_peer++};
     Connection::Events events;
     events.control = [this, peer](ByteView bytes) { handler.control(peer, bytes); };
+    if (handler.state)
+        events.state = [this, peer](const wire::State& state) { handler.state(peer, state); };
+    if (handler.frame_left)
+        events.frame_left = [this, peer] { handler.frame_left(peer); };
+    if (handler.control_lost)
+        events.control_lost = [this, peer] { handler.control_lost(peer); };
     events.closed = [this, peer](const std::string& why) {
         peers.erase(peer);
         std::erase(uninvited, peer);
@@ -95,7 +101,7 @@ void Server::Impl::enter(Door::Visitor visitor) {
     set_receive_buffer(beast::get_lowest_layer(visitor.socket).socket(),
                        Door::participant_receive_buffer);
     const auto connection = std::make_shared<Connection>(
-        std::move(visitor.socket), wire::Unwrapper::Takes::control, std::move(events));
+        std::move(visitor.socket), wire::Unwrapper::Takes::all_but_media, std::move(events));
     peers[peer] = connection;
     if (!visitor.invited)
         uninvited.push_back(peer);
@@ -117,6 +123,7 @@ Server::~Server() {
     impl_->ended = true;
     impl_->door->close_all();
     impl_->timer.cancel();
+    impl_->alarm.cancel();
     for (const auto& [peer, connection] : std::exchange(impl_->peers, {}))
         connection->abandon();
     do
@@ -166,12 +173,20 @@ Outbox::Pushed Server::send_media(PeerId peer, Media media) {
     return connection->send_media(std::move(media));
 }
 
-void Server::acknowledge(PeerId peer, std::uint64_t media_bytes) {
+void Server::send_states(PeerId peer, std::span<const wire::State> states) {
     const auto found = impl_->peers.find(peer);
     if (found == impl_->peers.end())
         return;
     const auto connection = found->second;
-    connection->acknowledge(media_bytes);
+    connection->send_states(states);
+}
+
+void Server::set_alarm(TimePoint when) {
+    impl_->alarm.expires_after(std::max(when - impl_->handler.now(), Duration(0)));
+    impl_->alarm.async_wait([this](beast::error_code error) {
+        if (!error && !impl_->ended && impl_->handler.alarm)
+            (void)contain("net", impl_->handler.alarm);
+    });
 }
 
 void Server::set_ceiling(PeerId peer, double bytes_per_second) {

@@ -39,9 +39,16 @@ public:
         // A connection has sent its first message, which `control` is told next.
         std::function<void(PeerId, const std::string& address, bool invited)> connected;
         std::function<void(PeerId, ByteView)> control;
+        std::function<void(PeerId, const wire::State&)> state;  // may be empty
+        // A frame has begun to leave to a peer: is_behind() may have changed. May be empty.
+        std::function<void(PeerId)> frame_left;
+        // A peer did not read, and control for it was given up: it must be told everything anew.
+        // Empty: its connection ends.
+        std::function<void(PeerId)> control_lost;
         std::function<void(PeerId, const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
         std::function<void()> tick;      // ten times a second
+        std::function<void()> alarm;     // see set_alarm()
     };
 
     // Begins to listen. Throws Error if the address or port cannot be had.
@@ -60,9 +67,11 @@ public:
 
     // On the server's thread only. A peer that is gone is ignored.
     void send_control(PeerId peer, ByteView control);
+    void send_states(PeerId peer, std::span<const wire::State> states);
     Outbox::Pushed send_media(PeerId peer, Media media);
+    // Calls Handler::alarm at this time instead of the time that was set before.
+    void set_alarm(TimePoint when);
     // See Outbox. Figures of a peer that is gone are empty.
-    void acknowledge(PeerId peer, std::uint64_t media_bytes);
     void set_ceiling(PeerId peer, double bytes_per_second);
     void keep_everything(PeerId peer);
     SendingFigures take_figures(PeerId peer);

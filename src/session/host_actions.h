@@ -40,11 +40,6 @@ struct RequestKey {
 };
 // Encode exactly HostSession's depth_settings() and color_settings().
 struct ChangeSettings {};
-// The participant has taken `media_bytes` of media since its connection began.
-struct Acknowledged {
-    ParticipantId participant{};
-    std::uint64_t media_bytes = 0;
-};
 // The participant records: send all of its frames in order, however late.
 struct KeepEverything {
     ParticipantId participant{};
@@ -67,9 +62,8 @@ struct Drawing {
 
 }  // namespace action
 
-using Action =
-    std::variant<action::Send, action::Close, action::End, action::Joined, action::RequestKey,
-                 action::ChangeSettings, action::Acknowledged, action::KeepEverything,
-                 action::SetCeiling, action::Stepped, action::Drawing>;
+using Action = std::variant<action::Send, action::Close, action::End, action::Joined,
+                            action::RequestKey, action::ChangeSettings, action::KeepEverything,
+                            action::SetCeiling, action::Stepped, action::Drawing>;
 
 }  // namespace theatron::session

@@ -22,8 +22,6 @@ RequestBudget::Kind kind_of(const wire::ToHost& message) {
         return Kind::ping;
     if (std::holds_alternative<wire::Report>(message))
         return Kind::report;
-    if (std::holds_alternative<wire::Received>(message))
-        return Kind::received;
     return Kind::other;
 }
 
@@ -86,14 +84,12 @@ void HostSession::carry_out(ParticipantId id, const wire::ToHost& message, TimeP
         send(id, wire::Pong{ping->sent, now, now});
     } else if (const auto* report = std::get_if<wire::Report>(&message)) {
         note_report(id, *report, now);
-    } else if (const auto* received = std::get_if<wire::Received>(&message)) {
-        acknowledge(id, *received);
     } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&message)) {
         set_goal(id, *goal);
     }
 }
 
-// Of wishes the last counts, of word of media the newest; all else is asked for or said again.
+// Of wishes the last counts; all else is asked for or said again.
 void HostSession::keep_for_later(Participant& participant, wire::ToHost message) {
     if (auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
         wire::ChooseCodecs& late =
@@ -104,8 +100,6 @@ void HostSession::keep_for_later(Participant& participant, wire::ToHost message)
             late.color_codec = std::move(wish->color_codec);
     } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&message)) {
         participant.late_goal = *goal;
-    } else if (const auto* word = std::get_if<wire::Received>(&message)) {
-        participant.late_word = *word;
     }
 }
 
@@ -118,12 +112,6 @@ void HostSession::carry_out_late(ParticipantId id, Participant& participant, Tim
     }
     if (participant.late_goal && budget.grant_later(Kind::delivery, now))
         set_goal(id, *std::exchange(participant.late_goal, std::nullopt));
-    if (participant.late_word && budget.grant_later(Kind::received, now))
-        acknowledge(id, *std::exchange(participant.late_word, std::nullopt));
-}
-
-void HostSession::acknowledge(ParticipantId id, const wire::Received& word) {
-    actions_.push_back(action::Acknowledged{id, word.media_bytes});
 }
 
 void HostSession::end() {
@@ -164,14 +152,29 @@ void HostSession::join(ParticipantId id, const wire::Join& hello) {
     participant.records = hello.records;
     participant.name = shown_name(hello.name);
     actions_.push_back(action::Joined{id, participant.name});
-    send(id, wire::Welcome{std::min(hello.protocol_max, wire::protocol_max), id, config_.name,
-                           config_.cameras});
-    for (const auto& [camera, state] : camera_states_)
-        send(id, state);
+    participant.protocol = std::min(hello.protocol_max, wire::protocol_max);
+    describe_session(id);
     if (hello.records)
         actions_.push_back(action::KeepEverything{id});
     wish(id, depth, color);
     set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
+    tell_renderer(id);
+    apply_settings();
+}
+
+void HostSession::describe_session(ParticipantId id) {
+    send(id, wire::Welcome{participants_.at(id).protocol, id, config_.name, config_.cameras});
+    for (const auto& [camera, state] : camera_states_)
+        send(id, state);
+}
+
+void HostSession::resynchronise(ParticipantId id) {
+    const auto found = participants_.find(id);
+    if (found == participants_.end() || !found->second.takes_part())
+        return;
+    describe_session(id);
+    found->second.depth_setting = found->second.color_setting = {};
+    send(id, found->second.delivery.message({}));
     tell_renderer(id);
     apply_settings();
 }

@@ -57,6 +57,8 @@ public:
     void on_connected(ParticipantId participant, TimePoint now);
     void on_control(ParticipantId participant, ByteView message, TimePoint now);
     void on_closed(ParticipantId participant);
+    // Messages to this participant were lost, because it did not read: tells it everything again.
+    void resynchronise(ParticipantId participant);
     void on_camera(const wire::CameraState& state);
     // Whether any camera has a region of interest. Without one no depth may be lossy
     // for the sake of a slow link.
@@ -104,6 +106,7 @@ public:
         bool takes_part() const { return joined && !closing; }
         TimePoint connected;
         std::string name;
+        std::uint16_t protocol = 0;
         bool records = false;                  // as in wire::Join
         std::string asked_depth, asked_color;  // codecs that it asked for
         SettingId depth_setting{}, color_setting{};
@@ -116,16 +119,15 @@ public:
         // The newest of what was asked for too often; carried out as soon as it may be.
         std::optional<wire::ChooseCodecs> late_codecs;
         std::optional<wire::ChooseDelivery> late_goal;
-        std::optional<wire::Received> late_word;
     };
     const std::map<ParticipantId, Participant>& participants() const { return participants_; }
 
 private:
     void join(ParticipantId id, const wire::Join& message);
+    void describe_session(ParticipantId id);
     void carry_out(ParticipantId id, const wire::ToHost& message, TimePoint now);
     void keep_for_later(Participant& participant, wire::ToHost message);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
-    void acknowledge(ParticipantId id, const wire::Received& word);
     Duration made_in(const Participant& participant) const;
     void choose(ParticipantId id, const std::string& depth, const std::string& color);
     void set_goal(ParticipantId id, const wire::ChooseDelivery& goal);

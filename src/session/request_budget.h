@@ -36,10 +36,9 @@ public:
         key,       // a key frame
         ping,
         report,
-        received,  // word of media that has come
-        other,     // what the host does not know or does not expect
+        other,  // what the host does not know or does not expect
     };
-    static constexpr std::size_t kinds = 7;
+    static constexpr std::size_t kinds = 6;
 
     struct Limit {
         double per_second = 0;
@@ -48,7 +47,7 @@ public:
     // Of key requests these are for each stream; a viewer repeats one after 700 ms, a recorder asks
     // for one every 1.5 s.
     static constexpr std::array<Limit, kinds> limits{
-        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {20'000, 20'000}, {5, 20}}};
+        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 

@@ -62,7 +62,10 @@ bool SendingPolicy::fail_trial(const LinkMeasure& link) {
 }
 
 bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal) {
-    late_in_a_row_ = link.delay > goal ? late_in_a_row_ + 1 : 0;
+    // A step that is only tried and loses frames is too much, even if those that get through are
+    // in time.
+    const bool late = link.delay > goal || (trying_ && link.dropped > 0);
+    late_in_a_row_ = late ? late_in_a_row_ + 1 : 0;
     return late_in_a_row_ >= late_measures;
 }
 

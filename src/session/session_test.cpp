@@ -478,20 +478,24 @@ TEST_F(Host, PingsKeysReportsAndGoalsBeyondTheirLimitsAreNotAnswered) {
         << "the last one counts";
 }
 
-// Flow control waits for the newest word.
-TEST_F(Host, WordOfMediaIsNeverLostHoweverOftenItComes) {
+TEST_F(Host, WhoLostMessagesIsToldEverythingAgain) {
     join(alice);
+    join(bob);
+    session.on_camera({CameraId{0}, wire::CameraCondition::stale, "It is dark.", ""});
+    session.set_renderer(wire::SetRenderer{"mesh", true});
     session.take_actions();
-    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::received)];
-    const int words = int(limit.at_once) + 100;
-    for (int i = 1; i <= words; ++i)
-        say(alice, wire::Received{std::uint64_t(i)});
-    EXPECT_EQ(count<action::Acknowledged>(session.take_actions()), limit.at_once);
-    now += 100ms;
-    session.on_tick(now);
+    session.resynchronise(alice);
     const auto actions = session.take_actions();
-    ASSERT_EQ(count<action::Acknowledged>(actions), 1);
-    EXPECT_EQ(all<action::Acknowledged>(actions)[0].media_bytes, std::uint64_t(words));
+    EXPECT_EQ(sent<wire::Welcome>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::CameraState>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::Settings>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::Delivery>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::SetRenderer>(alice, actions).size(), 1u);
+    EXPECT_TRUE(sent<wire::Settings>(bob, actions).empty());
+    EXPECT_EQ(count<action::ChangeSettings>(actions), 0) << "nothing is encoded in another way";
+
+    session.resynchronise(ParticipantId{77});
+    EXPECT_TRUE(session.take_actions().empty());
 }
 
 TEST_F(Host, ASettingThatCannotKeepUpIsToldToThoseWhoGetIt) {
@@ -603,20 +607,6 @@ TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
     EXPECT_EQ(viewer.goodbye(), "The host has ended the session.");
     (void)viewer.begin();
     EXPECT_EQ(viewer.goodbye(), "");
-}
-
-TEST(ViewerSession, NeverOwesWordOfMuchThatHasArrived) {
-    ViewerSession viewer({});
-    ASSERT_EQ(viewer.on_control(wire::encode(wire::Welcome{})), ViewerSession::Change::welcomed);
-    // All at once, and no message ends: the host may wait for the word before it goes on.
-    const TimePoint now = from_us(1'000'000);
-    std::uint64_t told = 0;
-    for (std::uint64_t bytes = 0; bytes < 1'000'000; bytes += 16 * 1024) {
-        if (const auto message = viewer.on_received(bytes, false, now))
-            told = std::get<wire::Received>(*wire::decode_to_host(*message)).media_bytes;
-        EXPECT_LT(bytes - told, wire::max_unacknowledged);
-    }
-    EXPECT_TRUE(viewer.on_received(1'000'001, true, now));
 }
 
 TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {

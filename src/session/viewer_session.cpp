@@ -6,13 +6,6 @@
 #include "session/announced_cameras.h"
 
 namespace theatron::session {
-namespace {
-
-// Chunks that come faster than this are acknowledged together.
-constexpr Duration acknowledge_interval = std::chrono::milliseconds(4);
-
-}  // namespace
-
 Bytes ViewerSession::begin() {
     joined_ = false;
     refusal_.clear();
@@ -22,8 +15,6 @@ Bytes ViewerSession::begin() {
     delivery_ = {};
     renderer_word_ = {};
     goodbye_.clear();
-    acknowledged_at_ = {};
-    acknowledged_ = 0;
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -97,17 +88,6 @@ Bytes ViewerSession::choose(const std::string& depth_codec, const std::string& c
 Bytes ViewerSession::choose_delivery(const wire::ChooseDelivery& goal) {
     wishes_.delivery = goal;
     return wire::encode(goal);
-}
-
-std::optional<Bytes> ViewerSession::on_received(std::uint64_t media_bytes, bool message_complete,
-                                                TimePoint now) {
-    const bool may_wait = !message_complete && now - acknowledged_at_ < acknowledge_interval &&
-                          media_bytes - acknowledged_ < wire::max_unacknowledged;
-    if (!joined_ || may_wait)
-        return std::nullopt;
-    acknowledged_at_ = now;
-    acknowledged_ = media_bytes;
-    return wire::encode(wire::Received{media_bytes});
 }
 
 }  // namespace theatron::session

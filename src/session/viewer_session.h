@@ -51,11 +51,6 @@ public:
     // Another goal from now on. Returns the message to send.
     Bytes choose_delivery(const wire::ChooseDelivery& goal);
 
-    // Media has come, so many bytes since the connection began. Returns the message
-    // to send, if it is time for one.
-    std::optional<Bytes> on_received(std::uint64_t media_bytes, bool message_complete,
-                                     TimePoint now);
-
     bool joined() const { return joined_; }
     const wire::Welcome& welcome() const { return welcome_; }
     // Those that judge_cameras() accepts; their calibrations can be decoded.
@@ -88,8 +83,6 @@ private:
     wire::Delivery delivery_;
     wire::SetRenderer renderer_word_;
     std::string goodbye_;
-    TimePoint acknowledged_at_;
-    std::uint64_t acknowledged_ = 0;
 };
 
 }  // namespace theatron::session

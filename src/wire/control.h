@@ -117,16 +117,6 @@ struct Report {
     }
 };
 
-// Sent as media arrives: the host keeps no more on the way than the link carries.
-// A participant never owes word of more than max_unacknowledged bytes, so a host
-// that waits for less than that to be left on the way waits for nothing.
-inline constexpr std::size_t max_unacknowledged = 24 * 1024;
-struct Received {
-    std::uint64_t media_bytes = 0;  // of chunks, since the connection began
-
-    static void fields(auto& m, auto&& field) { field(m.media_bytes); }
-};
-
 // What the host should aim at for this participant from now on.
 struct ChooseDelivery {
     std::uint32_t target_latency_ms = 0;  // age of what is shown; 0: never leave anything out
@@ -269,7 +259,7 @@ struct Goodbye {
 };
 
 // In the order of the unions in control.fbs.
-using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Received, ChooseDelivery>;
+using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery>;
 using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye>;
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// How control and media share one connection (docs/formats/connection.md).
+// The classes of traffic on one connection (docs/formats/connection.md).
 //
-// Each WebSocket message is one envelope: a control message whole, or one chunk
-// of a media message. Chunks are small, so that control never waits long behind
-// a large frame. Chunks of one media message come in order and are not mixed
-// with those of another; control may come between them.
+// Each WebSocket message is one envelope: a control message whole, one chunk of a media message,
+// some states, a packet of voice, or an acknowledgement. The class decides what a sender drops
+// (net/outbox.h). Chunks are small, so that nothing waits long behind a large frame. Chunks of
+// one media message come in order and are not mixed with those of another; all else may come
+// between them.
 #pragma once
 
+#include <compare>
 #include <optional>
 
 #include "base/bytes.h"
+#include "base/ids.h"
 #include "base/status.h"
 #include "wire/media_header.h"
 
@@ -17,48 +20,107 @@ namespace theatron::wire {
 
 inline constexpr std::size_t max_chunk_size = 16 * 1024;  // bytes of media in one envelope
 inline constexpr std::size_t chunk_header_size = 9;
-// What we put into one: with the headers in front of it, it fills one TLS record.
+// What a sender puts into one at most: with the headers in front of it, it fills one TLS record.
 inline constexpr std::size_t usual_chunk_size = max_chunk_size - 64;
 inline constexpr std::size_t max_control_size = 64 * 1024;
 inline constexpr std::size_t max_envelope_size = max_control_size + 1;
 // A participant's first envelope, with its Join, is no larger: all that a host takes in before it
 // has seen a token.
 inline constexpr std::size_t max_first_envelope_size = 2048;
+inline constexpr std::size_t max_state_size = 1024;       // bytes of one state
+inline constexpr std::size_t max_states_size = 8 * 1024;  // bytes of one envelope of states
+inline constexpr std::size_t max_voice_size = 1500;       // bytes of one packet of voice
+// A receiver acknowledges media that it took within milliseconds, and all else when it has taken
+// so many bytes that it has not told of. So a sender whose window is larger always gets on.
+inline constexpr std::size_t max_untold = 8 * 1024;
+
+// What a state is about. Receivers pass over topics that they do not know.
+enum class StateTopic : std::uint8_t {
+    pose = 1,  // wire/person_pose.h; the id is the participant's
+};
+
+// The name of a state: a newer state with the same key replaces an older one.
+struct StateKey {
+    StateTopic topic{};
+    std::uint32_t id = 0;
+    auto operator<=>(const StateKey&) const = default;
+};
+
+struct State {
+    StateKey key;
+    ByteView body;  // 1 to max_state_size bytes
+};
+
+struct Voice {
+    ParticipantId speaker{};
+    ByteView packet;  // 1 to max_voice_size bytes
+};
+
+struct Acknowledgement {
+    // Bytes of all envelopes taken since the connection began, acknowledgements not counted.
+    std::uint64_t taken = 0;
+    // How long the newest of these had been taken when the acknowledgement left.
+    Duration held{};
+    bool operator==(const Acknowledgement&) const = default;
+};
 
 // Puts a control message into an envelope.
 Bytes wrap_control(ByteView control);
 
-// Writes the envelope of the chunk of `media` that begins at `offset` into
-// `out`, replacing its content, and returns the offset of the next chunk.
-std::size_t wrap_chunk(ByteView media, std::size_t offset, Bytes& out);
+// Writes the envelope of the chunk of `media` that begins at `offset` and has at most `chunk_size`
+// bytes into `out`, replacing its content, and returns the offset of the next chunk.
+std::size_t wrap_chunk(ByteView media, std::size_t offset, Bytes& out,
+                       std::size_t chunk_size = usual_chunk_size);
+
+// Appends a state to an envelope of states; the first one begins the envelope in an empty `out`.
+// False, and nothing is appended, if the envelope would be too large.
+bool append_state(const State& state, Bytes& out);
+
+// Both replace the content of `out`.
+void wrap_voice(const Voice& voice, Bytes& out);
+void wrap_acknowledgement(const Acknowledgement& acknowledgement, Bytes& out);
+
+// The states of one envelope, one after the other.
+class StateReader {
+public:
+    explicit StateReader(ByteView states = {}) : rest_(states) {}
+    // False at the end, and where the bytes are not states: then rest() is not empty.
+    bool next(State& state);
+    ByteView rest() const { return rest_; }
+
+private:
+    ByteView rest_;
+};
 
 // Takes envelopes apart. Holds at most one media message, at most
 // max_payload_size large. Safe for untrusted input.
 class Unwrapper {
 public:
-    enum class Takes { control_and_media, control };
+    enum class Takes { everything, all_but_media };
 
-    // Where only control is taken, media is Status::unsupported from its first chunk on.
-    explicit Unwrapper(Takes takes = Takes::control_and_media) : takes_(takes) {}
+    // Where media is not taken, it is Status::unsupported from its first chunk on.
+    explicit Unwrapper(Takes takes = Takes::everything) : takes_(takes) {}
 
     struct Unwrapped {
-        ByteView control;  // not empty: a control message
-        ByteView media;    // not empty: a complete media message
+        ByteView control;        // not empty: a control message
+        ByteView states;         // not empty: complete and valid for StateReader
+        bool is_media = false;   // a chunk of media
+        Bytes* media = nullptr;  // not null: a complete media message, which may be moved away or
+                                 // exchanged for other memory until the next call
+        std::optional<Voice> voice;
+        std::optional<Acknowledgement> acknowledgement;
     };
 
-    // Both views are empty while a media message is incomplete. They are valid
-    // until the next call. After a status the connection should be closed.
+    // The views are valid until the next call. After a status the connection should be closed.
     Result<Unwrapped> take(ByteView envelope);
 
-    // Bytes of media in all chunks so far.
-    std::uint64_t media_bytes() const { return media_bytes_; }
-
 private:
+    Result<Unwrapped> take_chunk(ByteView envelope);
+
     Takes takes_;
     Bytes media_;
     std::size_t filled_ = 0;
     std::size_t expected_ = 0;
-    std::uint64_t media_bytes_ = 0;
 };
 
 }  // namespace theatron::wire

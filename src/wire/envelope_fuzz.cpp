@@ -4,26 +4,47 @@
 #include <cstdlib>
 
 #include "wire/envelope.h"
+#include "wire/person_pose.h"
+
+namespace {
+
+using namespace theatron;
+
+// What has one spelling is written as it was read.
+void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelope) {
+    Bytes again;
+    wire::StateReader reader(got.states);
+    for (wire::State state; reader.next(state);) {
+        if (!wire::append_state(state, again))
+            std::abort();
+        (void)wire::decode_person_pose(state.body);
+    }
+    if (got.voice)
+        wire::wrap_voice(*got.voice, again);
+    if (got.acknowledgement)
+        wire::wrap_acknowledgement(*got.acknowledgement, again);
+    if (!again.empty() && again != envelope)
+        std::abort();
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace theatron;
     ByteReader in(std::as_bytes(std::span(data, size)));
-    wire::Unwrapper unwrapper, host(wire::Unwrapper::Takes::control);
+    wire::Unwrapper unwrapper, host(wire::Unwrapper::Takes::all_but_media);
     while (!in.rest().empty()) {
         const std::size_t length = in.get<std::uint16_t>();
         // An exact copy, so that a read past the end is seen.
         const ByteView part = in.get_bytes(std::min(length, in.rest().size()));
         const Bytes envelope(part.begin(), part.end());
-        if (const auto control = host.take(envelope))
-            if (!control->media.empty() || control->control.empty())
-                std::abort();
-        if (host.media_bytes() > 0)
+        if (const auto taken = host.take(envelope); taken && (taken->is_media || taken->media))
             std::abort();
         const auto got = unwrapper.take(envelope);
         if (!got)
             return 0;
-        if (!got->media.empty())
-            (void)wire::parse_media_header(got->media);
+        if (got->media)
+            (void)wire::parse_media_header(*got->media);
+        check_same_bytes(*got, envelope);
     }
     return 0;
 }

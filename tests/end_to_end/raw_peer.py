@@ -33,7 +33,7 @@ SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "src/wire/control.fbs"
 SPACE = "theatron.wire.fbs."
 PROTOCOL = 2
 
-CONTROL, CHUNK = 1, 2              # kinds of envelopes
+CONTROL, CHUNK, STATES, VOICE, ACKNOWLEDGEMENT = 1, 2, 3, 4, 5  # kinds of envelopes
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10  # kinds of WebSocket frames
 CHUNK_SIZE = 16 * 1024             # bytes of media that one envelope may carry
 WEBSOCKET_ID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # RFC 6455, 1.3
@@ -306,8 +306,8 @@ class RawPeer(WebSocket):
                  "depth_codec": "strata", "color_codec": "jpeg:quality=85"}
         self.send_control("Join", **(usual | fields))
 
-    def acknowledge(self, media_bytes):
-        self.send_control("Received", media_bytes=media_bytes)
+    def acknowledge(self, taken):
+        self.send(bytes([ACKNOWLEDGEMENT]) + struct.pack("<QI", taken, 0))
 
 
 def https_get(link, target, *, headers=(), **options):

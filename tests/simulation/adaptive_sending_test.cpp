@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/statistics.h"
+#include "net/acknowledger.h"
 #include "net/outbox.h"
 #include "session/host_session.h"
 #include "session/viewer_session.h"
@@ -199,8 +200,6 @@ private:
         for (const session::Action& next : host_.take_actions()) {
             if (const auto* send = std::get_if<action::Send>(&next))
                 ASSERT_TRUE(outbox_.push_control(wire::wrap_control(wire::encode(send->message))));
-            else if (const auto* acknowledged = std::get_if<action::Acknowledged>(&next))
-                outbox_.acknowledge(acknowledged->media_bytes, now);
             else if (std::holds_alternative<action::KeepEverything>(next))
                 outbox_.keep_everything();
             else if (const auto* ceiling = std::get_if<action::SetCeiling>(&next))
@@ -213,25 +212,28 @@ private:
             down.send(envelope, now);
         while (down.receive(envelope, now))
             arrive(envelope);
+        if (const auto word = acknowledger_.due(now)) {
+            wire::wrap_acknowledgement(*word, envelope);
+            up.send(envelope, now);
+        }
+        wire::Unwrapper host_side(wire::Unwrapper::Takes::all_but_media);
         while (up.receive(envelope, now))
-            host_.on_control(viewer_id, ByteView(envelope), now);
+            outbox_.acknowledge(*host_side.take(envelope)->acknowledgement, now);
     }
 
     void arrive(const Bytes& envelope) {
         const auto got = unwrapper_.take(envelope);
         ASSERT_TRUE(got);
+        acknowledger_.came(envelope.size(), got->is_media, now);
         if (!got->control.empty()) {
             if (viewer_.on_control(got->control) == session::ViewerSession::Change::delivery)
                 levels.push_back({now, viewer_.delivery().level});
             return;
         }
         bytes += envelope.size();
-        if (const auto message =
-                viewer_.on_received(unwrapper_.media_bytes(), !got->media.empty(), now))
-            up.send(*message, now);
-        if (got->media.empty())
+        if (!got->media)
             return;
-        const auto header = wire::parse_media_header(got->media);
+        const auto header = wire::parse_media_header(*got->media);
         ASSERT_TRUE(header);
         if (!is_depth(header->stream))
             return;
@@ -249,6 +251,7 @@ private:
     session::ViewerSession viewer_;
     net::Outbox outbox_;
     wire::Unwrapper unwrapper_;
+    net::Acknowledger acknowledger_;
     TimePoint next_frame_ = now, next_tick_ = now;
     FrameNumber next_number_ = 0;
     std::map<SettingId, std::uint32_t> since_key_;
