@@ -20,6 +20,8 @@ namespace {
 // Waiting before another attempt: soon at first, then patiently.
 constexpr Duration first_wait = std::chrono::milliseconds(200);
 constexpr Duration longest_wait = std::chrono::seconds(2);
+// People whose poses are kept; a session has fewer.
+constexpr std::size_t max_poses = 256;
 
 }  // namespace
 
@@ -45,6 +47,8 @@ struct Participant::Shared {
     std::optional<wire::ChooseDelivery> delivery_wish;
     std::optional<wire::SetRenderer> renderer_word;  // not yet taken
     std::string renderer;
+    std::map<ParticipantId, wire::PersonPose> poses;
+    std::optional<wire::PersonPose> own_pose;  // not yet sent
 };
 
 Participant::Participant(Options options)
@@ -149,6 +153,8 @@ void Participant::run() {
             ++shared_->connection;
             shared_->taken = 0;
             shared_->is_telling = false;
+            shared_->poses.clear();
+            shared_->own_pose.reset();
             shared_->clock = {};
             shared_->status.round_trip = {};
             shared_->status.clock_known = false;
@@ -196,6 +202,7 @@ net::Client::Handler Participant::handler() {
     };
     h.control = [this](ByteView message) { on_control(message); };
     h.media = [this](Bytes& message) { return on_media(message); };
+    h.state = [this](const wire::State& state) { on_state(state); };
     h.now = [this] { return now(); };
     h.tick = [this] { on_tick(); };
     return h;
@@ -208,6 +215,54 @@ bool Participant::on_media(Bytes& message) {
     if (const auto header = wire::parse_media_header(message))
         options_.media(*header, message);
     return true;
+}
+
+void Participant::on_state(const wire::State& state) {
+    // A later host may send states that this participant does not know.
+    const auto pose = state.key.topic == wire::StateTopic::pose
+                          ? wire::decode_person_pose(state.body)
+                          : theatron::Status::unsupported;
+    const ParticipantId person{state.key.id};
+    if (!pose || !session_.joined())
+        return;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!pose->head && !pose->left_hand && !pose->right_hand)
+            shared_->poses.erase(person);
+        else if (shared_->poses.size() < max_poses || shared_->poses.contains(person))
+            shared_->poses[person] = *pose;
+    }
+    if (options_.pose)
+        options_.pose(person, *pose);
+}
+
+void Participant::send_pose(const wire::PersonPose& pose) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client)
+        return;
+    const bool is_telling = shared_->own_pose.has_value();
+    shared_->own_pose = pose;
+    if (!is_telling)
+        shared_->client->post([this] { tell_pose(); });
+}
+
+void Participant::tell_pose() {
+    std::optional<wire::PersonPose> pose;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        pose = std::exchange(shared_->own_pose, std::nullopt);
+    }
+    if (!pose || !session_.joined())
+        return;
+    const Bytes body = wire::encode_person_pose(*pose);
+    const auto own = std::uint32_t(session_.welcome().participant);
+    const wire::State state{{wire::StateTopic::pose, own}, body};
+    shared_->client->send_states({&state, 1});
+}
+
+std::map<ParticipantId, wire::PersonPose> Participant::poses() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->poses;
 }
 
 void Participant::request_key(StreamId stream, SettingId setting) {
@@ -269,6 +324,9 @@ void Participant::on_control(ByteView message) {
                 shared_->clock.add(pong.ping_sent, pong.received, pong.sent, steady_now());
                 Status& status = shared_->status;
                 status.round_trip = shared_->clock.round_trip();
+                status.newest_round_trip =
+                    (steady_now() - pong.ping_sent) - (pong.sent - pong.received);
+                ++status.pongs;
                 status.clock_error = shared_->clock.error_bound();
                 is_new = shared_->clock.known() && !std::exchange(status.clock_known, true);
             }

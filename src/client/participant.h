@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "geometry/calibration.h"
 #include "net/client.h"
 #include "session/viewer_session.h"
+#include "wire/person_pose.h"
 
 namespace theatron::client {
 
@@ -38,6 +40,9 @@ public:
         // Told that cameras() or settings() are new, or that the clock is known on this connection.
         // Called from the participant's thread, before the media that this is about.
         std::function<void()> described;
+        // Somebody's pose has come; one without parts says that this participant has left. Called
+        // from the participant's thread.
+        std::function<void(ParticipantId, const wire::PersonPose&)> pose;
         // Told that a frame can be taken or the connection has changed. Called from
         // the participant's thread.
         std::function<void()> news;
@@ -53,7 +58,9 @@ public:
         Phase phase = Phase::connecting;
         std::string problem;  // why lost, refused or ended
         std::string host_name;
-        Duration round_trip{};
+        Duration round_trip{};         // the shortest of the last exchanges
+        Duration newest_round_trip{};  // of the last one
+        int pongs = 0;                 // how many exchanges there were
         Duration clock_error{};
         bool clock_known = false;  // now() is the session's time
         int joins = 0;             // how often it got in, 1 without any loss
@@ -98,6 +105,12 @@ public:
     // Tells the host how this participant draws.
     void tell_renderer(const std::string& renderer);
 
+    // Where this participant is, from any thread. The newest is sent; the others get up to 90 a
+    // second (session/pose_board.h).
+    void send_pose(const wire::PersonPose& pose);
+    // The newest pose of each of the others who sent one.
+    std::map<ParticipantId, wire::PersonPose> poses() const;
+
     // Another target latency and ceiling from now on.
     void choose_delivery(const wire::ChooseDelivery& goal);
 
@@ -110,6 +123,8 @@ private:
     bool on_media(Bytes& message);
     void on_taken(std::uint64_t connection, std::size_t bytes);
     void tell_taken();
+    void on_state(const wire::State& state);
+    void tell_pose();
     void on_camera_states();
     void on_tick();
     void ping(TimePoint local);

@@ -36,6 +36,8 @@ net::Server::Handler Host::Impl::handler() {
         session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
         carry_out();
     };
+    h.state = [this](net::PeerId peer, const wire::State& state) { take_state(peer, state); };
+    h.alarm = [this] { send_poses(); };
     h.frame_left = [this](net::PeerId) { release_lanes(); };
     h.control_lost = [this](net::PeerId peer) {
         session->resynchronise(ParticipantId(std::uint32_t(peer)));
@@ -48,6 +50,8 @@ net::Server::Handler Host::Impl::handler() {
             log::info("host", "participant left",
                       {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
         session->on_closed(ParticipantId(std::uint32_t(peer)));
+        poses.remove(ParticipantId(std::uint32_t(peer)), steady_now());
+        wait_for_poses();
         carry_out();
         note_left(peer);
     };
@@ -101,6 +105,8 @@ void Host::Impl::carry_out(const session::action::End& a) {
 }
 
 void Host::Impl::carry_out(const session::action::Joined& a) {
+    // After Welcome.
+    server->post([this, id = a.participant] { send_poses_to(id, poses.all()); });
     const std::string& address = addresses[peer_of(a.participant)];
     if (const auto left_out = joins.take(address + " " + a.name, steady_now()))
         log::info("host", "participant joined",
@@ -268,6 +274,47 @@ void Host::Impl::distribute(const send::EncodedMedia& encoded) {
             session->on_broken_stream(header.stream, header.setting);
     }
     hold_lane(std::size_t(camera_of(header.stream)));
+}
+
+void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
+    const ParticipantId sender{std::uint32_t(peer)};
+    const auto found = session->participants().find(sender);
+    if (found == session->participants().end() || !found->second.takes_part())
+        return;
+    if (poses.put(sender, state, steady_now()) == session::PoseBoard::Answer::flood)
+        server->close(peer, "there were far more poses than a host sends on");
+    wait_for_poses();
+}
+
+void Host::Impl::wait_for_poses() {
+    const auto due = poses.due();
+    if (!due || poses_are_due == due)
+        return;
+    poses_are_due = due;
+    server->set_alarm(*due);
+}
+
+void Host::Impl::send_poses() {
+    poses_are_due.reset();
+    const auto entries = poses.gather(steady_now());
+    std::vector<ParticipantId> receivers;
+    for (const auto& [id, participant] : session->participants())
+        if (participant.takes_part())
+            receivers.push_back(id);
+    for (const ParticipantId receiver : receivers)
+        send_poses_to(receiver, entries);
+    wait_for_poses();
+}
+
+// Everybody predicts their own.
+void Host::Impl::send_poses_to(ParticipantId receiver,
+                               const std::vector<session::PoseBoard::Entry>& entries) {
+    std::vector<wire::State> states;
+    for (const auto& entry : entries)
+        if (entry.participant != receiver)
+            states.push_back(entry.state);
+    if (!states.empty())
+        server->send_states(net::PeerId(std::uint32_t(receiver)), states);
 }
 
 void Host::Impl::measure_links() {

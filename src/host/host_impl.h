@@ -15,6 +15,7 @@
 #include "net/server.h"
 #include "send/media_queue.h"
 #include "session/host_session.h"
+#include "session/pose_board.h"
 
 namespace theatron::host {
 
@@ -38,7 +39,9 @@ struct Host::Impl {
     LineLimit strangers;       // the door's thread
     // Which cameras have a region of interest; server's thread.
     std::set<std::size_t> with_region;
-    std::set<std::size_t> held;  // lanes; server's thread
+    std::set<std::size_t> held;              // lanes; server's thread
+    session::PoseBoard poses;                // server's thread
+    std::optional<TimePoint> poses_are_due;  // as the server's alarm is set; server's thread
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
@@ -92,6 +95,11 @@ struct Host::Impl {
     void distribute_media();
     void distribute(const send::EncodedMedia& media);
     void on_camera_states();
+    void take_state(net::PeerId peer, const wire::State& state);
+    void wait_for_poses();
+    void send_poses();
+    void send_poses_to(ParticipantId receiver,
+                       const std::vector<session::PoseBoard::Entry>& entries);
     void measure_links();
     void note_participants();
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/pose_board.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::session {
+namespace {
+
+constexpr ParticipantId alice{1}, bob{2};
+using Answer = PoseBoard::Answer;
+
+Bytes pose_at(TimePoint time, float x) {
+    wire::PersonPose pose;
+    pose.time = time;
+    pose.head = wire::PartPose{{x, 1.7F, 0}, {1, 0, 0, 0}};
+    return wire::encode_person_pose(pose);
+}
+
+struct Board {
+    PoseBoard board;
+    TimePoint now = from_us(10'000'000);
+
+    Answer put(ParticipantId sender, float x, Duration age = {}) {
+        const Bytes body = pose_at(now - age, x);
+        return board.put(sender, {{wire::StateTopic::pose, std::uint32_t(sender)}, body}, now);
+    }
+    // Whose pose is where.
+    std::map<ParticipantId, float> gathered() { return places(board.gather(now)); }
+    static std::map<ParticipantId, float> places(const std::vector<PoseBoard::Entry>& entries) {
+        std::map<ParticipantId, float> result;
+        for (const auto& entry : entries) {
+            EXPECT_EQ(entry.state.key.id, std::uint32_t(entry.participant));
+            const auto pose = wire::decode_person_pose(entry.state.body);
+            EXPECT_TRUE(pose);
+            result[entry.participant] = pose->head ? pose->head->position[0] : -1;
+        }
+        return result;
+    }
+};
+
+TEST(PoseBoard, SendsTheNewestOfEverybodyTogetherNinetyTimesASecond) {
+    Board b;
+    int sent = 0;
+    const TimePoint end = b.now + 1s;
+    for (int i = 0; b.now < end; ++i, b.now += 1ms) {
+        // 100 poses a second of each, not at the same time.
+        if (i % 10 == 0) {
+            EXPECT_EQ(b.put(alice, float(i)), Answer::kept);
+        }
+        if (i % 10 == 5) {
+            EXPECT_EQ(b.put(bob, float(i)), Answer::kept);
+        }
+        if (const auto due = b.board.due(); due && *due <= b.now) {
+            ++sent;
+            const auto places = b.gathered();
+            if (sent > 1) {
+                ASSERT_EQ(places.size(), 2u);
+                EXPECT_EQ(places.at(alice), float(i - i % 10));
+            }
+        }
+    }
+    EXPECT_GE(sent, 80);
+    EXPECT_LE(sent, 91);
+}
+
+TEST(PoseBoard, IsDueAtOnceAfterAPauseAndNeverWhileNobodyMoves) {
+    Board b;
+    EXPECT_FALSE(b.board.due());
+    b.put(alice, 1);
+    EXPECT_EQ(b.board.due(), b.now);
+    b.gathered();
+    EXPECT_FALSE(b.board.due());
+    b.now += 1ms;
+    b.put(alice, 2);
+    EXPECT_EQ(b.board.due(), b.now - 1ms + PoseBoard::period);
+    b.now += 1s;
+    b.gathered();
+    b.now += 1s;
+    b.put(bob, 3);
+    EXPECT_EQ(b.board.due(), b.now);
+    EXPECT_EQ(b.gathered(), (std::map<ParticipantId, float>{{bob, 3}})) << "only what is new";
+    EXPECT_EQ(Board::places(b.board.all()), (std::map<ParticipantId, float>{{alice, 2}, {bob, 3}}));
+}
+
+TEST(PoseBoard, IgnoresPosesOfOthersOldOnesAndOnesOfTheFuture) {
+    Board b;
+    const Bytes body = pose_at(b.now, 1);
+    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(bob)}, body}, b.now),
+              Answer::ignored);
+    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic(9), std::uint32_t(alice)}, body}, b.now),
+              Answer::ignored);
+    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(alice)}, Bytes(5)}, b.now),
+              Answer::ignored);
+    EXPECT_EQ(b.put(alice, 1, -2s), Answer::ignored);
+    EXPECT_FALSE(b.board.due());
+    EXPECT_EQ(b.put(alice, 1, 10ms), Answer::kept);
+    EXPECT_EQ(b.put(alice, 2, 20ms), Answer::ignored);
+    EXPECT_EQ(b.gathered().at(alice), 1);
+}
+
+TEST(PoseBoard, TheOthersAreToldOnceWhoHasLeft) {
+    Board b;
+    b.put(alice, 1);
+    b.put(bob, 2);
+    b.gathered();
+    b.board.remove(alice, b.now);
+    EXPECT_EQ(b.put(alice, 7), Answer::ignored);
+    EXPECT_EQ(b.gathered(), (std::map<ParticipantId, float>{{alice, -1}}));
+    EXPECT_EQ(Board::places(b.board.all()), (std::map<ParticipantId, float>{{bob, 2}}));
+    b.board.remove(alice, b.now);
+    b.board.remove(ParticipantId{9}, b.now);
+    EXPECT_FALSE(b.board.due());
+}
+
+TEST(PoseBoard, FarTooManyPosesAreAFlood) {
+    Board b;
+    Answer answer{};
+    int kept = 0;
+    for (; kept < 10'000 && answer != Answer::flood; ++kept) {
+        b.now += 100us;
+        answer = b.put(alice, 1);
+    }
+    EXPECT_EQ(answer, Answer::flood);
+    EXPECT_GT(kept, 500);
+    EXPECT_EQ(b.put(bob, 1), Answer::kept);
+}
+
+}  // namespace
+}  // namespace theatron::session

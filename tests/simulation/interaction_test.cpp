@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// States and voice beside more media than a link carries: how long they wait behind it, and what
+// that costs the media. Outbox, flight and acknowledgements as they are in the program, the link
+// made up.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/statistics.h"
+#include "net/acknowledger.h"
+#include "net/outbox.h"
+#include "simulation/simulated_link.h"
+#include "wire/envelope.h"
+
+namespace theatron {
+namespace {
+
+constexpr double mbit = 125'000;
+constexpr Duration step = Duration(500);
+constexpr double measured_s = 5;
+
+struct Waits {
+    std::vector<double> state_ms, voice_ms;  // beyond the link's own delay
+    double media_share = 0;                  // of what the link carries
+};
+
+// Twice as much media as the link carries, after the link has been learned.
+Waits wait_behind_media(double rate, Duration delay) {
+    net::Outbox outbox;
+    net::Acknowledger acknowledger;
+    wire::Unwrapper viewer, host(wire::Unwrapper::Takes::all_but_media);
+    testing::SimulatedLink down(1), up(2);
+    down.bytes_per_second = rate;
+    down.delay = up.delay = delay;
+    up.bytes_per_second = 1e9;
+    Waits waits;
+    std::uint64_t media_bytes = 0;
+    TimePoint now = from_us(1'000'000), next_frame = now, next_pose = now, next_voice = now;
+    const TimePoint begin = now + 3s, end = begin + seconds_to_duration(measured_s);
+    FrameNumber frame = 0;
+    Bytes envelope;
+    const auto stamp = [&] {
+        Bytes bytes(40);
+        store_le(bytes.data(), to_us(now));
+        return bytes;
+    };
+    const auto waited = [&](ByteView stamped) {
+        return to_ms(now - from_us(load_le<std::int64_t>(stamped.data())) - delay);
+    };
+    for (; now < end; now += step) {
+        if (now >= next_frame) {
+            next_frame += Duration(33'333);
+            ++frame;
+            for (const int stream : {0, 1, 2, 3}) {
+                wire::MediaHeader header;
+                header.payload_size = std::uint32_t(2 * rate / 30 / 4);
+                auto bytes = std::make_shared<Bytes>(wire::media_header_size + header.payload_size);
+                wire::write_media_header(header, bytes->data());
+                (void)outbox.push_media({bytes, StreamId(stream), {}, frame, frame, 0, true, now});
+            }
+        }
+        if (now >= next_pose) {
+            next_pose += Duration(11'111);
+            outbox.put_state({{wire::StateTopic::pose, 1}, stamp()});
+        }
+        if (now >= next_voice) {
+            next_voice += 20ms;
+            outbox.push_voice({ParticipantId{1}, stamp()});
+        }
+        while (up.receive(envelope, now))
+            outbox.acknowledge(*host.take(envelope)->acknowledgement, now);
+        while (outbox.next(envelope, now))
+            down.send(envelope, now);
+        while (down.receive(envelope, now)) {
+            const auto got = viewer.take(envelope);
+            if (!got) {
+                ADD_FAILURE() << to_text(got.error());
+                return waits;
+            }
+            acknowledger.came(envelope.size(), got->is_media, now);
+            if (now < begin)
+                continue;
+            media_bytes += got->is_media ? envelope.size() : 0;
+            wire::StateReader states(got->states);
+            for (wire::State state; states.next(state);)
+                waits.state_ms.push_back(waited(state.body));
+            if (got->voice)
+                waits.voice_ms.push_back(waited(got->voice->packet));
+        }
+        if (const auto word = acknowledger.due(now)) {
+            wire::wrap_acknowledgement(*word, envelope);
+            up.send(envelope, now);
+        }
+    }
+    waits.media_share = double(media_bytes) / measured_s / rate;
+    return waits;
+}
+
+TEST(Interaction, WaitsLittleBehindMedia) {
+    struct Case {
+        double megabits, most_ms;
+    };
+    for (const auto& [megabits, most_ms] : {Case{10, 45}, Case{50, 15}, Case{200, 15}})
+        for (const Duration delay : {Duration(1ms), Duration(10ms), Duration(40ms)}) {
+            SCOPED_TRACE(std::to_string(megabits) + " Mbit/s, " + std::to_string(to_ms(delay)) +
+                         " ms");
+            const Waits waits = wait_behind_media(megabits * mbit, delay);
+            ASSERT_GT(waits.state_ms.size(), 425u);
+            ASSERT_GT(waits.voice_ms.size(), 240u);
+            EXPECT_LE(percentile(waits.state_ms, 0.99), most_ms);
+            EXPECT_LE(percentile(waits.voice_ms, 0.99), most_ms);
+            EXPECT_GE(waits.media_share, 0.9);
+        }
+}
+
+}  // namespace
+}  // namespace theatron
