@@ -9,7 +9,7 @@ namespace theatron::net {
 namespace {
 
 // A chunk that took so much longer than the fastest has queued.
-constexpr Duration jitter = std::chrono::milliseconds(5);
+constexpr Duration jitter = std::chrono::milliseconds(3);
 // How fast older measurements of the rate are forgotten, in time of a busy way.
 constexpr double memory_s = 0.06;
 // A rate seen longer ago says nothing about the way of today.
@@ -20,6 +20,9 @@ constexpr Duration bucket = std::chrono::seconds(5);
 // after so long without a short one, less is sent for a moment.
 constexpr Duration low_patience = std::chrono::seconds(3);
 constexpr double drain_share = 0.75;
+// A chunk that was held back and met no queue raises the measured rate by this part of it: on a
+// long way many such chunks are answered before the first of them can show that it was too much.
+constexpr double growth = 1.0 / 6;
 // The allowed queue is so long, and what so many bytes take besides.
 constexpr double queue_s = 0.005, queue_bytes = 25e3;
 constexpr Duration shortest_queue = std::chrono::milliseconds(8);
@@ -90,7 +93,7 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
     } else if (newest.held_back) {
         // It was held back and met no queue: the way carries more than is known.
         if (busy_seconds_ > 0)
-            busy_bytes_ += bytes;
+            busy_bytes_ += growth * bytes;
         else
             window_at_first_ += bytes;
     }

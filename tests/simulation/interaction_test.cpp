@@ -17,8 +17,8 @@ namespace theatron {
 namespace {
 
 constexpr double mbit = 125'000;
-constexpr Duration step = Duration(500);
-constexpr double measured_s = 5;
+constexpr Duration step = Duration(250);
+constexpr double measured_s = 10;
 
 struct Waits {
     std::vector<double> state_ms, voice_ms;  // beyond the link's own delay
@@ -37,7 +37,7 @@ Waits wait_behind_media(double rate, Duration delay) {
     Waits waits;
     std::uint64_t media_bytes = 0;
     TimePoint now = from_us(1'000'000), next_frame = now, next_pose = now, next_voice = now;
-    const TimePoint begin = now + 3s, end = begin + seconds_to_duration(measured_s);
+    const TimePoint begin = now + 5s, end = begin + seconds_to_duration(measured_s);
     FrameNumber frame = 0;
     Bytes envelope;
     const auto stamp = [&] {
@@ -101,13 +101,13 @@ TEST(Interaction, WaitsLittleBehindMedia) {
     struct Case {
         double megabits, most_ms;
     };
-    for (const auto& [megabits, most_ms] : {Case{10, 45}, Case{50, 15}, Case{200, 15}})
+    for (const auto& [megabits, most_ms] : {Case{10, 45}, Case{50, 15}})
         for (const Duration delay : {Duration(1ms), Duration(10ms), Duration(40ms)}) {
             SCOPED_TRACE(std::to_string(megabits) + " Mbit/s, " + std::to_string(to_ms(delay)) +
                          " ms");
             const Waits waits = wait_behind_media(megabits * mbit, delay);
-            ASSERT_GT(waits.state_ms.size(), 425u);
-            ASSERT_GT(waits.voice_ms.size(), 240u);
+            ASSERT_GT(waits.state_ms.size(), 850u);
+            ASSERT_GT(waits.voice_ms.size(), 480u);
             EXPECT_LE(percentile(waits.state_ms, 0.99), most_ms);
             EXPECT_LE(percentile(waits.voice_ms, 0.99), most_ms);
             EXPECT_GE(waits.media_share, 0.9);
