@@ -175,7 +175,7 @@ def rate_factors(program, table, row):
 
 @Figure("docs/decisions/optional-h264.md", "presets",
         "theatron bench color FOLDER --frames 60 "
-        "--codecs jpeg:quality=85 h264:crf=20 h264:crf=20,preset=superfast h264:crf=20,preset=veryfast")
+        "--codecs jpeg:quality=85 h264:crf=20,encoder=x264 h264:crf=20,preset=superfast h264:crf=20,preset=veryfast")
 def presets(program, table, row):
     codecs = presets.command.partition("--codecs ")[2].split()
     codec = program.codecs("color", program.sequence("table-person"), codecs, "--frames", 60)[row[0]]

@@ -12,6 +12,8 @@
 #include "base/statistics.h"
 #include "bench_libjpeg.h"
 #include "bench_ssim.h"
+#include "bench_video.h"
+#include "synthetic/sensor_model.h"
 #include "video/color_codec.h"
 
 namespace theatron::bench {
@@ -76,7 +78,31 @@ struct Coder {
     std::function<std::unique_ptr<video::ColorDecoder>()> make_decoder;
 };
 
-Measured measure(const Coder& coder, const std::vector<ColorImage>& frames) {
+// What a camera hands over: the frame itself, or with noise as JPEG.
+std::vector<ColorData> camera_pictures(const std::vector<ColorImage>& frames, double noise) {
+    const auto jpeg =
+        video::make_color_encoder(video::parse_color_setting("jpeg:quality=90").setting);
+    std::vector<ColorData> pictures;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        ColorData color;
+        color.size = frames[i].size;
+        color.pixels = frames[i];
+        if (noise > 0) {
+            const synthetic::ColorSensorParams sensor{
+                .exposure_stops = 0, .white_balance = 0, .noise = float(noise)};
+            synthetic::apply_color_sensor(sensor, 1, std::uint32_t(i), frames[i].view(),
+                                          color.pixels.view());
+            const ByteView bytes = jpeg->encode(color, true)->bytes;
+            color.jpeg.assign(bytes.begin(), bytes.end());
+            color.pixels = {};
+        }
+        pictures.push_back(std::move(color));
+    }
+    return pictures;
+}
+
+Measured measure(const Coder& coder, const std::vector<ColorImage>& frames,
+                 const std::vector<ColorData>& pictures) {
     Measured m;
     m.bytes.resize(frames.size());
     m.encode_ms.assign(frames.size(), 1e9);
@@ -86,9 +112,7 @@ Measured measure(const Coder& coder, const std::vector<ColorImage>& frames) {
         const auto decoder = coder.make_decoder();
         m.squared_error = m.ssim = 0;
         for (std::size_t i = 0; i < frames.size(); ++i) {
-            ColorData color;
-            color.size = frames[i].size;
-            color.pixels = frames[i];
+            const ColorData& color = pictures[i];
             Result<video::EncodedColor> result = Status::truncated;
             const double encode_ms = timed_ms([&] { result = encoder->encode(color, i == 0); });
             if (!result)
@@ -142,24 +166,33 @@ Measured measure_zstd(const std::vector<ColorImage>& frames) {
 
 nlohmann::json bench_color_sequence(const std::string& sequence_name,
                                     const std::vector<ColorImage>& frames,
-                                    const std::vector<std::string>& codecs) {
+                                    const std::vector<std::string>& codecs, double camera_noise) {
     if (frames.empty())
         throw Error("The sequence " + sequence_name + " has no colour pictures.");
     for (const ColorImage& frame : frames)
         if (frame.size != frames[0].size)
             throw Error("The colour pictures of " + sequence_name + " are not all of one size.");
+    const std::vector<ColorData> pictures = camera_pictures(frames, camera_noise);
     nlohmann::json rows = nlohmann::json::array();
+    const auto add = [&](const Coder& coder) {
+        rows.push_back(row(coder.name, measure(coder, frames, pictures), frames));
+    };
+    if (camera_noise > 0)
+        add({"camera_jpeg", [] { return video::make_color_encoder({}); },
+             [] { return video::make_color_decoder(video::ColorCodecId::jpeg); }});
     for (const std::string& codec : codecs) {
+        if (is_video_yardstick(codec)) {
+            add({codec, [&] { return make_video_encoder(codec); },
+                 [&] { return make_video_decoder(codec); }});
+            continue;
+        }
         const auto parsed = video::parse_color_setting(codec);
         if (!parsed.problem.empty())
             throw Error(parsed.problem);
         const video::ColorSetting setting = parsed.setting;
-        const auto add = [&](const Coder& coder) {
-            rows.push_back(row(coder.name, measure(coder, frames), frames));
-        };
         add({codec, [&] { return video::make_color_encoder(setting); },
              [&] { return video::make_color_decoder(setting.id); }});
-        if (has_libjpeg_yardstick(setting))
+        if (has_libjpeg_yardstick(setting) && camera_noise == 0)
             add({libjpeg_name(codec), [&] { return make_libjpeg_encoder(setting); },
                  make_libjpeg_decoder});
     }

@@ -67,6 +67,7 @@ struct CodecFlags {
     std::string plot;
     std::string crop;
     std::string tile;
+    double camera_noise = 0;
 };
 
 CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, CodecFlags& flags) {
@@ -165,6 +166,9 @@ void add_color(CLI::App& bench) {
     CLI::App* command = add_codec_bench(
         bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
     command->add_option("--tile", flags->tile, "Pictures repeated in space to this WIDTHxHEIGHT");
+    command->add_option("--camera-noise", flags->camera_noise,
+                        "Codecs get what a camera with so much noise makes of the pictures, as "
+                        "JPEG; 1.6 is usual");
     command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
     command->callback([flags] {
         const auto codecs = flags->codecs.empty() ? color_codecs_here() : flags->codecs;
@@ -172,7 +176,7 @@ void add_color(CLI::App& bench) {
         for (const std::string& folder : flags->folders) {
             BenchSequence s = load_sequence(folder, true, flags->frames);
             tile_color(s, flags->tile);
-            sequences.push_back(bench_color_sequence(s.name, s.color, codecs));
+            sequences.push_back(bench_color_sequence(s.name, s.color, codecs, flags->camera_noise));
         }
         const nlohmann::json result = sequences.size() == 1 ? sequences[0] : sequences;
         report(result, flags->json, [&] { print_codecs(sequences); });

@@ -82,8 +82,7 @@ std::vector<CodecSteps::Coarser> coarser(const std::string& color) {
     for (const Size& step : jpeg_steps)
         if (step.at < quality)
             steps.push_back(
-                {video::parse_color_setting("jpeg:pass=0,quality=" + std::to_string(step.at))
-                     .setting.text,
+                {video::parse_color_setting("jpeg:quality=" + std::to_string(step.at)).setting.text,
                  step.size / whole});
     return steps;
 }

@@ -2,38 +2,20 @@
 #include "video/avc_native.h"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
 
 #include <cassert>
 
 #include "base/error.h"
+#include "video/avc_engine_native.h"
+#include "video/libavcodec_native.h"
 
 namespace theatron::video {
 namespace {
 
-constexpr const char* encoder_name = "libx264";
-// The encoder is told this rate; it matters only where bits are counted per second.
-constexpr int frames_per_second = 30;
-// Lifts every message of a context above any level that is printed (the lowest
-// eight bits count).
-constexpr int silent = 128;
 // More than any encoder needs for the largest picture.
 constexpr std::size_t max_access_unit = std::size_t(1) << 26;
-
-AVPixelFormat pixel_format(AvcLayout layout) {
-    switch (layout) {
-        case AvcLayout::yuv420:
-            return AV_PIX_FMT_YUV420P;
-        case AvcLayout::grey8:
-            return AV_PIX_FMT_GRAY8;
-        case AvcLayout::grey10:
-            return AV_PIX_FMT_GRAY10LE;
-    }
-    return AV_PIX_FMT_NONE;
-}
 
 avc::Sequence sequence_of(Size size, AvcLayout layout) {
     return {size, layout == AvcLayout::grey10 ? 10 : 8, layout != AvcLayout::yuv420};
@@ -52,135 +34,70 @@ bool fits(AVPixelFormat found, AvcLayout layout) {
             format->log2_chroma_w == 1 && format->log2_chroma_h == 1);
 }
 
-AvcPlanes planes_of(const AVFrame& frame) {
-    AvcPlanes planes;
-    for (std::size_t i = 0; i < planes.size(); ++i)
-        planes[i] = {frame.data[i], frame.linesize[i]};
-    return planes;
-}
-
-struct Deleter {
-    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-using Context = std::unique_ptr<AVCodecContext, Deleter>;
-
 }  // namespace
 
-struct AvcEncoder::Library {
-    AvcParams params;
-    Context context;
-    std::unique_ptr<AVFrame, Deleter> frame{av_frame_alloc()};
-    std::unique_ptr<AVPacket, Deleter> packet{av_packet_alloc()};
-    Bytes bytes;
-    bool first = true;
-};
-
-AvcEncoder::AvcEncoder(const AvcParams& params) : library_(std::make_unique<Library>()) {
-    if (const std::string reason = problem(); !reason.empty())
+AvcEncoder::AvcEncoder(const AvcParams& params) : params_(params) {
+    const std::string name = params.encoder.empty() ? best_encoder() : params.encoder;
+    if (const std::string reason = problem(name); !reason.empty())
         throw Error(reason);
-    library_->params = params;
+    engine_ = name == openh264_name ? make_openh264(params) : make_x264(params);
 }
 
 AvcEncoder::~AvcEncoder() = default;
 
-std::string AvcEncoder::problem() {
-    if (avcodec_find_encoder_by_name(encoder_name))
+std::string AvcEncoder::best_encoder() {
+    return has_openh264() ? openh264_name : has_x264() ? x264_name : "";
+}
+
+std::string AvcEncoder::problem(const std::string& encoder) {
+    const std::string name = encoder.empty() ? best_encoder() : encoder;
+    if (name.empty())
+        return "There is no H.264 encoder on this machine (its libavcodec is built without x264, "
+               "and "
+               "there is no OpenH264); choose another codec.";
+    if (name == openh264_name ? has_openh264() : has_x264())
         return "";
-    return "There is no H.264 encoder on this machine (its libavcodec is built without x264); "
-           "choose another codec.";
+    return "There is no H.264 encoder '" + name + "' on this machine" +
+           (name == x264_name ? " (its libavcodec is built without it)" : "") +
+           "; choose another one or another codec.";
 }
 
-Status AvcEncoder::open(Size size, AvcLayout layout) {
-    Library& l = *library_;
-    l.context.reset();
-    if (!is_valid(size) || size.area() > avc::max_area)
-        return Status::too_large;
-    const AVCodec* codec = avcodec_find_encoder_by_name(encoder_name);
-    Context context(avcodec_alloc_context3(codec));
-    context->log_level_offset = silent;
-    context->width = size.width;
-    context->height = size.height;
-    context->pix_fmt = pixel_format(layout);
-    context->time_base = {1, frames_per_second};
-    context->framerate = {frames_per_second, 1};
-    context->thread_count = 1;
-    context->max_b_frames = 0;
-    context->refs = 1;
-    // The colour space of JPEG, so that decoders elsewhere convert alike.
-    context->color_range = AVCOL_RANGE_JPEG;
-    context->colorspace = AVCOL_SPC_SMPTE170M;
-    context->color_primaries = AVCOL_PRI_BT709;
-    context->color_trc = AVCOL_TRC_IEC61966_2_1;
-    if (l.params.bitrate_mbit > 0) {
-        context->bit_rate = std::int64_t(l.params.bitrate_mbit * 1e6);
-        // A tenth of a second of rate may be waiting: bursts are delay.
-        context->rc_max_rate = context->bit_rate;
-        context->rc_buffer_size = int(context->bit_rate / 10);
-    } else {
-        av_opt_set_double(context->priv_data, "crf", l.params.crf, 0);
-    }
-    av_opt_set(context->priv_data, "preset", l.params.preset.c_str(), 0);
-    av_opt_set(context->priv_data, "tune", "zerolatency", 0);
-    av_opt_set_int(context->priv_data, "forced-idr", 1, 0);
-    // Key frames come when they are asked for, and only then.
-    av_opt_set(context->priv_data, "x264-params", "keyint=infinite:scenecut=0:open-gop=0", 0);
-    if (avcodec_open2(context.get(), codec, nullptr) < 0)
-        return Status::unsupported;
-
-    av_frame_unref(l.frame.get());
-    l.frame->width = size.width;
-    l.frame->height = size.height;
-    l.frame->format = context->pix_fmt;
-    l.frame->color_range = context->color_range;
-    l.frame->pts = 0;
-    if (av_frame_get_buffer(l.frame.get(), 0) < 0)
-        return Status::unsupported;
-    l.context = std::move(context);
-    l.first = true;
-    return Status::ok;
-}
-
-Size AvcEncoder::size() const {
-    const AVCodecContext* context = library_->context.get();
-    return context ? Size{context->width, context->height} : Size{};
-}
-
-AvcPlanes AvcEncoder::planes() {
-    assert(library_->context);
-    // Fails only for want of memory, and then the old buffer stays.
-    (void)av_frame_make_writable(library_->frame.get());
-    return planes_of(*library_->frame);
-}
-
-Result<AvcEncoder::Encoded> AvcEncoder::encode(bool key) {
-    Library& l = *library_;
-    assert(l.context);
-    const bool want_key = key || l.first;
-    l.frame->pict_type = want_key ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
-    ++l.frame->pts;
-    av_packet_unref(l.packet.get());
-    if (avcodec_send_frame(l.context.get(), l.frame.get()) < 0 ||
-        avcodec_receive_packet(l.context.get(), l.packet.get()) < 0)
-        return Status::unsupported;
-    l.first = false;
-
-    // Left out: what the encoder says about itself (some 700 bytes).
-    l.bytes.clear();
-    ByteView stream = std::as_bytes(std::span(l.packet->data, std::size_t(l.packet->size)));
+void keep_picture_units(ByteView stream, Bytes& out) {
+    out.clear();
     while (const auto unit = avc::take_unit(stream))
         if (unit->type() == avc::UnitType::slice || unit->type() == avc::UnitType::idr_slice ||
             unit->type() == avc::UnitType::sequence || unit->type() == avc::UnitType::picture)
-            l.bytes.insert(l.bytes.end(), unit->with_start_code.begin(),
-                           unit->with_start_code.end());
-    return Encoded{l.bytes, (l.packet->flags & AV_PKT_FLAG_KEY) != 0};
+            out.insert(out.end(), unit->with_start_code.begin(), unit->with_start_code.end());
+}
+
+Status AvcEncoder::open(Size size, AvcLayout layout) {
+    if (!is_valid(size) || size.area() > avc::max_area)
+        return Status::too_large;
+    const Status status = engine_->open(size, layout);
+    if (status != Status::unsupported || !params_.encoder.empty() || !has_x264())
+        return status;
+    // OpenH264 takes no very small pictures.
+    params_.encoder = x264_name;
+    engine_ = make_x264(params_);
+    return engine_->open(size, layout);
+}
+
+Size AvcEncoder::size() const {
+    return engine_->size();
+}
+
+AvcPlanes AvcEncoder::planes() {
+    return engine_->planes();
+}
+
+Result<AvcEncoder::Encoded> AvcEncoder::encode(bool key) {
+    return engine_->encode(key);
 }
 
 struct AvcDecoder::Library {
-    Context context;
-    std::unique_ptr<AVFrame, Deleter> frame{av_frame_alloc()};
-    std::unique_ptr<AVPacket, Deleter> packet{av_packet_alloc()};
+    AvContext context;
+    AvFrame frame{av_frame_alloc()};
+    AvPacket packet{av_packet_alloc()};
     std::vector<std::uint8_t> padded;
     bool intact = false;  // the last access unit decoded
     avc::Sequence sequence;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// H.264 by libavcodec: planes of samples to access units and back. Native builds
-// only. The encoder is x264, looked up when the program runs; see
+// H.264: planes of samples to access units and back. Native builds only. The decoder is
+// libavcodec's, the encoder OpenH264 or x264, whichever this machine has; see
 // docs/decisions/optional-h264.md.
 #pragma once
 
@@ -24,14 +24,19 @@ struct AvcPlane {
 };
 using AvcPlanes = std::array<AvcPlane, 3>;  // grey uses the first
 
+class AvcEngine;
+
 // Encodes pictures one after the other, each as soon as it is given. Not thread safe.
 class AvcEncoder {
 public:
+    // Throws Error where problem() has a sentence for params.encoder.
     explicit AvcEncoder(const AvcParams& params);
     ~AvcEncoder();
 
-    // One sentence if this machine has no encoder, otherwise empty.
-    static std::string problem();
+    // The library that encodes unless a setting names one; empty if there is none.
+    static std::string best_encoder();
+    // One sentence if this machine has no such encoder (empty: none at all), otherwise empty.
+    static std::string problem(const std::string& encoder = "");
 
     // Begins a new stream. Sides of 4:2:0 pictures are even.
     Status open(Size size, AvcLayout layout);
@@ -50,8 +55,8 @@ public:
     Result<Encoded> encode(bool key);
 
 private:
-    struct Library;
-    std::unique_ptr<Library> library_;
+    AvcParams params_;
+    std::unique_ptr<AvcEngine> engine_;
 };
 
 // Decodes access units one after the other. Not thread safe. Prints nothing.

@@ -29,6 +29,15 @@ AvcParams take_avc_params(Options& options, int usual_crf, std::string& problem)
     } else {
         params.preset = preset;
     }
+    params.encoder = options.take("encoder");
+    if (!params.encoder.empty() && params.encoder != x264_name && params.encoder != openh264_name)
+        problem = "In '" + options.text() + "', encoder must be " + x264_name + " or " +
+                  openh264_name + ".";
+    const bool has_preset = params.preset != AvcParams().preset;
+    if (has_preset && params.encoder == openh264_name)
+        problem = "In '" + options.text() + "', openh264 has no presets.";
+    if (has_preset)
+        params.encoder = x264_name;
     return params;
 }
 
@@ -41,6 +50,8 @@ std::string spelling(const AvcParams& params) {
     }
     if (params.preset != AvcParams().preset)
         text += ",preset=" + params.preset;
+    else if (!params.encoder.empty())
+        text += ",encoder=" + params.encoder;
     return text;
 }
 

@@ -8,14 +8,17 @@
 
 namespace theatron::video {
 
+inline constexpr const char *x264_name = "x264", *openh264_name = "openh264";
+
 struct AvcParams {
     int crf = 20;                      // constant quality: 0 to 51, larger is worse and smaller
     double bitrate_mbit = 0;           // if positive, this rate at 30 frames a second instead
-    std::string preset = "ultrafast";  // measured in docs/decisions/optional-h264.md
+    std::string preset = "ultrafast";  // of x264; measured in docs/decisions/optional-h264.md
+    std::string encoder;               // x264_name or openh264_name; empty: the best there is
 };
 
-// Takes "crf", "bitrate_mbit" and "preset" out of `options`. `problem` is one
-// sentence if the preset is none; other trouble is kept by the options.
+// Takes "crf", "bitrate_mbit", "preset" and "encoder" out of `options`. `problem` is one
+// sentence if preset or encoder is none; other trouble is kept by the options.
 AvcParams take_avc_params(Options& options, int usual_crf, std::string& problem);
 
 // The parameters in their one spelling: "crf=20" or "bitrate_mbit=5,preset=veryfast".

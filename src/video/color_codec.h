@@ -39,8 +39,9 @@ struct ParsedColorSetting {
 };
 
 // Understands "raw", "jpeg", "jpeg:quality=85", "h264:crf=20". The problem names the codecs
-// there are, or the parameter that is wrong. A camera's own JPEG pictures are
-// passed through untouched, at the camera's quality, unless `pass=0` is given.
+// there are, or the parameter that is wrong. Where a quality of 85 or more is asked for, a camera's
+// own JPEG pictures are passed through untouched; below, they are encoded again. `pass=0` and
+// `pass=1` say otherwise. What is not smaller than the camera's own picture is never sent.
 ParsedColorSetting parse_color_setting(std::string_view text);
 
 std::vector<std::string> color_codec_names();

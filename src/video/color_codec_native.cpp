@@ -41,7 +41,11 @@ public:
         const Result<ColorView> image = pixels_.of(color);
         if (!image)
             return image.error();
-        return EncodedColor{compressor_.compress(*image)};
+        const ByteView encoded = compressor_.compress(*image);
+        // A camera's picture of lower quality than was asked for would only grow.
+        if (color.is_jpeg() && encoded.size() >= color.jpeg.size())
+            return EncodedColor{color.jpeg};
+        return EncodedColor{encoded};
     }
 
 private:
@@ -76,7 +80,11 @@ private:
 }  // namespace
 
 std::string missing_color_encoder(const ColorSetting& setting) {
-    return setting.id == ColorCodecId::h264 ? AvcEncoder::problem() : "";
+    if (setting.id != ColorCodecId::h264)
+        return "";
+    Options options = Options::parse(setting.text);
+    std::string problem;
+    return AvcEncoder::problem(take_h264_params(options, problem).encoder);
 }
 
 std::string missing_color_decoder(const ColorSetting& setting) {

@@ -11,6 +11,11 @@ ParsedColorSetting refused(std::string problem) {
     return {.setting = {}, .problem = std::move(problem)};
 }
 
+// Cameras deliver JPEG of quality 85 to 95. Who asks for less wants fewer bytes.
+bool usually_passes(int quality) {
+    return quality >= JpegParams().quality;
+}
+
 }  // namespace
 
 std::vector<std::string> color_codec_names() {
@@ -23,7 +28,7 @@ JpegParams take_jpeg_params(Options& options) {
     const std::string subsampling = options.take("subsampling", "420");
     params.subsampling_known = subsampling == "420" || subsampling == "444";
     params.halve_chroma = subsampling != "444";
-    params.pass = options.take_flag("pass", true);
+    params.pass = options.take_flag("pass", usually_passes(params.quality));
     return params;
 }
 
@@ -44,8 +49,8 @@ ParsedColorSetting parse_color_setting(std::string_view text) {
         setting = {ColorCodecId::jpeg, "jpeg:quality=" + std::to_string(params.quality)};
         if (!params.halve_chroma)
             setting.text += ",subsampling=444";
-        if (!params.pass)
-            setting.text += ",pass=0";
+        if (params.pass != usually_passes(params.quality))
+            setting.text += params.pass ? ",pass=1" : ",pass=0";
     } else if (options.kind() == "h264") {
         std::string problem;
         setting = {ColorCodecId::h264, "h264:" + spelling(take_h264_params(options, problem))};

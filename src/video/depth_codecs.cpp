@@ -20,6 +20,8 @@ DepthH264Params take_params(Options& options, std::string& problem) {
         problem = options.problem();
     if (problem.empty() && !options.value().empty())
         problem = "In '" + options.text() + "', '" + options.value() + "' is not a key=value pair.";
+    if (problem.empty() && params.avc.encoder == openh264_name)
+        problem = "In '" + options.text() + "', encoder must be x264: depth has ten bits.";
     if (problem.empty() && params.near_value >= params.far_value)
         problem = "In '" + options.text() + "', near must be less than far.";
     return params;

@@ -102,9 +102,11 @@ public:
         const bool delta = follows(reference) && depth.size == mask_.size();
         last_ = 0;
         if (!encoder_) {
-            if (!AvcEncoder::problem().empty())
+            if (!AvcEncoder::problem(x264_name).empty())
                 return 0;
-            encoder_.emplace(params_.avc);
+            AvcParams avc = params_.avc;
+            avc.encoder = x264_name;  // grey of ten bits is nothing for the other
+            encoder_.emplace(avc);
             scale_.set(params_.near_value, params_.far_value);
             level_of_value_ = scale_.level_of_values();
         }
@@ -238,7 +240,7 @@ bool has_depth_h264() {
 }
 
 std::string missing_depth_h264_encoder() {
-    return AvcEncoder::problem();
+    return AvcEncoder::problem(x264_name);
 }
 
 std::string missing_depth_h264_decoder() {

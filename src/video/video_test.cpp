@@ -100,6 +100,8 @@ TEST(ColorSetting, HasOneSpelling) {
     EXPECT_EQ(parse_color_setting("jpeg:pass=0,subsampling=444").setting.text,
               "jpeg:quality=85,subsampling=444,pass=0");
     EXPECT_EQ(parse_color_setting("jpeg:subsampling=420,pass=1").setting.text, "jpeg:quality=85");
+    EXPECT_EQ(parse_color_setting("jpeg:pass=0,quality=60").setting.text, "jpeg:quality=60");
+    EXPECT_EQ(parse_color_setting("jpeg:pass=1,quality=60").setting.text, "jpeg:quality=60,pass=1");
 }
 
 TEST(ColorSetting, SaysWhatIsWrong) {
@@ -191,7 +193,16 @@ TEST(ColorJpeg, PassesTheCamerasPictureThroughUntouched) {
     color.jpeg = encoded("jpeg:quality=50", pixels(scene({33, 17})));
     color.size = {33, 17};
     EXPECT_EQ(encoded("jpeg:quality=90", color), color.jpeg);
-    EXPECT_NE(encoded("jpeg:quality=90,pass=0", color), color.jpeg);
+    EXPECT_EQ(encoded("jpeg:quality=40,pass=1", color), color.jpeg);
+}
+
+TEST(ColorJpeg, EncodesTheCamerasPictureAgainWhereLessIsAskedFor) {
+    ColorData color;
+    color.jpeg = encoded("jpeg:quality=90", pixels(scene({33, 17})));
+    color.size = {33, 17};
+    EXPECT_LT(encoded("jpeg:quality=60", color).size(), color.jpeg.size());
+    EXPECT_NE(encoded("jpeg:quality=89,pass=0", color), color.jpeg);
+    EXPECT_EQ(encoded("jpeg:quality=95,pass=0", color), color.jpeg) << "more bytes show no more";
 }
 
 TEST(ColorJpeg, CameraPicturesBecomePixelsWhereTheSettingWantsThem) {
