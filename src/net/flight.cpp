@@ -25,6 +25,9 @@ constexpr double drain_share = 0.75;
 constexpr double growth = 1.0 / 6;
 // The allowed queue is so long, and what so many bytes take besides.
 constexpr double queue_s = 0.005, queue_bytes = 25e3;
+// Where the rate is higher than this, the narrowest place is rather the peer's decoders, to which
+// the pictures of many cameras come at once.
+constexpr double decoders_bytes_per_second = 12.5e6;
 constexpr Duration shortest_queue = std::chrono::milliseconds(8);
 constexpr Duration longest_queue = std::chrono::milliseconds(30);
 // A chunk takes about so long, and what the kernel holds back.
@@ -128,6 +131,8 @@ bool Flight::may_send_interaction(TimePoint now) const {
 }
 
 Duration Flight::allowed_queue(double bytes_per_second) {
+    if (bytes_per_second > decoders_bytes_per_second)
+        return longest_queue;
     return std::clamp(seconds_to_duration(queue_s + queue_bytes / bytes_per_second), shortest_queue,
                       longest_queue);
 }
