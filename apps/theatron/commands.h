@@ -22,5 +22,7 @@ void add_cameras_command(CLI::App& app);
 void add_status_command(CLI::App& app);
 void add_background_command(CLI::App& app);
 void add_case_command(CLI::App& app);
+void add_target_command(CLI::App& app);
+void add_register_command(CLI::App& app);
 
 }  // namespace theatron::app

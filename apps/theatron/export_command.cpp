@@ -79,6 +79,18 @@ std::vector<std::string> filters_of(const record::RecordingFile& recording,
     return lines;
 }
 
+void say_unregistered(const exporting::ExportSource& source) {
+    std::string names;
+    for (const auto& camera : source.cameras)
+        if (!camera->info().calibration.registered)
+            names += (names.empty() ? "" : ", ") + camera->info().name;
+    if (!names.empty() && source.cameras.size() > 1)
+        std::cerr << "Nobody knows where these cameras were in the room: " << names
+                  << ". Their points lie on each other as if all had stood at one place; "
+                     "'theatron register' finds places for the next recording."
+                  << std::endl;
+}
+
 void run(const Flags& flags) {
     if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty())
         throw Error("Say into what to export: --ply DIR, --png DIR or --k4a FILE.mkv.");
@@ -144,6 +156,8 @@ void run(const Flags& flags) {
     if (!flags.ply.empty())
         export_as("ply", flags.ply,
                   [&](exporting::ExportSource& source, const std::filesystem::path& place) {
+                      if (flags.merged)
+                          say_unregistered(source);
                       return exporting::export_ply(source, place, flags.merged);
                   });
     if (!flags.png.empty()) {

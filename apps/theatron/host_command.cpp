@@ -38,6 +38,7 @@ struct Flags {
     std::string state;
     std::string token_file;
     std::string summary;
+    std::string places;
     double seconds = 0;
     bool json = false;
 };
@@ -95,9 +96,24 @@ void obey(host::Host& host, InputLines& input) {
     }
 }
 
+// One camera alone looks right wherever it stands.
+void say_unregistered(const std::vector<std::string>& unregistered, std::size_t cameras) {
+    if (unregistered.empty() || cameras < 2)
+        return;
+    std::string names;
+    for (const std::string& name : unregistered)
+        names += (names.empty() ? "" : ", ") + name;
+    std::fprintf(stderr,
+                 "Nobody knows where these cameras are in the room: %s. They are shown 12 m apart. "
+                 "'theatron register' finds their places for --places; place=X:Y:Z gives one by "
+                 "hand.\n",
+                 names.c_str());
+}
+
 void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
+    flags.options.places = flags.places;
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
     if (!flags.summary.empty())
@@ -117,6 +133,7 @@ void run(Flags& flags) {
                   << "Ctrl-C ends the session.\n"
                   << std::flush;
     }
+    say_unregistered(host.unregistered_cameras(), host.camera_names().size());
 
     InputLines input;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
@@ -168,6 +185,9 @@ void add_host_command(CLI::App& app) {
         "--listen 0.0.0.0:4400 --name 'OR 3'\n"
         "  theatron host --camera k4a:0 --region 0=200:150:240:180");
     cli::add_camera_option(*command, flags->options.cameras)->required();
+    command->add_option("--places", flags->places,
+                        "Where the cameras are in the room: a file that 'theatron register' wrote. "
+                        "A camera's own place=X:Y:Z:YAW:PITCH:ROLL is the last word");
     command
         ->add_option("--region", flags->regions,
                      "CAMERA=X:Y:WIDTH:HEIGHT, the part of a camera's depth image that stays exact "

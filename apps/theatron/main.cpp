@@ -52,6 +52,8 @@ int main(int argc, char** argv) {
     theatron::app::add_status_command(app);
     theatron::app::add_background_command(app);
     theatron::app::add_case_command(app);
+    theatron::app::add_target_command(app);
+    theatron::app::add_register_command(app);
 
     try {
         const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);

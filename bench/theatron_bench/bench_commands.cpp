@@ -12,6 +12,7 @@
 #include "bench_filter.h"
 #include "bench_pipeline.h"
 #include "bench_plot.h"
+#include "bench_registration.h"
 #include "bench_render.h"
 #include "bench_report.h"
 #include "bench_sequence.h"
@@ -350,6 +351,47 @@ void add_view(CLI::App& bench) {
     });
 }
 
+struct RegistrationFlags {
+    RegistrationBenchOptions options;
+    std::string json;
+};
+
+void add_registration(CLI::App& bench) {
+    const auto flags = std::make_shared<RegistrationFlags>();
+    CLI::App* command = bench.add_subcommand(
+        "registration", "The board found and cameras registered, against exact truth");
+    command->add_option("--images", flags->options.images, "Single images for detection")
+        ->capture_default_str()
+        ->check(CLI::Range(4, 100000));
+    command->add_option("--seeds", flags->options.seeds, "So many sets of cameras and poses")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--frames", flags->options.frames, "Frames averaged for a view")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 90));
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        const nlohmann::json r = bench_registration(flags->options, cli::show_progress());
+        report(r, flags->json, [&] {
+            const auto& d = r["detection"];
+            std::printf("board found in %d images: precision %.3f, recall %.3f, %.1f ms\n",
+                        d["images"].get<int>(), d["precision"].get<double>(),
+                        d["recall"].get<double>(), d["ms"].get<double>());
+            std::printf("%8s %6s %7s %5s %5s %7s %9s %7s %9s %7s\n", "distance", "angle", "cameras",
+                        "poses", "fixed", "bias mm", "occlusion", "mean mm", "median mm", "p90 mm");
+            for (const auto& c : r["registration"])
+                std::printf("%8.1f %6.0f %7d %5d %5s %7.1f %9.1f %7.2f %9.2f %7.2f\n",
+                            c["distance_m"].get<double>(), c["angle_deg"].get<double>(),
+                            c["cameras"].get<int>(), c["poses"].get<int>(),
+                            c["fixed_errors"].get<bool>() ? "yes" : "no",
+                            c["bias_mm"].get<double>(), c["occlusion"].get<double>(),
+                            c["mean_error_mm"].get<double>(), c["median_error_mm"].get<double>(),
+                            c["p90_error_mm"].get<double>());
+        });
+    });
+}
+
 }  // namespace
 
 void add_benchmarks(CLI::App& app) {
@@ -359,6 +401,7 @@ void add_benchmarks(CLI::App& app) {
     add_pipeline(app);
     add_render(app);
     add_view(app);
+    add_registration(app);
 }
 
 }  // namespace theatron::bench

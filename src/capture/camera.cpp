@@ -11,6 +11,7 @@
 #include "capture/folder_camera.h"
 #include "capture/k4a_camera.h"
 #include "capture/mkv_camera.h"
+#include "capture/placed_camera.h"
 #include "capture/recording_camera.h"
 #include "capture/synthetic_camera.h"
 #include "capture/watched_camera.h"
@@ -38,7 +39,10 @@ std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress&
     try {
         const CropOptions crop = take_crop_options(options);
         const std::optional<FaultPlan> faults = take_fault_options(options);
+        const std::optional<Pose> place = take_place_option(options);
         std::unique_ptr<Camera> camera = kind.open(options, progress);
+        if (place)
+            camera = make_placed_camera(std::move(camera), *place);
         if (crop.any())
             camera = make_cropped_camera(std::move(camera), crop);
         if (faults) {
@@ -72,6 +76,7 @@ std::vector<std::string> camera_kinds() {
     for (const Kind& kind : kinds)
         lines.push_back(kind.help);
     lines.push_back(crop_help);
+    lines.push_back(place_help);
     lines.push_back(faults_help);
     return lines;
 }

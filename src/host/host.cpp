@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/log.h"
 #include "base/thread_name.h"
+#include "capture/placed_camera.h"
 #include "host/codec_steps.h"
 #include "host/host_identity.h"
 #include "host/host_impl.h"
@@ -37,6 +39,24 @@ session::HostSession::CheckedCodec check_color(const std::string& text) {
             parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem};
 }
 
+// A file of places that names none of the cameras is a mistake; two cameras of one name would stand
+// on each other.
+void check_places(const std::string& file, const capture::CameraPlaces& places,
+                  const std::vector<std::unique_ptr<capture::Camera>>& cameras) {
+    std::set<std::string> named;
+    std::string names;
+    for (const auto& camera : cameras) {
+        const std::string& name = camera->info().name;
+        names += (names.empty() ? "" : ", ") + name;
+        if (places.find(name) && !named.insert(name).second)
+            throw Error("Two cameras are called '" + name + "', so '" + file +
+                        "' cannot say where each is; give one its place by hand, with place=.");
+    }
+    if (named.empty())
+        throw Error("'" + file + "' has no place of a camera that is opened (" + names +
+                    "); register these with 'theatron register'.");
+}
+
 }  // namespace
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
@@ -44,8 +64,12 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         throw Error(
             "A host needs a camera; give one with --camera, for example --camera folder:DIR.");
     std::vector<std::unique_ptr<capture::Camera>> cameras;
+    if (!options.places.empty())
+        places = capture::load_places(options.places);
     for (const std::string& specification : options.cameras)
-        cameras.push_back(capture::open_camera(specification, progress));
+        cameras.push_back(capture::open_camera_at(specification, places, progress));
+    if (!options.places.empty())
+        check_places(options.places, places, cameras);
 
     std::vector<std::string> names;
     for (const auto& camera : cameras)
@@ -129,8 +153,8 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
         };
         send::CameraLane::Options lane;
         lane.cameras = cameras.size();
-        lane.open_again = [specification = specifications[i]] {
-            return capture::open_camera(specification);
+        lane.open_again = [this, specification = specifications[i]] {
+            return capture::open_camera_at(specification, places);
         };
         lane.moments = moments;
         lane.one_per_moment = true;
@@ -158,6 +182,14 @@ std::vector<std::string> Host::camera_names() const {
     std::vector<std::string> names;
     for (const auto& lane : impl_->lanes)
         names.push_back(lane->info().name);
+    return names;
+}
+
+std::vector<std::string> Host::unregistered_cameras() const {
+    std::vector<std::string> names;
+    for (const auto& lane : impl_->lanes)
+        if (!lane->info().calibration.registered)
+            names.push_back(lane->info().name);
     return names;
 }
 

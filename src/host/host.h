@@ -18,6 +18,7 @@ namespace theatron::host {
 
 struct HostOptions {
     std::vector<std::string> cameras;  // specifications
+    std::filesystem::path places;      // docs/formats/places.md; empty: none
     std::vector<std::string> filters;  // filter_choice.h
     net::Endpoint listen;
     std::string name = "operating room";
@@ -36,6 +37,8 @@ public:
     std::string link() const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
+    // Those whose place in the room nobody knows. They stand side by side, 12 m apart.
+    std::vector<std::string> unregistered_cameras() const;
 
     // The part of a camera's depth image, in its pixels, that stays exact whatever the
     // links carry, from the next frame on; empty: all of it. From any thread. Throws

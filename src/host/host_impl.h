@@ -9,6 +9,7 @@
 
 #include "base/line_limit.h"
 #include "base/steady_clock.h"
+#include "capture/camera_places.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "net/certificate.h"
@@ -25,6 +26,7 @@ struct Host::Impl {
     net::Link link;
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
+    capture::CameraPlaces places;  // does not change once lanes run
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::vector<FilterSource> filters;  // by camera; used by who owns the host

@@ -178,17 +178,6 @@ struct Start {
     }
 };
 
-double corner_error_m(const LatticeTarget& target, const Pose& a, const Pose& b) {
-    const Rect r = outline(target);
-    double square = 0;
-    for (const double x : {r.left, r.right})
-        for (const double y : {r.bottom, r.top}) {
-            const Vec3 apart = a * Vec3{x, y, 0} - b * Vec3{x, y, 0};
-            square += dot(apart, apart) / 4;
-        }
-    return std::sqrt(square);
-}
-
 class Rig {
 public:
     Rig(const Start& start, const std::vector<BoardView>& views, const LatticeTarget& target,
@@ -224,10 +213,10 @@ public:
             solution.reference_from_board.push_back(pose_of(board));
         for (const BoardView& view : views_)
             solution.view_error_m.push_back(
-                corner_error_m(target_,
-                               solution.cameras[std::size_t(view.camera)].reference_from_camera *
-                                   view.detection.camera_from_board,
-                               solution.reference_from_board[std::size_t(view.place)]));
+                corner_distance_m(target_,
+                                  solution.cameras[std::size_t(view.camera)].reference_from_camera *
+                                      view.detection.camera_from_board,
+                                  solution.reference_from_board[std::size_t(view.place)]));
         add_covariances(solution);
         return solution;
     }
@@ -306,6 +295,17 @@ private:
 };
 
 }  // namespace
+
+double corner_distance_m(const LatticeTarget& target, const Pose& a, const Pose& b) {
+    const Rect r = outline(target);
+    double square = 0;
+    for (const double x : {r.left, r.right})
+        for (const double y : {r.bottom, r.top}) {
+            const Vec3 apart = a * Vec3{x, y, 0} - b * Vec3{x, y, 0};
+            square += dot(apart, apart) / 4;
+        }
+    return std::sqrt(square);
+}
 
 RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& views,
                       const LatticeTarget& target, const RigOptions& options) {

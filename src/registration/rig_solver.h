@@ -67,6 +67,9 @@ struct RigOptions {
     double outlier_sigmas = 3;  // views further off count less
 };
 
+// How far two poses have the board's outer corners apart, metres (root mean square).
+double corner_distance_m(const LatticeTarget& target, const Pose& a, const Pose& b);
+
 // `cameras` and `places` count all that views may name; at least one camera.
 RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& views,
                       const LatticeTarget& target, const RigOptions& options = {});

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/placed_camera.h"
+
+#include "base/error.h"
+
+namespace theatron::capture {
+namespace {
+
+class PlacedCamera final : public Camera {
+public:
+    PlacedCamera(std::unique_ptr<Camera> camera, const Pose& place)
+        : camera_(std::move(camera)), info_(camera_->info()) {
+        info_.calibration.room_from_camera = place;
+        info_.calibration.registered = true;
+    }
+
+    const CameraInfo& info() const override { return info_; }
+    Capture next(Duration timeout) override { return camera_->next(timeout); }
+
+private:
+    std::unique_ptr<Camera> camera_;
+    CameraInfo info_;
+};
+
+}  // namespace
+
+std::optional<Pose> take_place_option(Options& options) {
+    const std::string text = options.take("place");
+    if (text.empty())
+        return {};
+    const auto place = parse_place(text);
+    if (!place)
+        throw Error("place=" + text +
+                    " is not X:Y:Z or X:Y:Z:YAW:PITCH:ROLL in metres and degrees, for example "
+                    "place=0:1.5:2:180.");
+    return place;
+}
+
+std::unique_ptr<Camera> make_placed_camera(std::unique_ptr<Camera> camera, const Pose& place) {
+    return std::make_unique<PlacedCamera>(std::move(camera), place);
+}
+
+std::unique_ptr<Camera> open_camera_at(const std::string& specification, const CameraPlaces& places,
+                                       const Progress& progress) {
+    std::unique_ptr<Camera> camera = open_camera(specification, progress);
+    const CameraPlaces::Entry* entry = places.find(camera->info().name);
+    const bool by_hand = !Options::parse(specification).take("place").empty();
+    if (!entry || by_hand)
+        return camera;
+    return make_placed_camera(std::move(camera), entry->room_from_camera);
+}
+
+}  // namespace theatron::capture

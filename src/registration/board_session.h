@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the depth images of several cameras to where they are, while somebody carries the board.
+//
+// Wherever the board is held still, each camera that sees it averages some frames and makes one
+// view. Views of the same moment belong to one place of the board. Time comes with the frames.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "registration/frame_mean.h"
+#include "registration/rig_solver.h"
+
+namespace theatron::registration {
+
+struct SessionCamera {
+    std::string name;  // for sentences
+    CameraModel depth;
+    double depth_unit_mm = 1;
+};
+
+class BoardSession {
+public:
+    static constexpr int frames_per_view = 30;
+
+    // At least one camera; `target` is valid.
+    BoardSession(std::vector<SessionCamera> cameras, const LatticeTarget& target);
+
+    // What the last frame of a camera showed.
+    enum class Sight { no_board, moving, averaging, taken };
+
+    // `depth` has the camera's size; times of one camera grow. True if a view was taken.
+    bool add(std::size_t camera, DepthView depth, TimePoint captured);
+
+    Sight sight(std::size_t camera) const { return cameras_[camera].sight; }
+    // Views of this camera, and how many ninths of its picture the board's middle was in.
+    int views(std::size_t camera) const;
+    int coverage(std::size_t camera) const;
+    // Places that both saw, and the root mean square of how far apart the two have the board's
+    // corners there, metres.
+    struct Pair {
+        std::size_t a = 0, b = 0;
+        int places = 0;
+        double apart_m = 0;
+    };
+    std::vector<Pair> pairs(const RigSolution& solution) const;
+
+    int places() const { return int(places_.size()); }
+    // Every camera is joined to every other, and has this many views at least.
+    bool is_complete(int views) const;
+    // The mean of the last still frames; empty before there was one.
+    const DepthImage& last_mean(std::size_t camera) const { return cameras_[camera].mean; }
+    double mean_unit_mm(std::size_t camera) const;
+
+    RigSolution solve() const;
+
+    // Why `solution` must not be used, as a sentence that says what to do; empty if it may.
+    std::string problem(const RigSolution& solution) const;
+
+private:
+    struct Window {
+        TimePoint begin{}, end{};
+        Pose first;
+        FrameMean mean;
+    };
+    struct Camera {
+        SessionCamera about;
+        LatticeDetector detector, mean_detector;
+        std::optional<Window> window;
+        std::optional<Pose> taken;  // the board as it was at the last view
+        Sight sight = Sight::no_board;
+        int frames_to_next_look = 0;
+        DepthImage mean;
+    };
+    struct Place {
+        TimePoint begin{}, end{};
+    };
+    bool finish(std::size_t camera, const Pose& last);
+    int place_for(std::size_t camera, TimePoint begin, TimePoint end);
+
+    LatticeTarget target_;
+    std::vector<Camera> cameras_;
+    std::vector<Place> places_;
+    std::vector<BoardView> views_;
+};
+
+}  // namespace theatron::registration
