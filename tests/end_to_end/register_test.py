@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cameras are registered with a board; a file of places is written, or left as it was, and used."""
+import json
+import math
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+
+from theatron_process import Process, host, run, write_png
+
+WIDTH, HEIGHT, FOCAL = 320, 288, 252.0
+FRAMES = 60
+BOARD_WIDTH, BOARD_HEIGHT, BAR = 0.8, 0.6, 0.06
+FILLED = {(0, 0), (1, 0), (0, 1)}  # column, row
+
+
+def is_board(u, v):
+    """Whether the front of the board has material there; u to the right, v up, from its middle."""
+    if abs(u) > BOARD_WIDTH / 2 or abs(v) > BOARD_HEIGHT / 2:
+        return False
+    cell_width, cell_height = (BOARD_WIDTH - 5 * BAR) / 4, (BOARD_HEIGHT - 4 * BAR) / 3
+    x, y = u + BOARD_WIDTH / 2, BOARD_HEIGHT / 2 - v
+    column, row = int(x // (cell_width + BAR)), int(y // (cell_height + BAR))
+    in_hole = column < 4 and row < 3 and x - column * (cell_width + BAR) > BAR and y - row * (cell_height + BAR) > BAR
+    return not in_hole or (column, row) in FILLED
+
+
+def position(degrees, radius=1.3):
+    """Of a camera around the board, at its height, which looks at it."""
+    a = math.radians(degrees)
+    return radius * math.sin(a), 1.2, radius * math.cos(a)
+
+
+def make_camera(folder, degrees, size=1.0, board=True):
+    """A board that is turned by 9 degrees in itself before a wall; exact depth."""
+    (folder / "depth").mkdir(parents=True)
+    (folder / "calibration.json").write_text(json.dumps({"depth": {
+        "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
+    a, roll = math.radians(degrees), math.radians(9)
+    forward, right = (-math.sin(a), -math.cos(a)), (math.cos(a), -math.sin(a))  # x and z in the room
+    px, _, pz = position(degrees)
+    rows = []
+    for y in range(HEIGHT):
+        row = []
+        for x in range(WIDTH):
+            rx, ry = (x - 159.5) / FOCAL, (y - 143.5) / FOCAL
+            dx, dy, dz = right[0] * rx + forward[0], -ry, right[1] * rx + forward[1]
+            z = -pz / dz if dz < 0 else -1
+            u, v = px + dx * z, dy * z
+            turned = u * math.cos(roll) + v * math.sin(roll), v * math.cos(roll) - u * math.sin(roll)
+            hit = board and z > 0 and is_board(turned[0] / size, turned[1] / size)
+            row.append(round(1000 * z) if hit else 3000)
+        rows.append(struct.pack(f">{WIDTH}H", *row))
+    write_png(folder / "depth" / "00000.png", WIDTH, HEIGHT, 16, 1, rows)
+    for n in range(1, FRAMES):
+        shutil.copy(folder / "depth" / "00000.png", folder / "depth" / f"{n:05}.png")
+    return f"folder:{folder}"
+
+
+class Register(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_register_"))
+        cls.left = make_camera(cls.folder / "left", -30)
+        cls.right = make_camera(cls.folder / "right", 30)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def register(self, *cameras, output, options=()):
+        given = [word for camera in cameras for word in ("--camera", camera)]
+        return run("register", *given, "--output", output, "--poses", "1", "--json", *options)
+
+    def test_the_places_of_two_cameras_are_found_saved_and_used(self):
+        file = self.folder / "places.json"
+        code, out, errors = self.register(self.left, self.right, output=file)
+        self.assertEqual(code, 0, errors)
+        events = [json.loads(line) for line in out.splitlines()]
+        self.assertEqual(events[-1]["event"], "saved")
+        self.assertLess(events[-2]["pairs"][0]["apart_mm"], 5)
+        places = json.loads(file.read_text())
+        self.assertRegex(places["made"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        self.assertEqual([camera["camera"] for camera in places["cameras"]], ["left", "right"])
+        at = [camera["room_from_camera"]["translation"] for camera in places["cameras"]]
+        self.assertAlmostEqual(math.dist(*at), math.dist(position(-30), position(30)), delta=0.01)
+
+        with host(self.folder / "state", self.left + ",loop=1", self.right + ",loop=1", options=("--places", file)) as h:
+            code, out, errors = run("status", h.greeting["link"], "--json")
+            self.assertEqual(code, 0, errors)
+            self.assertFalse([line for line in h.errors if "Nobody knows where" in line])
+
+    def test_cameras_whose_place_nobody_knows_are_named(self):
+        with host(self.folder / "state", self.left + ",loop=1", self.right + ",loop=1,place=1:1.5:2:30") as h:
+            while not any("Nobody knows where these cameras are in the room: left." in line for line in h.errors):
+                self.assertIsNone(h.process.poll())
+
+    def refused(self, *cameras, says, options=()):
+        file = self.folder / "kept.json"
+        file.write_text("as it was")
+        code, _, errors = self.register(*cameras, output=file, options=options)
+        self.assertEqual(code, 1)
+        self.assertIn(says, errors)
+        self.assertEqual(file.read_text(), "as it was")
+
+    def test_bad_input_ends_in_a_sentence_and_changes_no_file(self):
+        blind = make_camera(self.folder / "blind", 0, board=False)
+        other = make_camera(self.folder / "elsewhere", 0, board=False)
+        small = [make_camera(self.folder / f"small{i}", degrees, size=0.8) for i, degrees in ((0, -30), (1, 30))]
+        self.refused(self.left, blind, says="The camera 'blind' never saw the board.")
+        self.refused(blind, other, says="No camera saw the board held still.")
+        self.refused(*small, says="--board")
+        self.refused(self.left, self.left, says="Two cameras are called 'left'")
+        self.refused(self.left, says="give at least two")
+        self.refused(self.left, self.right, options=("--board", "a3"), says="There is no board 'a3'")
+
+    def test_places_of_other_cameras_are_refused(self):
+        file = self.folder / "others.json"
+        pose = {"quaternion": [1, 0, 0, 0], "translation": [0, 1, 0]}
+        file.write_text(json.dumps({"theatron_places": 1, "made": "", "method": "", "cameras": [
+            {"camera": "another", "room_from_camera": pose}]}))
+        with Process("host", "--camera", self.left, "--places", file, "--state", self.folder / "state") as h:
+            self.assertEqual(h.end(), 1)
+        self.assertIn("has no place of a camera that is opened (left)", "".join(h.errors))
+
+    def test_the_board_is_drawn_at_true_scale(self):
+        drawing = self.folder / "board.svg"
+        code, _, errors = run("target", "--out", drawing)
+        self.assertEqual(code, 0, errors)
+        self.assertIn('width="800.000mm" height="600.000mm"', drawing.read_text())
+        code, _, errors = run("target", "--out", self.folder / "board.pdf")
+        self.assertEqual(code, 1)
+        self.assertIn("ends neither in .svg nor in .dxf", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
