@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron case
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
+#include "base/error.h"
 #include "cases/case_folder.h"
+#include "cases/case_pictures.h"
+#include "cases/import_case.h"
+#include "cli/progress.h"
 #include "commands.h"
+#include "files/png_file.h"
 
 namespace theatron::app {
 namespace {
@@ -27,6 +34,171 @@ void add_check(CLI::App& group) {
     command->callback([folder] { check(*folder); });
 }
 
+// As in "1=liver" or "2=portal vein:portal_vein".
+cases::LabelChoice label_choice(const std::string& text) {
+    const std::size_t equals = text.find('='), colon = text.rfind(':');
+    cases::LabelChoice choice;
+    choice.value = std::atoi(text.c_str());
+    if (equals == std::string::npos || choice.value < 1 || choice.value > 65535)
+        throw Error("'" + text +
+                    "' names no label; write --label 1=liver or --label 1=liver:shell.");
+    const bool has_role = colon != std::string::npos && colon > equals;
+    choice.name = text.substr(equals + 1, has_role ? colon - equals - 1 : std::string::npos);
+    choice.role = medical::role_of_name(choice.name);
+    if (has_role) {
+        const std::optional<medical::Role> role = medical::role_from_text(text.substr(colon + 1));
+        if (!role)
+            throw Error("'" + text.substr(colon + 1) +
+                        "' is no role; there are shell, artery, portal_vein, hepatic_vein, tumour "
+                        "and other.");
+        choice.role = *role;
+    }
+    return choice;
+}
+
+struct ImportArguments {
+    std::string source, folder;
+    cases::ImportOptions options;
+    std::string unit, axes;
+    std::vector<std::string> labels;
+    bool deidentified = false;
+};
+
+void import(ImportArguments& arguments) {
+    cases::ImportOptions& options = arguments.options;
+    if (!arguments.unit.empty())
+        options.unit = arguments.unit == "mm"   ? medical::Unit::mm
+                       : arguments.unit == "cm" ? medical::Unit::cm
+                                                : medical::Unit::m;
+    if (!arguments.axes.empty())
+        options.axes = arguments.axes == "lps"   ? medical::Axes::lps
+                       : arguments.axes == "ras" ? medical::Axes::ras
+                                                 : medical::Axes::y_up;
+    for (const std::string& label : arguments.labels)
+        options.labels.push_back(label_choice(label));
+    if (arguments.deidentified)
+        options.deidentified = true;
+    const cases::ImportReport report =
+        cases::import_case(arguments.source, arguments.folder, options, cli::show_progress());
+    for (const std::string& remark : report.remarks)
+        std::printf("remark: %s\n", remark.c_str());
+    for (const medical::Series& series : report.manifest.series)
+        std::printf("series: %s\n", series.name.c_str());
+    for (const medical::Part& part : report.manifest.parts)
+        std::printf("part: %s (%s)\n", part.name.c_str(),
+                    std::string(medical::to_text(part.role)).c_str());
+    std::printf(
+        "The case lies in '%s'. Everybody in a session sees the names above: none may be "
+        "the patient's.\n",
+        arguments.folder.c_str());
+}
+
+void add_import(CLI::App& group) {
+    const auto arguments = std::make_shared<ImportArguments>();
+    cases::ImportOptions& options = arguments->options;
+    CLI::App* command = group.add_subcommand(
+        "import",
+        "Makes a case of DICOM images, surfaces (STL, OBJ, PLY, GLB) and label maps "
+        "(NIfTI, NRRD).");
+    command->add_option("SOURCE", arguments->source, "The folder, or one file")->required();
+    command->add_option("CASE", arguments->folder, "The case's folder, which is made")->required();
+    command->add_option("--name", options.name, "The case's name; usually that of its folder");
+    command->add_option("--license", options.license, "The licence of the data");
+    command->add_option("--credit", options.credit, "Whom the data is by");
+    command->add_flag("--deidentified", arguments->deidentified,
+                      "What names the patient was taken out before");
+    command
+        ->add_option("--unit", arguments->unit,
+                     "Unit of surfaces: mm, cm or m; usually m in GLB, else mm")
+        ->check(CLI::IsMember({"mm", "cm", "m"}));
+    command
+        ->add_option("--axes", arguments->axes,
+                     "Axes of surfaces: lps, ras or y_up; usually y_up in GLB, else lps or what "
+                     "the file says")
+        ->check(CLI::IsMember({"lps", "ras", "y_up"}));
+    command
+        ->add_option("--max-triangles", options.max_triangles,
+                     "Surfaces with more triangles are simplified")
+        ->check(CLI::Range(100, 5'000'000))
+        ->capture_default_str();
+    command->add_flag("--from-labels", options.surfaces_from_labels,
+                      "Surfaces out of the label map, also where the source has surfaces");
+    command->add_option("--label", arguments->labels,
+                        "Name and role of a label, as in 2=portal vein:portal_vein");
+    command->callback([arguments] { import(*arguments); });
+}
+
+struct ShowArguments {
+    std::string folder, png, plane = "parts", window;
+    double at_mm = std::nan("");
+    int series = 1;
+};
+
+// A preset's name, or centre and width as in 40,400.
+medical::Window window_of(const std::string& text) {
+    std::string names;
+    for (const medical::WindowPreset& preset : medical::window_presets()) {
+        if (text == preset.name)
+            return preset.window;
+        names += std::string(preset.name) + ", ";
+    }
+    medical::Window window;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%lf,%lf%n", &window.center, &window.width, &end) != 2 ||
+        end != int(text.size()) || !(window.width >= 1 && window.width <= 1e6) ||
+        !(std::abs(window.center) <= 1e6))
+        throw Error("'" + text + "' is no window; there are " + names +
+                    "or centre and width as in 40,400.");
+    return window;
+}
+
+void show(const ShowArguments& arguments) {
+    const cases::LoadedCase loaded = cases::read_case(arguments.folder);
+    if (arguments.plane == "parts") {
+        files::write_png(arguments.png, cases::picture_of_parts(loaded, {1000, 800}).view());
+        return;
+    }
+    const auto series = std::size_t(arguments.series - 1);
+    if (series >= loaded.volumes.size())
+        throw Error("The case has " + std::to_string(loaded.volumes.size()) +
+                    " series of images, so there is no series " + std::to_string(arguments.series) +
+                    ".");
+    const medical::Volume& volume = loaded.volumes[series];
+    const medical::Orientation orientation =
+        arguments.plane == "axial"     ? medical::Orientation::axial
+        : arguments.plane == "coronal" ? medical::Orientation::coronal
+                                       : medical::Orientation::sagittal;
+    const medical::SliceRange range = medical::slice_range(volume.grid, orientation);
+    const double middle = range.first_mm + range.step_mm * std::floor((range.count - 1) / 2.0);
+    const medical::SlicePlane plane = medical::slice_plane(
+        volume.grid, orientation, std::isnan(arguments.at_mm) ? middle : arguments.at_mm);
+    const medical::Window window =
+        arguments.window.empty() ? volume.window : window_of(arguments.window);
+    files::write_png(arguments.png, cases::picture_of_slice(loaded, series, plane, window).view());
+    std::printf("%s slices from %.1f to %.1f mm, %.2f mm apart; %.3f mm a pixel\n",
+                arguments.plane.c_str(), range.first_mm, range.last_mm, range.step_mm,
+                plane.mm_per_pixel);
+}
+
+void add_show(CLI::App& group) {
+    const auto arguments = std::make_shared<ShowArguments>();
+    CLI::App* command = group.add_subcommand("show", "Writes a picture of a case.");
+    command->add_option("CASE", arguments->folder, "The case's folder")->required();
+    command->add_option("--png", arguments->png, "The picture's file")->required();
+    command
+        ->add_option("--plane", arguments->plane, "The parts, or a slice: axial, coronal, sagittal")
+        ->check(CLI::IsMember({"parts", "axial", "coronal", "sagittal"}))
+        ->capture_default_str();
+    command->add_option("--at", arguments->at_mm,
+                        "Place of the slice: z, y or x in millimetres; usually the middle");
+    command->add_option("--window", arguments->window,
+                        "abdomen, liver, vessels, lung, bone, brain, or centre and width as in "
+                        "40,400; usually that of the images");
+    command->add_option("--series", arguments->series, "Number of the series, from 1")
+        ->capture_default_str();
+    command->callback([arguments] { show(*arguments); });
+}
+
 }  // namespace
 
 void add_case_command(CLI::App& app) {
@@ -34,6 +206,8 @@ void add_case_command(CLI::App& app) {
         "case", "The patient's organs and images that a session shows, as folders.");
     group->require_subcommand(1);
     add_check(*group);
+    add_import(*group);
+    add_show(*group);
 }
 
 }  // namespace theatron::app

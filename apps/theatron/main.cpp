@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "capture/mkv_reader.h"
+#include "cases/foreign_files.h"
 #include "commands.h"
 #include "link_argument.h"
 #include "unknown_command.h"
@@ -28,7 +29,10 @@ int with_output_written(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
+    constexpr theatron::sandbox::Reader readers[] = {theatron::capture::foreign_readers[0],
+                                                     theatron::cases::foreign_readers[0],
+                                                     theatron::cases::foreign_readers[1]};
+    theatron::sandbox::run_as_child(argc, argv, readers);
     theatron::log::flush_before_abort();
     // A file that reaches the size that is allowed is an error to report, not the end.
     std::signal(SIGXFSZ, SIG_IGN);

@@ -113,8 +113,6 @@ private:
         for (const medical::Part& part : manifest_.parts) {
             if (!names.insert(part.name).second)
                 remark("Two parts are named '" + part.name + "'.");
-            if (part.opacity == 0)
-                remark("The part '" + part.name + "' has opacity 0 and cannot be seen.");
         }
     }
 

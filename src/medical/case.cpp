@@ -48,6 +48,13 @@ constexpr Hint hints[] = {
     {" ha ", Role::artery},
     {"capsule", Role::shell},
     {"shell", Role::shell},
+    // Parts of the liver that are not the whole.
+    {"impression", Role::other},
+    {"ligament", Role::other},
+    {"surface", Role::other},
+    {"segment", Role::other},
+    {" lobe ", Role::other},
+    {" area ", Role::other},
     {" liver ", Role::shell},
     {"parenchyma", Role::shell},
 };

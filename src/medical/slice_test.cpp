@@ -143,6 +143,7 @@ TEST(Case, NamesTellRoles) {
     EXPECT_EQ(role_of_name("InferiorVenaCava"), Role::hepatic_vein);
     EXPECT_EQ(role_of_name("lesion_candidate"), Role::tumour);
     EXPECT_EQ(role_of_name("Tumour 2 in liver"), Role::tumour);
+    EXPECT_EQ(role_of_name("VH_F_bare_area_of_liver"), Role::other);
     EXPECT_EQ(role_of_name("gall bladder"), Role::other);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sandbox/filter.h"
 
+#include <errno.h>
 #include <seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 
@@ -25,6 +27,12 @@ public:
         if (good_)
             check(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call,
                                          unsigned(conditions.size()), conditions.begin()));
+    }
+
+    // The call does nothing and gives this error.
+    void fail(int call, std::uint32_t error) {
+        if (good_)
+            check(seccomp_rule_add(context_.get(), SCMP_ACT_ERRNO(error), call, 0));
     }
 
     bool load() {
@@ -80,6 +88,14 @@ void allow_file(Filter& filter) {
         filter.allow(call, {is(0, input_descriptor)});
 }
 
+void refuse_politely(Filter& filter) {
+    for (const int call :
+         {SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(sched_getaffinity), SCMP_SYS(rt_sigaction)})
+        filter.fail(call, EACCES);
+    for (const int call : {SCMP_SYS(clone), SCMP_SYS(clone3)})
+        filter.fail(call, EAGAIN);
+}
+
 void allow_source(Filter& filter) {
     filter.allow(SCMP_SYS(read), {is(0, input_descriptor)});
     filter.allow(SCMP_SYS(write), {is(0, input_descriptor)});
@@ -97,7 +113,9 @@ bool load_filter(Profile profile) {
     Filter filter;
     allow_computing(filter);
     allow_channel(filter);
-    profile == Profile::file ? allow_file(filter) : allow_source(filter);
+    profile == Profile::source ? allow_source(filter) : allow_file(filter);
+    if (profile == Profile::library)
+        refuse_politely(filter);
     return filter.load();
 }
 

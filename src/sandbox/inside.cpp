@@ -2,6 +2,7 @@
 #include "sandbox/inside.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -83,6 +84,9 @@ int run(const Reader& reader, char** argv) {
     const std::span<std::byte> area = map_area(number(argv[area_argument]));
     if (area.empty() || !limit_resources(number(argv[memory_argument]), number(argv[cpu_argument])))
         return ended_no_limits;
+    // After a failed allocation glibc tries another arena and reads the number of processors from a
+    // file to bound their number.
+    mallopt(M_ARENA_MAX, 1);
     // A set time zone keeps date formatting from opening a file.
     setenv("TZ", "UTC", 1);
     tzset();

@@ -8,11 +8,12 @@
 
 namespace theatron::sandbox {
 
-// Allowed in both: compute, allocate, read the parent's descriptor, answer the parent. Not allowed:
+// Allowed in all: compute, allocate, read the parent's descriptor, answer the parent. Not allowed:
 // open a file, device or connection, start a process or thread, send a signal.
 enum class Profile {
-    file,    // may read and seek in a file
-    source,  // may read from, write to and poll one connection
+    file,     // may read and seek in a file
+    library,  // the same; opening a file or starting a thread fails instead of ending the child
+    source,   // may read from, write to and poll one connection
 };
 
 // A child that exceeds a limit is ended. Memory excludes the program itself and the shared area;

@@ -54,6 +54,11 @@ void work(Inside& inside) {
 void open_a_file(Inside&) {
     (void)open("/etc/passwd", O_RDONLY);
 }
+void try_to_open(Inside& inside) {
+    const bool opened = open("/etc/passwd", O_RDONLY) >= 0;
+    const bool refused = !opened && errno == EACCES;
+    std::memcpy(inside.area().data(), refused ? "refused" : "opened ", 7);
+}
 void make_a_file(Inside&) {
     (void)open("/tmp/theatron_was_here", O_WRONLY | O_CREAT, 0600);
 }
@@ -190,6 +195,12 @@ const std::vector<Forbidden> harm = {
     {{"abort", Profile::file, when_asked<give_up>}, "crash"},
     {{"throw", Profile::file, when_asked<throw_something>}, "made its reader end"},
     {{"long", Profile::file, when_asked<talk_too_long>}, "a message that is too long"},
+    {{"library fork", Profile::library, when_asked<fork_itself>}, not_allowed},
+    {{"library exec", Profile::library, when_asked<execute_a_program>}, not_allowed},
+    {{"library connect", Profile::library, when_asked<connect_somewhere>}, not_allowed},
+    {{"library write", Profile::library, when_asked<write_to_the_file>}, not_allowed},
+    {{"library thread", Profile::library, when_asked<start_a_thread>}, "made its reader end"},
+    {{"library 8gib", Profile::library, when_asked<take_8_gib>}, "more than 64 MiB of memory"},
     {{"source open", Profile::source, when_asked<open_a_file>}, not_allowed},
     {{"source connect", Profile::source, when_asked<connect_somewhere>}, not_allowed},
     {{"source sendto", Profile::source, when_asked<send_elsewhere>}, not_allowed},
@@ -198,6 +209,7 @@ const std::vector<Forbidden> harm = {
 
 std::vector<Reader> all_readers() {
     std::vector<Reader> readers = {{"good", Profile::file, when_asked<work>},
+                                   {"library", Profile::library, when_asked<try_to_open>},
                                    {"source", Profile::source, pass_on},
                                    {"talk", Profile::file, when_asked<talk_and_talk>}};
     for (const Forbidden& forbidden : harm)
@@ -245,6 +257,13 @@ TEST_F(Sandbox, AReaderReadsTheFileThatTheParentOpened) {
         EXPECT_EQ(text(child.receive()), "still here");
     }
     EXPECT_EQ(text(child.area().first(7)), "content");
+}
+
+TEST_F(Sandbox, ALibraryThatLooksForAFileFindsNoneAndGoesOn) {
+    Child child("library", file_, "the file 'x'", limits);
+    child.send(as_bytes("go"));
+    EXPECT_EQ(text(child.receive()), "still here");
+    EXPECT_EQ(text(child.area().first(7)), "refused");
 }
 
 TEST_F(Sandbox, WhatAReaderMayNotDoEndsItAloneAndIsSaid) {

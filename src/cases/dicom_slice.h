@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// One DICOM image as its reader, a process of its own, hands it over.
+//
+// The reader may have been taken over by the file, so its answers are outside bytes: decoding is
+// safe for any. Only what is needed comes through; what identifies the patient stays apart.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/status.h"
+#include "geometry/vec.h"
+#include "medical/volume.h"
+
+namespace theatron::cases {
+
+inline constexpr std::size_t max_dicom_text = 64;    // bytes of a text
+inline constexpr std::size_t max_identifiers = 32;   // texts that identify
+inline constexpr std::size_t max_slice_head = 8192;  // bytes of an encoded slice but its samples
+
+// A text that may identify the patient, under DICOM's name for it ("PatientName").
+struct Identifier {
+    std::string name, value;
+    bool operator==(const Identifier&) const = default;
+};
+
+struct DicomSlice {
+    std::string series_uid, frame_uid, modality;
+    int columns = 0, rows = 0;
+    // Unit vectors along rows and columns, the first pixel's centre, spacing: LPS, millimetres.
+    Vec3 right, down, position_mm;
+    double column_spacing_mm = 1, row_spacing_mm = 1;
+    bool has_place = false;  // orientation, position and spacing were given
+    double slope = 1, intercept = 0;
+    bool has_window = false;
+    medical::Window window;
+    bool inverted = false;      // MONOCHROME1
+    bool deidentified = false;  // PatientIdentityRemoved is YES
+    std::vector<Identifier> identifiers;
+    // What is stored, row by row. Unsigned values beyond 32767 are not representable: then all were
+    // lowered by 32768.
+    bool lowered = false;
+    std::vector<std::int16_t> samples;
+};
+
+Bytes encode(const DicomSlice& slice);
+Result<DicomSlice> decode_dicom_slice(ByteView bytes);
+
+}  // namespace theatron::cases

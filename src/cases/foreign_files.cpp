@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/foreign_files.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "cases/foreign_answer.h"
+
+namespace theatron::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t mesh_area_bytes = std::size_t(512) << 20;
+constexpr std::size_t slice_area_bytes =
+    max_slice_head + 2 * std::size_t(medical::max_volume_side) * medical::max_volume_side;
+
+std::string in_quotes(const fs::path& path) {
+    return "'" + clean_text(path.string(), 300) + "'";
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() {
+        if (number_ >= 0)
+            close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    int get() const { return number_; }
+
+private:
+    int number_;
+};
+
+std::string lower_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return extension;
+}
+
+// A number that two places can be trusted with, such as "2.1 GB".
+std::string in_gigabytes(std::uintmax_t bytes) {
+    return std::to_string(bytes / 1'000'000'000) + "." + std::to_string(bytes / 100'000'000 % 10) +
+           " GB";
+}
+
+void require_size(const fs::path& file, std::size_t limit, const char* advice) {
+    std::error_code failed;
+    if (!fs::is_regular_file(file, failed))
+        throw Error(in_quotes(file) + " is not a regular file.");
+    const std::uintmax_t size = fs::file_size(file, failed);
+    if (failed)
+        throw Error("The size of " + in_quotes(file) + " cannot be found out.");
+    if (size > limit)
+        throw Error(in_quotes(file) + " is " + in_gigabytes(size) + " large, and at most " +
+                    std::to_string(limit >> 20) + " MiB are read; " + advice + ".");
+}
+
+struct Reply {
+    Answer what;
+    ByteView content;  // in the shared memory, until the next request
+};
+
+Reply reply_of(sandbox::Child& child) {
+    const ByteView message = child.receive();
+    if (message.size() != 9)
+        child.refuse("no answer");
+    const auto bytes = load_le<std::uint64_t>(message.data() + 1);
+    if (bytes > child.area().size())
+        child.refuse("more bytes than there are");
+    return {Answer(message[0]), child.area().first(std::size_t(bytes))};
+}
+
+const char* reason_of(Answer what) {
+    switch (what) {
+        case Answer::cut_off:
+            return "is cut off before its pixels end; copy it again";
+        case Answer::color:
+            return "is a picture in colour, not a grey image of a series; take it out of the "
+                   "folder";
+        case Answer::many_frames:
+            return "holds several images in one file, which is not supported; export one file per "
+                   "image";
+        case Answer::compression:
+            return "is damaged, or compressed in a way that is not supported";
+        case Answer::too_large:
+            return "holds more than is read of one file";
+        default:
+            return "is damaged";
+    }
+}
+
+}  // namespace
+
+// A file in memory whose content is exchanged while a child holds it open.
+class DicomFiles::Input {
+public:
+    Input() : memory_(memfd_create("theatron", MFD_CLOEXEC)) {
+        if (memory_.get() < 0)
+            throw Error("Cannot make the memory that a reader reads from.");
+    }
+    int descriptor() const { return memory_.get(); }
+
+    void load(const fs::path& path) {
+        const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+        if (file.get() < 0 || ftruncate(memory_.get(), 0) != 0)
+            throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+        buffer_.resize(1 << 20);
+        std::size_t done = 0;
+        while (true) {
+            const ssize_t count = ::read(file.get(), buffer_.data(), buffer_.size());
+            if (count < 0)
+                throw Error("Cannot read " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+            if (count == 0)
+                return;
+            done += std::size_t(count);
+            // It may grow while it is read.
+            if (done > max_dicom_file_bytes ||
+                write(memory_, buffer_.data(), std::size_t(count), done - std::size_t(count)))
+                throw Error("Cannot take " + in_quotes(path) + " into memory.");
+        }
+    }
+
+private:
+    static bool write(const Descriptor& to, const char* data, std::size_t size, std::size_t at) {
+        return pwrite(to.get(), data, size, off_t(at)) != ssize_t(size);
+    }
+
+    Descriptor memory_;
+    std::vector<char> buffer_;
+};
+
+DicomFiles::DicomFiles() : input_(std::make_unique<Input>()) {}
+DicomFiles::~DicomFiles() = default;
+
+std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
+    constexpr std::string_view subject = "a DICOM file";
+    require_size(file, max_dicom_file_bytes, "export one image per file");
+    input_->load(file);
+    try {
+        if (!child_) {
+            sandbox::Limits limits;
+            limits.memory_bytes = max_reader_memory_bytes;
+            limits.area_bytes = slice_area_bytes;
+            child_ = std::make_unique<sandbox::Child>("dicom", input_->descriptor(),
+                                                      std::string(subject), limits);
+        }
+        const std::byte request{1};
+        child_->send({&request, 1});
+        const Reply reply = reply_of(*child_);
+        if (reply.what == Answer::no_image)
+            return std::nullopt;
+        if (reply.what != Answer::content)
+            throw Error(in_quotes(file) + " " + reason_of(reply.what) + ".");
+        const Bytes copy(reply.content.begin(), reply.content.end());
+        Result<DicomSlice> slice = decode_dicom_slice(copy);
+        if (!slice)
+            throw Error(in_quotes(file) + " describes an image that cannot be.");
+        return std::move(*slice);
+    } catch (const Error& error) {
+        // The child does not know which file it had.
+        const std::string text = error.what();
+        if (text.size() > subject.size() && text.compare(1, subject.size() - 1, subject, 1) == 0)
+            throw Error("The DICOM file " + in_quotes(file) + text.substr(subject.size()));
+        throw;
+    }
+}
+
+bool is_dicom_file(const fs::path& path) {
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    char head[132] = {};
+    const bool has_preamble = file.get() >= 0 && ::read(file.get(), head, sizeof(head)) == 132 &&
+                              std::memcmp(head + 128, "DICM", 4) == 0;
+    const std::string extension = lower_extension(path);
+    return has_preamble || extension == ".dcm" || extension == ".ima";
+}
+
+bool is_mesh_file(const fs::path& file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".glb";
+}
+
+std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
+    require_size(path, max_mesh_file_bytes, "simplify the surface in the program that wrote it");
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    if (file.get() < 0)
+        throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+    sandbox::Limits limits;
+    limits.memory_bytes = max_reader_memory_bytes;
+    limits.area_bytes = mesh_area_bytes;
+    limits.cpu_seconds = 60;
+    limits.answer = 120s;
+    sandbox::Child child("mesh", file.get(), "the file " + in_quotes(path), limits);
+    child.send(as_bytes(lower_extension(path).substr(1)));
+
+    std::vector<NamedMesh> meshes;
+    while (meshes.size() < max_meshes_in_file) {
+        const Reply reply = reply_of(child);
+        if (reply.what == Answer::end)
+            break;
+        if (reply.what != Answer::content)
+            throw Error(in_quotes(path) + " " +
+                        (reply.what == Answer::unreadable ? "is damaged or no mesh"
+                                                          : reason_of(reply.what)) +
+                        ".");
+        // What the child may still change is copied before it is checked.
+        const Bytes copy(reply.content.begin(), reply.content.end());
+        Result<NamedMesh> mesh = decode_named_mesh(copy);
+        if (!mesh)
+            throw Error(in_quotes(path) + " describes a mesh that cannot be.");
+        meshes.push_back(std::move(*mesh));
+        const std::byte next{1};
+        child.send({&next, 1});
+    }
+    if (meshes.empty())
+        throw Error(in_quotes(path) + " holds no triangles.");
+    return meshes;
+}
+
+Result<NamedMesh> decode_named_mesh(ByteView bytes) {
+    ByteReader reader(bytes);
+    NamedMesh named;
+    const ByteView name = reader.get_bytes(reader.get<std::uint8_t>());
+    named.name = clean_text({reinterpret_cast<const char*>(name.data()), name.size()}, 64);
+    const std::size_t vertices = reader.get<std::uint32_t>(),
+                      triangles = reader.get<std::uint32_t>();
+    if (!reader.ok())
+        return Status::truncated;
+    if (vertices > max_loose_vertices || triangles > medical::max_mesh_triangles)
+        return Status::too_large;
+    if (reader.rest().size() != 12 * (vertices + triangles))
+        return Status::size_mismatch;
+    named.mesh.positions.resize(vertices);
+    const std::byte* at = reader.rest().data();
+    for (medical::Vec3f& p : named.mesh.positions) {
+        std::memcpy(&p, at, 12);
+        at += 12;
+        if (!(std::abs(p.x) <= 1e6f && std::abs(p.y) <= 1e6f && std::abs(p.z) <= 1e6f))
+            return Status::malformed;
+    }
+    named.mesh.triangles.resize(triangles);
+    for (medical::Triangle& t : named.mesh.triangles)
+        for (std::uint32_t& v : t) {
+            v = load_le<std::uint32_t>(at);
+            at += 4;
+            if (v >= vertices)
+                return Status::malformed;
+        }
+    return named;
+}
+
+}  // namespace theatron::cases

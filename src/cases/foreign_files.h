@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// DICOM images and meshes of other programs, read by large libraries in processes that may do
+// nothing else (docs/decisions/foreign-files.md). What comes back is checked here.
+//
+// One thread at a time uses an object. All functions throw Error with one sentence.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/dicom_slice.h"
+#include "medical/mesh.h"
+#include "sandbox/child.h"
+#include "sandbox/inside.h"
+
+namespace theatron::cases {
+
+// Larger files are refused before they are read.
+inline constexpr std::size_t max_dicom_file_bytes = std::size_t(256) << 20;
+inline constexpr std::size_t max_mesh_file_bytes = std::size_t(256) << 20;
+inline constexpr std::size_t max_reader_memory_bytes = std::size_t(2) << 30;
+inline constexpr std::size_t max_meshes_in_file = 1024;
+
+// Reads DICOM files, one after another, in one process.
+class DicomFiles {
+public:
+    DicomFiles();
+    ~DicomFiles();
+
+    // Nothing where the file is DICOM but holds no image: a directory, a report, a plan.
+    std::optional<DicomSlice> read(const std::filesystem::path& file);
+
+private:
+    class Input;
+    std::unique_ptr<Input> input_;
+    std::unique_ptr<sandbox::Child> child_;
+};
+
+// Whether a file's first bytes are those of DICOM (PS3.10), or those of no other kind that is
+// known and its name ends as DICOM files' names do.
+bool is_dicom_file(const std::filesystem::path& file);
+// STL, OBJ, PLY, GLB, by the end of the name.
+bool is_mesh_file(const std::filesystem::path& file);
+
+struct NamedMesh {
+    std::string name;    // that the file gives it; may be empty
+    medical::Mesh mesh;  // as in the file: not welded, no normals, the file's unit and axes
+};
+// All surfaces in a file.
+std::vector<NamedMesh> read_mesh_file(const std::filesystem::path& file);
+
+// A mesh as its reader hands it over. Safe for any bytes.
+inline constexpr std::size_t max_loose_vertices = 3 * medical::max_mesh_triangles;
+Result<NamedMesh> decode_named_mesh(ByteView bytes);
+
+// For run_as_child(): what DicomFiles and read_mesh_file() need.
+void serve_dicom(sandbox::Inside& inside);
+void serve_meshes(sandbox::Inside& inside);
+inline constexpr sandbox::Reader foreign_readers[] = {
+    {"dicom", sandbox::Profile::library, serve_dicom},
+    {"mesh", sandbox::Profile::library, serve_meshes}};
+
+}  // namespace theatron::cases

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "cases/foreign_files.h"
+#include "cases/import_parts.h"
+#include "cases/label_surface.h"
+#include "cases/manifest.h"
+#include "files/file_bytes.h"
+#include "medical/mesh_measures.h"
+#include "medical/mesh_shaping.h"
+
+namespace theatron::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using medical::Axes;
+using medical::Case;
+using medical::Mesh;
+using medical::Part;
+using medical::Unit;
+
+struct Frame {
+    Unit unit = Unit::mm;
+    Axes axes = Axes::lps;
+};
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return extension;
+}
+
+// 3D Slicer writes the axes into a comment: "SPACE=RAS" or "SPACE=LPS".
+bool says_ras(const fs::path& file) {
+    char head[4096] = {};
+    std::ifstream(file, std::ios::binary).read(head, sizeof(head));
+    return std::string_view(head, sizeof(head)).find("SPACE=RAS") != std::string_view::npos;
+}
+
+Frame frame_of(const fs::path& file, const std::optional<Case>& manifest,
+               const ImportOptions& options) {
+    Frame frame;
+    if (extension_of(file) == ".glb")
+        frame = {Unit::m, Axes::y_up};
+    else if (says_ras(file))
+        frame.axes = Axes::ras;
+    if (manifest)
+        frame = {manifest->unit, manifest->axes};
+    return {options.unit.value_or(frame.unit), options.axes.value_or(frame.axes)};
+}
+
+void to_patient(Mesh& mesh, Frame frame) {
+    const float scale = frame.unit == Unit::mm ? 1.0f : frame.unit == Unit::cm ? 10.0f : 1000.0f;
+    for (medical::Vec3f& p : mesh.positions) {
+        p = {p.x * scale, p.y * scale, p.z * scale};
+        if (frame.axes == Axes::ras)
+            p = {-p.x, -p.y, p.z};
+        else if (frame.axes == Axes::y_up)
+            p = {p.x, -p.z, p.y};
+    }
+}
+
+bool is_near(const Mesh& mesh) {
+    const auto limit = float(medical::max_coordinate_mm);
+    return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](medical::Vec3f p) {
+        return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
+    });
+}
+
+void finish(Mesh& mesh, std::size_t max_triangles) {
+    medical::weld(mesh);
+    medical::simplify(mesh, max_triangles);
+    const medical::MeshShape shape = medical::shape_of(mesh);
+    if (shape.closed && shape.volume_mm3 < 0)
+        for (medical::Triangle& t : mesh.triangles)
+            std::swap(t[1], t[2]);
+    medical::compute_normals(mesh);
+}
+
+Part usual_part(const std::string& name) {
+    Part part;
+    part.name = clean_text(name, max_name_characters);
+    std::replace(part.name.begin(), part.name.end(), '_', ' ');
+    part.role = medical::role_of_name(part.name);
+    part.color = medical::usual_color(part.role);
+    part.opacity = medical::usual_opacity(part.role);
+    return part;
+}
+
+const Part* named_in(const std::optional<Case>& manifest, const fs::path& file) {
+    if (!manifest)
+        return nullptr;
+    for (const Part& part : manifest->parts)
+        if (part.file == file.filename())
+            return &part;
+    return nullptr;
+}
+
+void add_part(Part part, Mesh mesh, const ImportOptions& options, std::vector<ImportedPart>& parts,
+              std::vector<std::string>& remarks) {
+    if (parts.size() == max_parts)
+        throw Error("The source holds more than " + std::to_string(max_parts) + " surfaces.");
+    if (!is_near(mesh))
+        throw Error("The surface '" + part.name +
+                    "' lies more than 100 m away; give its unit with --unit.");
+    const std::size_t before = mesh.triangles.size();
+    finish(mesh, options.max_triangles);
+    if (mesh.triangles.empty()) {
+        remarks.push_back("The surface '" + part.name + "' has no area and is left out.");
+        return;
+    }
+    if (mesh.triangles.size() < before * 9 / 10)
+        remarks.push_back("The surface '" + part.name + "' was simplified from " +
+                          std::to_string(before) + " to " + std::to_string(mesh.triangles.size()) +
+                          " triangles.");
+    parts.push_back({std::move(part), std::move(mesh)});
+}
+
+}  // namespace
+
+std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
+                                        const std::optional<Case>& manifest,
+                                        const ImportOptions& options,
+                                        std::vector<std::string>& remarks,
+                                        const Progress& progress) {
+    std::vector<ImportedPart> parts;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        progress("Reading surfaces", double(i) / double(files.size()));
+        const Frame frame = frame_of(files[i], manifest, options);
+        std::vector<NamedMesh> meshes = read_mesh_file(files[i]);
+        for (NamedMesh& named : meshes) {
+            const bool alone = meshes.size() == 1 || named.name.empty();
+            Part part = usual_part(alone ? files[i].stem().string() : named.name);
+            if (const Part* known = named_in(manifest, files[i]); known && alone)
+                part = *known;
+            to_patient(named.mesh, frame);
+            add_part(std::move(part), std::move(named.mesh), options, parts, remarks);
+        }
+    }
+    progress("Reading surfaces", 1);
+    return parts;
+}
+
+LabelMap read_label_map(const fs::path& file) {
+    const Bytes bytes = files::read_file(file, max_label_file_bytes);
+    ParsedLabels parsed = is_nrrd_file(file) ? parse_nrrd(bytes) : parse_nifti(bytes);
+    if (!parsed.problem.empty())
+        throw Error("The label map '" + clean_text(file.string(), 300) + "' " + parsed.problem +
+                    ".");
+    return std::move(parsed.value);
+}
+
+std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOptions& options,
+                                        std::vector<std::string>& remarks,
+                                        const Progress& progress) {
+    progress("Reading the label map", 0);
+    const LabelMap map = read_label_map(file);
+    const std::vector<LabelCount> labels = labels_in(map);
+    if (labels.size() > max_parts)
+        throw Error("The label map '" + clean_text(file.string(), 300) + "' has more than " +
+                    std::to_string(max_parts) + " labels.");
+    std::vector<ImportedPart> parts;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        progress("Making surfaces", double(i) / double(labels.size()));
+        const int value = labels[i].value;
+        Part part = usual_part("label " + std::to_string(value));
+        for (const LabelName& known : map.names)
+            if (known.value == value)
+                part = usual_part(known.name);
+        for (const LabelChoice& choice : options.labels)
+            if (choice.value == value) {
+                part = usual_part(choice.name);
+                part.role = choice.role;
+                part.color = medical::usual_color(choice.role);
+                part.opacity = medical::usual_opacity(choice.role);
+            }
+        Mesh mesh = surface_of_label(map, value, options.max_triangles);
+        if (mesh.triangles.empty())
+            remarks.push_back("The label " + std::to_string(value) +
+                              " has a surface of too many triangles and is left out.");
+        else
+            parts.push_back({std::move(part), std::move(mesh)});
+    }
+    progress("Making surfaces", 1);
+    return parts;
+}
+
+}  // namespace theatron::cases

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two halves of an import: series out of DICOM images, parts out of surfaces and label maps.
+// Only for this module.
+#pragma once
+
+#include "cases/dicom_slice.h"
+#include "cases/import_case.h"
+#include "cases/label_map.h"
+#include "cases/source_files.h"
+#include "medical/mesh.h"
+#include "medical/volume.h"
+
+namespace theatron::cases {
+
+struct ImportedSeries {
+    medical::Series series;  // without a file yet
+    medical::Volume volume;
+    std::vector<Identifier> identifiers;
+    bool deidentified = false;
+};
+
+std::vector<ImportedSeries> import_series(const std::vector<std::filesystem::path>& files,
+                                          std::vector<std::string>& remarks,
+                                          const Progress& progress);
+
+struct ImportedPart {
+    medical::Part part;  // without a file yet
+    medical::Mesh mesh;
+};
+
+// `manifest`: what a case.json in the source says of its parts; without any, what is usual.
+std::vector<ImportedPart> import_meshes(const std::vector<std::filesystem::path>& files,
+                                        const std::optional<medical::Case>& manifest,
+                                        const ImportOptions& options,
+                                        std::vector<std::string>& remarks,
+                                        const Progress& progress);
+std::vector<ImportedPart> import_labels(const std::filesystem::path& file,
+                                        const ImportOptions& options,
+                                        std::vector<std::string>& remarks,
+                                        const Progress& progress);
+
+// The label map in a file. Throws Error with one sentence.
+LabelMap read_label_map(const std::filesystem::path& file);
+
+}  // namespace theatron::cases

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "cases/foreign_files.h"
+#include "cases/import_parts.h"
+#include "cases/manifest.h"
+#include "cases/series_builder.h"
+
+namespace theatron::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string modality_of(const DicomSlice& slice) {
+    for (const char* known : {"CT", "MR", "PT", "US"})
+        if (slice.modality == known)
+            return known;
+    return "OT";
+}
+
+using SlicesOfSeries = std::map<std::string, std::vector<DicomSlice>>;
+
+SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::string>& remarks,
+                           const Progress& progress) {
+    SlicesOfSeries series;
+    DicomFiles reader;
+    std::size_t samples = 0, without_image = 0;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        progress("Reading images", double(i) / double(files.size()));
+        std::optional<DicomSlice> slice = reader.read(files[i]);
+        if (!slice) {
+            ++without_image;
+            continue;
+        }
+        samples += slice->samples.size();
+        if (samples > medical::max_volume_samples)
+            throw Error("The source holds more images than are read at once; import one series.");
+        series[slice->series_uid].push_back(std::move(*slice));
+    }
+    progress("Reading images", 1);
+    if (without_image > 0)
+        remarks.push_back(std::to_string(without_image) +
+                          (without_image == 1 ? " DICOM file holds" : " DICOM files hold") +
+                          " no image and are left out.");
+    return series;
+}
+
+}  // namespace
+
+std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
+                                          std::vector<std::string>& remarks,
+                                          const Progress& progress) {
+    std::vector<ImportedSeries> imported;
+    std::vector<std::string> problems;
+    std::map<std::string, int> count;
+    for (auto& [uid, slices] : read_slices(files, remarks, progress)) {
+        ImportedSeries one;
+        one.series.modality = modality_of(slices.front());
+        one.identifiers = slices.front().identifiers;
+        one.deidentified = std::all_of(slices.begin(), slices.end(),
+                                       [](const DicomSlice& slice) { return slice.deidentified; });
+        BuiltSeries built = build_series(slices);
+        if (!built.problem.empty()) {
+            problems.push_back(built.problem);
+            continue;
+        }
+        if (!built.missing_slices.empty())
+            remarks.push_back("The series lacks " + std::to_string(built.missing_slices.size()) +
+                              " of " + std::to_string(built.volume.grid.slices) +
+                              " slices, which stay empty.");
+        const int number = ++count[one.series.modality];
+        one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
+        one.series.missing_slices = std::move(built.missing_slices);
+        one.volume = std::move(built.volume);
+        imported.push_back(std::move(one));
+    }
+    if (imported.empty() && !problems.empty())
+        throw Error(problems.front());
+    for (const std::string& problem : problems)
+        remarks.push_back("A series is left out: " + problem);
+    // The one with the most slices is shown first.
+    std::stable_sort(imported.begin(), imported.end(),
+                     [](const ImportedSeries& a, const ImportedSeries& b) {
+                         return a.volume.grid.slices > b.volume.grid.slices;
+                     });
+    if (imported.size() > max_series) {
+        remarks.push_back("Only the " + std::to_string(max_series) + " longest of " +
+                          std::to_string(imported.size()) + " series are taken.");
+        imported.resize(max_series);
+    }
+    return imported;
+}
+
+}  // namespace theatron::cases

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Label maps: volumes whose samples say to which organ they belong, as segmentation programs write
+// them, NIfTI (.nii, .nii.gz; NIfTI-1.1) and NRRD (.nrrd, .seg.nrrd of 3D Slicer).
+//
+// Reading is safe for any bytes and bounded: compressed content is unpacked only as far as the
+// header announces, and a header may not announce more than its file can hold. Nothing throws but
+// std::bad_alloc.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/bytes.h"
+#include "medical/volume.h"
+
+namespace theatron::cases {
+
+inline constexpr std::size_t max_label_samples = std::size_t(1) << 28;
+inline constexpr std::size_t max_labels = 256;
+
+struct LabelName {
+    int value = 0;
+    std::string name;
+    bool operator==(const LabelName&) const = default;
+};
+
+struct LabelMap {
+    medical::VolumeGrid grid;           // LPS, millimetres
+    std::vector<std::uint16_t> labels;  // grid.size(); 0: nothing
+    std::vector<LabelName> names;       // of those labels that the file names
+};
+
+// A label map understood, or what is wrong, as the end of a sentence that begins with the file's
+// name ("is no NIfTI file").
+struct ParsedLabels {
+    LabelMap value;
+    std::string problem;  // empty if `value` holds
+};
+
+ParsedLabels parse_nifti(ByteView file);  // also compressed
+ParsedLabels parse_nrrd(ByteView file);
+
+}  // namespace theatron::cases

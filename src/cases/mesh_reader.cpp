@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads STL, OBJ, PLY and GLB with assimp. Runs in a sandbox, since the library is large and the
+// files are somebody else's.
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <new>
+
+#include "cases/foreign_answer.h"
+#include "cases/foreign_files.h"
+
+namespace theatron::cases {
+namespace {
+
+constexpr std::size_t max_name_bytes = 255;
+constexpr int deepest_node = 64;
+
+class Stream final : public Assimp::IOStream {
+public:
+    explicit Stream(int descriptor)
+        : descriptor_(descriptor), size_(std::size_t(lseek(descriptor, 0, SEEK_END))) {}
+
+    std::size_t Read(void* out, std::size_t size, std::size_t count) override {
+        if (size == 0 || count > size_ || size > size_)
+            count = size == 0 ? 0 : std::min(count, size_ / size);
+        std::size_t done = 0;
+        const std::size_t wanted = std::min(size * count, size_ - place_);
+        while (done < wanted) {
+            const ssize_t got = pread(descriptor_, static_cast<char*>(out) + done, wanted - done,
+                                      off_t(place_ + done));
+            if (got <= 0)
+                break;
+            done += std::size_t(got);
+        }
+        place_ += done;
+        return size == 0 ? 0 : done / size;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        const std::size_t base = origin == aiOrigin_SET   ? 0
+                                 : origin == aiOrigin_CUR ? place_
+                                                          : size_;
+        std::size_t to;
+        if (__builtin_add_overflow(base, offset, &to) || to > size_)
+            return aiReturn_FAILURE;
+        place_ = to;
+        return aiReturn_SUCCESS;
+    }
+    std::size_t Tell() const override { return place_; }
+    std::size_t FileSize() const override { return size_; }
+    void Flush() override {}
+
+private:
+    int descriptor_;
+    std::size_t size_, place_ = 0;
+};
+
+// The one file that there is; those that it refers to are not there.
+class OneFile final : public Assimp::IOSystem {
+public:
+    OneFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
+
+    bool Exists(const char* name) const override { return name_ == name; }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* name, const char*) override {
+        return name_ == name ? new Stream(descriptor_) : nullptr;
+    }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+private:
+    int descriptor_;
+    std::string name_;
+};
+
+// Only the format that is asked for: fewer ways to be misled by a file's content.
+void keep_loaders(Assimp::Importer& importer, const std::string& extension) {
+    std::vector<Assimp::BaseImporter*> others;
+    for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+        const aiImporterDesc* about = importer.GetImporterInfo(i);
+        // Extensions are parted by blanks.
+        const std::string extensions =
+            " " + std::string(about && about->mFileExtensions ? about->mFileExtensions : "") + " ";
+        if (extensions.find(" " + extension + " ") == std::string::npos)
+            others.push_back(importer.GetImporter(i));
+    }
+    for (Assimp::BaseImporter* const other : others)
+        importer.UnregisterLoader(other);
+}
+
+class Walk {
+public:
+    explicit Walk(sandbox::Inside& inside) : inside_(inside) {}
+
+    // Sends one mesh after another, each when the next is asked for.
+    void send(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, int depth) {
+        if (depth > deepest_node)
+            return;
+        const aiMatrix4x4 place = parent * node.mTransformation;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i)
+            send(*scene.mMeshes[node.mMeshes[i]], node.mName, place);
+        for (unsigned i = 0; i < node.mNumChildren; ++i)
+            send(scene, *node.mChildren[i], place, depth + 1);
+    }
+    bool wanted() { return wanted_ = wanted_ && inside_.receive().has_value(); }
+
+private:
+    void send(const aiMesh& mesh, const aiString& node_name, const aiMatrix4x4& place) {
+        const aiString& name =
+            mesh.mName.length > 0 && node_name.length == 0 ? mesh.mName : node_name;
+        std::size_t triangles = 0;
+        for (unsigned i = 0; i < mesh.mNumFaces; ++i)
+            triangles += mesh.mFaces[i].mNumIndices == 3;
+        if (triangles == 0)
+            return;
+        const std::size_t name_bytes = std::min<std::size_t>(name.length, max_name_bytes);
+        const std::size_t size =
+            1 + name_bytes + 8 + 12 * std::size_t(mesh.mNumVertices) + 12 * triangles;
+        if (size > inside_.area().size())
+            return answer_and_wait(Answer::too_large, 0);
+        std::byte* at = inside_.area().data();
+        *at++ = std::byte(name_bytes);
+        std::memcpy(at, name.data, name_bytes);
+        at += name_bytes;
+        store_le(at, mesh.mNumVertices);
+        store_le(at + 4, std::uint32_t(triangles));
+        at += 8;
+        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+            const aiVector3D p = place * mesh.mVertices[i];
+            const float coordinates[] = {p.x, p.y, p.z};
+            std::memcpy(at, coordinates, 12);
+            at += 12;
+        }
+        const bool mirrored = place.Determinant() < 0;
+        for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+            const aiFace& face = mesh.mFaces[i];
+            if (face.mNumIndices != 3)
+                continue;
+            store_le(at, face.mIndices[0]);
+            store_le(at + 4, face.mIndices[mirrored ? 2 : 1]);
+            store_le(at + 8, face.mIndices[mirrored ? 1 : 2]);
+            at += 12;
+        }
+        answer_and_wait(Answer::content, size);
+    }
+
+    void answer_and_wait(Answer what, std::size_t bytes) {
+        if (!wanted_)
+            return;
+        answer(inside_, what, bytes);
+        wanted();
+    }
+
+    sandbox::Inside& inside_;
+    bool wanted_ = true;
+};
+
+}  // namespace
+
+void serve_meshes(sandbox::Inside& inside) {
+    const std::optional<Bytes> request = inside.receive();
+    if (!request)
+        return;
+    const std::string extension(reinterpret_cast<const char*>(request->data()), request->size());
+    const std::string name = "mesh." + extension;
+    Assimp::Importer importer;
+    keep_loaders(importer, extension);
+    importer.SetIOHandler(new OneFile(inside.input(), name));
+    const aiScene* scene = nullptr;
+    try {
+        scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+    }
+    if (!scene) {
+        // The library turns a lack of memory into a text.
+        if (std::strstr(importer.GetErrorString(), "bad_alloc"))
+            throw std::bad_alloc();
+        answer(inside, Answer::unreadable);
+    } else {
+        Walk walk(inside);
+        walk.send(*scene, *scene->mRootNode, aiMatrix4x4(), 0);
+        answer(inside, Answer::end);
+    }
+    while (inside.receive()) {
+    }
+}
+
+}  // namespace theatron::cases

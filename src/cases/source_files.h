@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies in a folder that a case is imported from, by kind.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace theatron::cases {
+
+struct SourceFiles {
+    std::vector<std::filesystem::path> images;  // DICOM
+    std::vector<std::filesystem::path> meshes;
+    std::vector<std::filesystem::path> label_maps;
+    std::vector<std::filesystem::path> others;
+};
+
+// All regular files in the folder and those below it, or `source` itself, in the order of their
+// names. Links are not followed. Throws Error where there is nothing, or far too much.
+SourceFiles find_source_files(const std::filesystem::path& source);
+
+bool is_nifti_file(const std::filesystem::path& file);
+bool is_nrrd_file(const std::filesystem::path& file);
+
+}  // namespace theatron::cases

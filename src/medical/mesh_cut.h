@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outline of a surface in a plane: where a slice cuts an organ. Pure functions.
+#pragma once
+
+#include <vector>
+
+#include "medical/mesh.h"
+
+namespace theatron::medical {
+
+struct Segment {
+    Vec3 a, b;
+};
+
+// The pieces in which triangles cross the plane through `point` across `normal` (any length). Of a
+// closed surface they join to closed lines.
+std::vector<Segment> cut_mesh(const Mesh& mesh, Vec3 point, Vec3 normal);
+
+}  // namespace theatron::medical
