@@ -14,8 +14,8 @@ namespace {
 using medical::Mesh;
 using medical::VolumeGrid;
 
-// Rounds of smoothing: enough to take away the steps of slices that are several times as far apart
-// as pixels are.
+// Rounds of smoothing. They take away the steps of pixels; those of slices that are several times
+// as far apart become lower only.
 constexpr int smoothing_rounds = 25;
 
 // A block of samples, ends excluded.

@@ -19,9 +19,9 @@ std::vector<LabelCount> labels_in(const LabelMap& map);
 // The volume of one sample.
 double sample_volume_mm3(const medical::VolumeGrid& grid);
 
-// The surface around all samples of one label: closed, manifold, without the samples' steps, as
-// large as the samples together, of about `max_triangles`. Empty where the label does not occur
-// or its surface has too many triangles. Also holds normals.
+// The surface around all samples of one label: closed, manifold, smoothed (steps of thick slices
+// stay visible), as large as the samples together, of about `max_triangles`. Empty where the label
+// does not occur or its surface has too many triangles. Also holds normals.
 medical::Mesh surface_of_label(const LabelMap& map, int value, std::size_t max_triangles);
 
 }  // namespace theatron::cases
