@@ -87,7 +87,8 @@ Bytes encode_volume(const Volume& volume) {
     Bytes out;
     out.reserve(volume_header_size + 2 * volume.samples.size());
     ByteWriter writer(out);
-    writer.put_bytes(std::as_bytes(std::span(magic)));
+    for (const char letter : magic)
+        writer.put(std::uint8_t(letter));
     writer.put(version);
     writer.put(std::uint8_t(volume.inverted));
     writer.put(std::uint16_t(0));
