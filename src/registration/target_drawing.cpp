@@ -25,7 +25,7 @@ std::vector<std::string> notes(const LatticeTarget& t) {
         text("Theatron lattice target, FRONT  %.0f x %.0f mm, board %.1f mm thick", t.width_m * mm,
              t.height_m * mm, t.thickness_m * mm),
         text("bars %.1f mm, holes %.2f x %.2f mm", t.bar_m * mm, c.width() * mm, c.height() * mm),
-        "Matt, light, flat. Do not mirror. Check: the cut board must measure as above."};
+        "Matt, light, flat. Check: the cut board must measure as above."};
 }
 
 // The solid corner has room for the note: upper left, on the first filled cells.
