@@ -22,6 +22,7 @@ void add_bench_command(CLI::App& app) {
         std::vector<std::string> words = command->remaining();
         words.insert(words.begin(), program.string());
         std::vector<char*> arguments;
+        arguments.reserve(words.size() + 1);
         for (std::string& word : words)
             arguments.push_back(word.data());
         arguments.push_back(nullptr);

@@ -33,6 +33,7 @@ TEST(Arguments, AreKeptAndTheirSecretsCovered) {
                                       "mine",     "--token=me", "--name",  "token"};
     const std::vector<std::string> before = given;
     std::vector<char*> argv;
+    argv.reserve(given.size());
     for (std::string& argument : given)
         argv.push_back(argument.data());
     EXPECT_EQ(take_arguments(int(argv.size()), argv.data()), before);

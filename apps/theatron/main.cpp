@@ -26,14 +26,7 @@ int with_output_written(int code) {
     return code != 0 ? code : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    constexpr theatron::sandbox::Reader readers[] = {theatron::capture::foreign_readers[0],
-                                                     theatron::cases::foreign_readers[0],
-                                                     theatron::cases::foreign_readers[1]};
-    theatron::sandbox::run_as_child(argc, argv, readers);
-    theatron::log::flush_before_abort();
+int run(int argc, char** argv) {
     // A file that reaches the size that is allowed is an error to report, not the end.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(
@@ -59,32 +52,46 @@ int main(int argc, char** argv) {
     theatron::app::add_target_command(app);
     theatron::app::add_register_command(app);
 
+    const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+    if (argc > 1) {
+        const auto commands = app.get_subcommands({});
+        std::vector<std::string> names;
+        names.reserve(commands.size());
+        for (const CLI::App* command : commands)
+            names.push_back(command->get_name());
+        if (const auto problem = theatron::app::unknown_command(arguments[1], names);
+            !problem.empty())
+            throw theatron::Error(problem);
+    }
+    std::vector<const char*> taken;
+    taken.reserve(arguments.size());
+    for (const std::string& argument : arguments)
+        taken.push_back(argument.c_str());
     try {
-        const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
-        if (argc > 1) {
-            std::vector<std::string> commands;
-            for (const CLI::App* command : app.get_subcommands({}))
-                commands.push_back(command->get_name());
-            if (const auto problem = theatron::app::unknown_command(arguments[1], commands);
-                !problem.empty())
-                throw theatron::Error(problem);
-        }
-        std::vector<const char*> taken;
-        for (const std::string& argument : arguments)
-            taken.push_back(argument.c_str());
         app.parse(argc, taken.data());
     } catch (const CLI::ParseError& e) {
         return with_output_written(app.exit(e));
+    }
+    return with_output_written(0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        constexpr theatron::sandbox::Reader readers[] = {theatron::capture::foreign_readers[0],
+                                                         theatron::cases::foreign_readers[0],
+                                                         theatron::cases::foreign_readers[1]};
+        theatron::sandbox::run_as_child(argc, argv, readers);
+        theatron::log::flush_before_abort();
+        return run(argc, argv);
     } catch (const theatron::Error& e) {
         std::fprintf(stderr, "theatron: %s\n", e.what());
-        return 1;
     } catch (const std::filesystem::filesystem_error& e) {
         std::fprintf(stderr, "theatron: Cannot use '%s': %s.\n", e.path1().c_str(),
                      e.code().message().c_str());
-        return 1;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "theatron: something unexpected went wrong: %s\n", e.what());
-        return 1;
     }
-    return with_output_written(0);
+    return 1;
 }

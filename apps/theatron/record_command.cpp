@@ -97,10 +97,11 @@ double free_gigabytes(const std::string& file) {
 std::string status_line(const record::Recorder::Figures& f, std::uint64_t missing,
                         const std::string& file) {
     const double seconds = to_seconds(f.duration), megabytes = double(f.bytes) * 1e-6;
+    const int minutes = int(seconds) / 60;
     char text[160];
     std::snprintf(text, sizeof(text),
                   "%02d:%04.1f  %.1f MB  %.1f Mbit/s  %llu pictures, %llu lost  %.1f GB free",
-                  int(seconds) / 60, seconds - int(seconds) / 60 * 60, megabytes,
+                  minutes, seconds - 60.0 * minutes, megabytes,
                   seconds > 0 ? megabytes * 8 / seconds : 0, (unsigned long long)f.frames,
                   (unsigned long long)missing, free_gigabytes(file));
     return text;

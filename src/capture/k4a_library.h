@@ -11,6 +11,7 @@ namespace theatron::capture::k4a {
 // The functions of the library. It stays loaded until the process ends, because its depth
 // engine does not survive unloading.
 struct Library {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a declaration
 #define THEATRON_K4A_MEMBER(type, name, arguments) type(*name) arguments = nullptr;
     THEATRON_K4A_FUNCTIONS(THEATRON_K4A_MEMBER)
 #undef THEATRON_K4A_MEMBER
