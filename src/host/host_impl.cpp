@@ -2,6 +2,8 @@
 // What happens on the server's thread.
 #include "host/host_impl.h"
 
+#include <algorithm>
+
 #include "base/fault.h"
 #include "base/log.h"
 #include "host/host_http.h"
@@ -128,6 +130,7 @@ void Host::Impl::carry_out(const session::action::ChangeSettings&) {
 
 void Host::Impl::carry_out(const session::action::KeepEverything& a) {
     server->keep_everything(peer_of(a.participant));
+    media.keep_everything(true);
 }
 
 void Host::Impl::carry_out(const session::action::SetCeiling& a) {
@@ -332,6 +335,10 @@ void Host::Impl::note_participants() {
                             participant.report, participant.renderer,
                             participant.budget.refused()});
     participants = list.size();
+    const auto& all = session->participants();
+    media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
+        return entry.second.joined && entry.second.records;
+    }));
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
     dropped_slow_figures = dropped_slow;

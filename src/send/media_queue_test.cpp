@@ -52,6 +52,42 @@ TEST(MediaQueue, StaysBoundedWhileNobodyTakesAndGoesOnWithAKeyFrame) {
     EXPECT_TRUE(taken.broken.empty());
 }
 
+TEST(MediaQueue, KeepsSecondsWhileSomebodyRecords) {
+    MediaQueue queue;
+    queue.keep_everything(true);
+    for (FrameNumber n = 0; n < MediaQueue::max_kept; ++n)
+        (void)queue.put(frame(0, n, n == 0));
+    auto taken = queue.take();
+    EXPECT_EQ(taken.media.size(), MediaQueue::max_kept);
+    EXPECT_TRUE(taken.dropped.empty());
+
+    for (FrameNumber n = 0; n <= MediaQueue::max_kept; ++n)
+        (void)queue.put(frame(0, n, n == 0));
+    EXPECT_EQ(queue.take().dropped[StreamId{0}], MediaQueue::max_kept + 1);
+
+    queue.keep_everything(false);
+    for (FrameNumber n = 0; n <= MediaQueue::max_waiting; ++n)
+        (void)queue.put(frame(0, n, true));
+    EXPECT_EQ(queue.take().dropped[StreamId{0}], MediaQueue::max_waiting);
+}
+
+TEST(MediaQueue, KeepsNoMoreBytesThanItSaysAlsoForARecorder) {
+    MediaQueue queue;
+    queue.keep_everything(true);
+    const auto put = [&](int stream) {
+        EncodedMedia media = frame(stream, 1, true);
+        media.message = std::make_shared<Bytes>(MediaQueue::max_kept_bytes / 4);
+        (void)queue.put(std::move(media));
+    };
+    for (int stream = 0; stream < 4; ++stream)
+        put(stream);
+    put(0);  // its own waiting frame goes, not another stream's
+    const auto taken = queue.take();
+    EXPECT_EQ(taken.media.size(), 4u);
+    EXPECT_EQ(taken.dropped.at(StreamId{0}), 1u);
+    EXPECT_EQ(taken.dropped.size(), 1u);
+}
+
 TEST(MediaQueue, OneStreamDoesNotCostAnotherItsFrames) {
     MediaQueue queue;
     (void)queue.put(frame(0, 1, true));

@@ -117,6 +117,14 @@ class Costs(unittest.TestCase):
         self.assertFalse(cost_of(fault, kept_bytes() / 10).nothing)
         self.assertFalse(windows_of([Happened(fault, 5, 15)], 1, kept_bytes() / 100))
 
+    def test_a_killed_host_takes_with_it_what_it_kept_for_the_recorder(self):
+        stopped = Happened(Fault(5, "recorder stopped", "recording", 3.5), 5, 8.5)
+        killed = Happened(Fault(9, "host killed", "host", 1), 9, 10)
+        later = Happened(Fault(19, "host killed", "host", 1), 19, 20)
+        windows = windows_of([stopped, killed, later], 1, 1)
+        self.assertLess(windows[0].begin, 5)
+        self.assertGreater(windows[1].begin, 18, "what the recorder has taken is not lost")
+
     def test_every_kind_of_fault_has_an_explanation(self):
         for kind in KINDS:
             self.assertTrue(kind.name in EXPLANATIONS or kind.name.startswith("guest: "), kind.name)

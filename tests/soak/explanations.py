@@ -41,6 +41,7 @@ EXPLANATIONS = {
 }
 ENOUGH_OF_LINK = 50  # percent: more than all who are behind it need
 KEPT = "the host keeps it for the recorder"
+CATCHING_UP = 3.0  # s, until all that was kept for a recorder has been taken
 KEEPABLE = ("recorder stopped", "link cut", "link slow")
 
 
@@ -68,6 +69,15 @@ def cost_of(fault, bytes_per_second):
     return EXPLANATIONS.get(fault.kind, NOTHING)
 
 
+def first_moment_lost(h, happened, patience):
+    """A host that is killed takes with it what it kept for a recorder that did not take it, or is catching up."""
+    moments = [h.begin]
+    if h.fault.kind == "host killed":
+        moments += [other.begin for other in happened if other.fault.kind in KEEPABLE
+                    and other.begin < h.begin < other.end + CATCHING_UP * patience]
+    return min(moments)
+
+
 def windows_of(happened, patience, bytes_per_second):
     """`patience`: how many times slower than usual this machine is."""
     windows = []
@@ -77,5 +87,5 @@ def windows_of(happened, patience, bytes_per_second):
             continue
         # TCP doubles the time between its attempts.
         more = h.end - h.begin if h.fault.kind == "link cut" else 0.0
-        windows.append(Window(h.begin - cost.before, h.end + more + cost.after * patience, h.fault.kind))
+        windows.append(Window(first_moment_lost(h, happened, patience) - cost.before, h.end + more + cost.after * patience, h.fault.kind))
     return windows
