@@ -85,7 +85,7 @@ bool BoardSession::add(std::size_t index, DepthView depth, TimePoint captured) {
         return full && finish(index, pose);
     }
     camera.sight = camera.window ? Sight::moving : Sight::averaging;
-    camera.window.emplace(captured, captured, pose, FrameMean(depth.size));
+    camera.window = Window{captured, captured, pose, FrameMean(depth.size)};
     camera.window->mean.add(depth);
     return false;
 }

@@ -3,6 +3,7 @@
 // finite and lies in front of the camera.
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "registration/lattice_detector.h"
 

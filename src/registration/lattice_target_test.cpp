@@ -104,7 +104,7 @@ TEST(SeenEdges, DerivativesOfCoverageAreThoseOfItsValues) {
          {std::pair{-0.398, 0.1}, {0.032, 0.18}, {0.157, 0.245}, {0.2, -0.299}}) {
         const Coverage c = seen.at(u, v, ramp, ramp, at);
         ASSERT_TRUE(c.by_u != 0 || c.by_v != 0) << u << " " << v;
-        const auto share = [&](double du, double dv, EdgeParams p) {
+        const auto share = [&, u = u, v = v](double du, double dv, EdgeParams p) {
             return seen.at(u + du, v + dv, ramp, ramp, p).share;
         };
         const auto by_param = [&](double EdgeParams::*member) {
