@@ -178,6 +178,38 @@ private:
     std::pair<dev_t, ino_t> file_{};
 };
 
+// How much older than now the newest picture is that has come.
+Duration behind(record::RecordSource& source) {
+    const auto newest = source.intake().newest_captured();
+    return newest ? std::max(source.now().clock.session - *newest, Duration{}) : Duration{};
+}
+
+// The recording is to end, and pictures of the time before may still be at the host: takes them.
+// False if some did not come.
+template <class Say>
+bool fetch_rest(record::RecordSource& source, const Say& say) {
+    constexpr Duration usual_delay = 1s, patience = 20s, no_progress = 3s;
+    if (!source.is_connected())
+        return false;
+    if (behind(source) <= usual_delay)
+        return true;
+    say("Fetching what the host still has for this recording.");
+    const TimePoint begin = steady_now(), end_of_recording = source.now().clock.session;
+    TimePoint progressed = begin;
+    std::optional<TimePoint> newest;
+    while (source.is_connected() && steady_now() - begin < patience &&
+           steady_now() - progressed < no_progress) {
+        std::this_thread::sleep_for(20ms);
+        source.tick();
+        const auto came = source.intake().newest_captured();
+        if (came && *came >= end_of_recording - usual_delay)
+            return true;
+        if (std::exchange(newest, came) != came)
+            progressed = steady_now();
+    }
+    return false;
+}
+
 void run(const Flags& flags) {
     cli::catch_stop_signals();
     const std::string& file = flags.names.back();
@@ -227,6 +259,11 @@ void run(const Flags& flags) {
                       << std::flush;
         }
     }
+    const bool has_rest =
+        !intake.recorder() || end || !intake.problem().empty() || fetch_rest(*source, say);
+    if (!has_rest)
+        say("The last " + std::to_string(int(to_seconds(behind(*source)) + 0.5)) +
+            " s before the end did not come from the host.");
     const double wall = to_seconds(steady_now() - begin), cpu = cpu_seconds() - cpu_before;
     Missing missing;
     nlohmann::json cameras = describe(*source, begin, missing);
@@ -248,7 +285,8 @@ void run(const Flags& flags) {
             say("'" + path.string() + "' was deleted or renamed while the recording went on.");
             deleted = true;
         }
-    const bool complete = !missing.any() && !deleted && !(end && end->fault) && f.problem.empty();
+    const bool complete =
+        has_rest && !missing.any() && !deleted && !(end && end->fault) && f.problem.empty();
     if (flags.json)
         std::cout << nlohmann::json{{"file", file},
                                     {"segments", f.segments},

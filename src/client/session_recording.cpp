@@ -80,6 +80,9 @@ public:
         return {steady_now(), {participant_->now(), record::utc_now()}};
     }
     std::optional<End> ended() override { return end_; }
+    bool is_connected() const override {
+        return participant_->status().phase == Participant::Phase::joined;
+    }
     std::uint64_t not_encoded(CameraId) const override { return 0; }
     std::uint64_t lost_in_source(CameraId) const override { return 0; }
     bool was_gone(CameraId) const override { return false; }

@@ -12,6 +12,8 @@ namespace {
 constexpr Duration jitter = std::chrono::milliseconds(3);
 // How fast older measurements of the rate are forgotten, in time of a busy way.
 constexpr double memory_s = 0.06;
+// Measurements of the rate together stand for at most this much time.
+constexpr double longest_busy_s = 2 * memory_s;
 // A rate seen longer ago says nothing about the way of today.
 constexpr Duration rate_validity = std::chrono::seconds(2);
 // The shortest round trip is that of the last one to two of these.
@@ -92,6 +94,12 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
         const double kept = std::exp(-busy / memory_s);
         busy_bytes_ = busy_bytes_ * kept + bytes;
         busy_seconds_ = busy_seconds_ * kept + busy;
+        // A peer that stood still for seconds must not weigh so much that the rate stays low for
+        // seconds, too, once it goes on.
+        if (const double scale = longest_busy_s / busy_seconds_; scale < 1) {
+            busy_bytes_ *= scale;
+            busy_seconds_ = longest_busy_s;
+        }
         busy_at_ = now;
     } else if (newest.held_back) {
         // It was held back and met no queue: the way carries more than is known.

@@ -223,6 +223,15 @@ std::vector<Intake::Stream> Intake::streams(TimePoint now) const {
     return result;
 }
 
+std::optional<TimePoint> Intake::newest_captured() const {
+    const std::lock_guard lock(mutex_);
+    std::optional<TimePoint> newest;
+    for (const auto& [id, entry] : entries_)
+        if (!entry.ended && entry.captured)
+            newest = std::max(newest.value_or(*entry.captured), *entry.captured);
+    return newest;
+}
+
 Recorder* Intake::recorder() const {
     const std::lock_guard lock(mutex_);
     return recorder_.get();

@@ -73,6 +73,10 @@ public:
     // All that were ever described. `now`: a stream that is silent is interrupted.
     std::vector<Stream> streams(TimePoint now) const;
 
+    // When the newest picture that came was captured, in session time; of cameras that go on.
+    // Nothing before the first one.
+    std::optional<TimePoint> newest_captured() const;
+
     // Null before the first picture. It lives as long as the intake.
     Recorder* recorder() const;
     // Why the recording could not begin or has ended by itself, one sentence; empty if it has not.

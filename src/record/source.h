@@ -34,6 +34,9 @@ public:
     };
     virtual std::optional<End> ended() = 0;
 
+    // Pictures can come now: the connection stands.
+    virtual bool is_connected() const { return true; }
+
     // Frames that a camera gave but that were never encoded.
     virtual std::uint64_t not_encoded(CameraId camera) const = 0;
     // Pictures that were lost in the recording that a camera plays.
