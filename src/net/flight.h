@@ -24,7 +24,7 @@ class Flight {
 public:
     // Before anything is known about the way, and never less than the latter.
     static constexpr double first_window = 1 << 20;
-    static constexpr double smallest_window = 12 * 1024;
+    static constexpr double smallest_window = 26 * 1024;
     // Bytes of control, states and voice that may be on the way beyond the window.
     static constexpr double interaction_reserve = 8 * 1024;
     static_assert(wire::max_untold < std::size_t(smallest_window));

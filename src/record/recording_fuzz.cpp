@@ -21,7 +21,11 @@ void recover_all(const record::RecordingFile& recording) {
             std::filesystem::remove(record::segment_path(stem + ".mkv", n));
     };
     remove();
-    record::recover(recording, stem + ".mkv", {});
+    try {
+        record::recover(recording, stem + ".mkv", {});
+    } catch (const Error&) {
+        return remove();  // it checked its own output and said that it is not whole
+    }
     const auto saved = record::RecordingFile::open(stem + ".mkv");
     for (const record::Segment& segment : saved->segments())
         if (!segment.complete())
