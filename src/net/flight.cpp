@@ -13,7 +13,7 @@ constexpr Duration jitter = std::chrono::milliseconds(3);
 // How fast older measurements of the rate are forgotten, in time of a busy way.
 constexpr double memory_s = 0.06;
 // Measurements of the rate together stand for at most this much time.
-constexpr double longest_busy_s = 2 * memory_s;
+constexpr double busy_memory_s = 2 * memory_s;
 // A rate seen longer ago says nothing about the way of today.
 constexpr Duration rate_validity = std::chrono::seconds(2);
 // The shortest round trip is that of the last one to two of these.
@@ -96,9 +96,9 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
         busy_seconds_ = busy_seconds_ * kept + busy;
         // A peer that stood still for seconds must not weigh so much that the rate stays low for
         // seconds, too, once it goes on.
-        if (const double scale = longest_busy_s / busy_seconds_; scale < 1) {
+        if (const double scale = busy_memory_s / busy_seconds_; scale < 1) {
             busy_bytes_ *= scale;
-            busy_seconds_ = longest_busy_s;
+            busy_seconds_ = busy_memory_s;
         }
         busy_at_ = now;
     } else if (newest.held_back) {
