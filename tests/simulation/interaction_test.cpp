@@ -114,5 +114,56 @@ TEST(Interaction, WaitsLittleBehindMedia) {
         }
 }
 
+// A fast link whose receiver stands still once: media per second afterwards.
+double bytes_per_second_after_a_stall(Duration stall) {
+    net::Outbox outbox;
+    net::Acknowledger acknowledger;
+    wire::Unwrapper viewer, host(wire::Unwrapper::Takes::all_but_media);
+    testing::SimulatedLink down(1), up(2);
+    down.bytes_per_second = up.bytes_per_second = 1e9;
+    down.delay = up.delay = Duration(50);
+    const TimePoint begin = from_us(1'000'000), stalls = begin + 2s, goes_on = stalls + stall;
+    const TimePoint end = goes_on + 2s;
+    TimePoint next_frame = begin;
+    std::uint64_t media_bytes = 0;
+    FrameNumber frame = 0;
+    Bytes envelope;
+    for (TimePoint now = begin; now < end; now += Duration(100)) {
+        const bool is_behind = now > stalls;
+        if (now >= next_frame) {
+            next_frame += is_behind ? Duration(1000) : Duration(33'333);
+            ++frame;
+            for (const int stream : {0, 1}) {
+                wire::MediaHeader header;
+                header.payload_size = 100'000;
+                auto bytes = std::make_shared<Bytes>(wire::media_header_size + header.payload_size);
+                wire::write_media_header(header, bytes->data());
+                (void)outbox.push_media({bytes, StreamId(stream), {}, frame, frame, 0, true, now});
+            }
+        }
+        while (up.receive(envelope, now))
+            outbox.acknowledge(*host.take(envelope)->acknowledgement, now);
+        while (outbox.next(envelope, now))
+            down.send(envelope, now);
+        if (now > stalls && now < goes_on)
+            continue;
+        while (down.receive(envelope, now)) {
+            const auto got = viewer.take(envelope);
+            acknowledger.came(envelope.size(), got->is_media, now);
+            media_bytes += now > goes_on ? envelope.size() : 0;
+        }
+        if (const auto word = acknowledger.due(now)) {
+            wire::wrap_acknowledgement(*word, envelope);
+            up.send(envelope, now);
+        }
+    }
+    return double(media_bytes) / 2;
+}
+
+TEST(Interaction, MediaIsFastAgainSoonAfterAReceiverStoodStill) {
+    for (const Duration stall : {Duration(500ms), Duration(4s)})
+        EXPECT_GT(bytes_per_second_after_a_stall(stall), 50e6);
+}
+
 }  // namespace
 }  // namespace theatron
