@@ -10,6 +10,7 @@
 #include "bench_commands.h"
 #include "bench_depth.h"
 #include "bench_filter.h"
+#include "bench_interaction.h"
 #include "bench_pipeline.h"
 #include "bench_plot.h"
 #include "bench_registration.h"
@@ -250,6 +251,64 @@ void add_pipeline(CLI::App& bench) {
     });
 }
 
+void add_interaction(CLI::App& bench) {
+    struct Flags {
+        InteractionBench bench;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    InteractionBench& b = flags->bench;
+    CLI::App* command = bench.add_subcommand(
+        "interaction", "How late the poses of others are while pictures come, between processes");
+    command->footer(
+        "Example: theatron bench interaction --camera synthetic:color=depth,preload=1 --json -\n"
+        "tests/end_to_end/interaction_run.py puts a slow link between host and viewer.");
+    cli::add_camera_option(*command, b.cameras)->required();
+    command->add_option("--people", b.people, "Participants that move; one more views")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command->add_option("--seconds", b.seconds, "Measured time")
+        ->capture_default_str()
+        ->check(CLI::Range(2.0, 86400.0));
+    command->add_option("--warmup", b.warmup_seconds, "Time before that")->capture_default_str();
+    command->add_option("--target-latency", b.target_latency_ms, "Of the viewer's pictures, ms")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 10000));
+    command->add_option("--depth-codec", b.depth_codec, "Of all")->capture_default_str();
+    command->add_option("--color-codec", b.color_codec, "Of all")->capture_default_str();
+    command->add_option("--host-namespace", b.host_namespace, "Network namespace of the host");
+    command->add_option("--viewer-namespace", b.viewer_namespace, "Network namespace of the viewer")
+        ->needs("--host-namespace");
+    command->add_option("--link-delay", b.link_delay_ms, "Of the link between them, one way, ms")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 10000.0));
+    command
+        ->add_option("--crowd", b.crowd,
+                     "Busy threads on the one core that the viewer's decoders may use")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 16));
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        const nlohmann::json r = bench_interaction(flags->bench);
+        report(r, flags->json, [&] {
+            std::printf("%d participants, %d camera(s), %zu poses\n", r["participants"].get<int>(),
+                        r["cameras"].get<int>(), r["poses"].get<std::size_t>());
+            std::printf("  poses, beyond the link's delay: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n",
+                        r["p50_ms"].get<double>(), r["p99_ms"].get<double>(),
+                        r["max_ms"].get<double>());
+            std::printf("  round trips, the same: p50 %.1f ms, p99 %.1f ms\n",
+                        r["round_trip_ms"]["p50"].get<double>(),
+                        r["round_trip_ms"]["p99"].get<double>());
+            const auto& pictures = r["pictures"];
+            std::printf("  pictures: lowest %.1f fps, %.1f Mbit/s, age p50 %.0f ms, p99 %.0f ms\n",
+                        pictures["fps_min"].get<double>(), pictures["mbit_per_s"].get<double>(),
+                        pictures["age_ms"]["p50"].get<double>(),
+                        pictures["age_ms"]["p99"].get<double>());
+        });
+    });
+}
+
 void add_render(CLI::App& bench) {
     struct Flags {
         int cameras = 4, depth_step = 1;
@@ -398,6 +457,7 @@ void add_benchmarks(CLI::App& app) {
     add_depth(app);
     add_color(app);
     add_filter_bench(app);
+    add_interaction(app);
     add_pipeline(app);
     add_render(app);
     add_view(app);

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Poses of people go through a real host: gathered, to all others, the newest of each."""
+import json
 import pathlib
 import shutil
 import struct
+import subprocess
 import tempfile
 import time
 import unittest
 
 from raw_peer import STATES, RawPeer
-from theatron_process import host, make_recording
+from theatron_process import PROGRAM, host, make_recording
 
 POSE = 1
 
@@ -52,7 +54,8 @@ class Poses(unittest.TestCase):
     def setUp(self):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
         self.addCleanup(shutil.rmtree, folder)
-        camera = f"folder:{make_recording(folder / 'box')},loop=1,preload=1"
+        self.recording = make_recording(folder / "box")
+        camera = f"folder:{self.recording},loop=1,preload=1"
         self.host = self.enterContext(host(folder / "state", camera))
         self.link = self.host.greeting["link"]
 
@@ -109,6 +112,17 @@ class Poses(unittest.TestCase):
         first.send_state(first.number, pose(self.now_us(), 1))
         third = self.person()
         self.assertIn(first.number, third.receive_poses())
+
+    def test_the_benchmark_of_interaction_sees_the_poses_of_all(self):
+        camera = f"folder:{self.recording},loop=1,preload=1"
+        done = subprocess.run(
+            [PROGRAM, "bench", "interaction", "--camera", camera, "--people", "3", "--seconds", "2", "--warmup", "1",
+             "--json", "-"], check=True, capture_output=True, text=True, timeout=60)
+        found = json.loads(done.stdout)
+        self.assertEqual(found["participants"], 4)
+        self.assertGreater(found["poses"], 3 * 60)  # at 90 a second each
+        self.assertGreater(found["p50_ms"], 0)
+        self.assertGreater(found["pictures"]["fps_min"], 0)
 
 
 if __name__ == "__main__":

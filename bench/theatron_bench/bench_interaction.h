@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How late the poses of others and answers of the host are while pictures come, between processes.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace theatron::bench {
+
+struct InteractionBench {
+    std::vector<std::string> cameras;  // specifications
+    int people = 4;                    // that move; one more participant views
+    double seconds = 20;
+    double warmup_seconds = 4;
+    double poses_per_second = 90;  // of each
+    std::string depth_codec = "strata";
+    std::string color_codec = "jpeg:quality=85";
+    int target_latency_ms = 150;
+    // Network namespaces of host and viewer, with a link between them on which the host is
+    // 10.77.0.1 (tools/link_shaper). Empty: both on loopback.
+    std::string host_namespace, viewer_namespace;
+    double link_delay_ms = 0;  // of that link, one way: taken off the poses' times
+    // The viewer's decoders share one core with so many busy threads.
+    int crowd = 0;
+};
+
+// Returns {p50_ms,p99_ms,max_ms,participants,cameras,poses,round_trip_ms:{p50,p99,max},
+// pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}}}: from the sending of a pose to its arrival at the
+// viewer, less the link's delay; and what the pictures got meanwhile. Throws Error.
+nlohmann::json bench_interaction(const InteractionBench& bench);
+
+}  // namespace theatron::bench
