@@ -44,6 +44,8 @@ void run(const Flags& flags) {
     }
     std::uint64_t places = 0, repeated = 0;
     record::SegmentChain::Foreign foreign;
+    for (const auto& camera : saved.cameras)
+        repeated += camera.depth.repeated + camera.color.repeated;
     for (const record::Segment& segment : recording->segments()) {
         places += segment.damaged_places + segment.head_damaged;
         repeated += segment.repeated;

@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 
-#include "base/error.h"
 #include "record/recording_file.h"
 #include "record/recover.h"
 
@@ -21,11 +20,7 @@ void recover_all(const record::RecordingFile& recording) {
             std::filesystem::remove(record::segment_path(stem + ".mkv", n));
     };
     remove();
-    try {
-        record::recover(recording, stem + ".mkv", {});
-    } catch (const Error&) {
-        return remove();  // it checked its own output and said that it is not whole
-    }
+    record::recover(recording, stem + ".mkv", {});
     const auto saved = record::RecordingFile::open(stem + ".mkv");
     for (const record::Segment& segment : saved->segments())
         if (!segment.complete())

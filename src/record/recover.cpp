@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "base/error.h"
+#include "record/crc32c.h"
 #include "record/segment_writer.h"
 
 namespace theatron::record {
@@ -29,17 +33,20 @@ public:
         return there ? &stream_.frames[next_] : nullptr;
     }
 
-    void begin_segment() {
+    void begin_segment(std::size_t segment) {
         kept_.clear();
         last_.reset();
+        written_.clear();
+        may_repeat_ = !numbers_only_grow(segment);
     }
 
     // The upcoming frame is earlier than the one before it: here the file is not in the order in
     // which it was recorded.
     bool goes_back() const { return last_ && stream_.frames[next_].time() < *last_; }
 
-    // Moves on; false if the frame is not to be kept.
-    bool take(const RecordingFile& recording, RecordedMessage& out) {
+    // Moves on; false if the frame is not to be kept. `begin`: session time of the segment's time
+    // 0.
+    bool take(const RecordingFile& recording, TimePoint begin, RecordedMessage& out) {
         // What is referred to across such a place may be another picture of the same number.
         if (goes_back())
             kept_.clear();
@@ -59,6 +66,10 @@ public:
             ++counts_.undecodable;
             return false;
         }
+        if (may_repeat_ && !is_new(*header, block_time_us(header->captured, out.arrived, begin))) {
+            ++counts_.repeated;
+            return false;
+        }
         kept_.push_back(header->frame);
         if (kept_.size() > kept_numbers)
             kept_.pop_front();
@@ -73,6 +84,25 @@ public:
     }
 
 private:
+    // Then no frame can stand twice in the segment, and none need be remembered.
+    bool numbers_only_grow(std::size_t segment) const {
+        std::int64_t grown = 0;
+        for (std::size_t i = next_ + 1;
+             i < stream_.frames.size() && stream_.frames[i].segment == segment; ++i) {
+            const auto step = std::int32_t(stream_.frames[i].number - stream_.frames[i - 1].number);
+            grown += step;
+            if (step <= 0 || grown > std::numeric_limits<std::int32_t>::max())
+                return false;
+        }
+        return true;
+    }
+
+    // A reader leaves out what it takes for a repetition (docs/formats/recording.md). Of version 1
+    // it cannot know them, and frames that were earlier than time 0 are all placed there.
+    bool is_new(const wire::MediaHeader& header, std::int64_t time_us) {
+        return written_.emplace(header.frame, time_us, payload_.size(), crc32c(payload_)).second;
+    }
+
     const StreamContent& stream_;
     RecoveredStream& counts_;
     std::size_t next_ = 0;
@@ -80,6 +110,9 @@ private:
     std::string filters_;
     std::deque<FrameNumber> kept_;
     std::optional<Duration> last_;
+    bool may_repeat_ = false;
+    // Number, time, size and checksum of those of this segment.
+    std::set<std::tuple<FrameNumber, std::int64_t, std::size_t, std::uint32_t>> written_;
     Bytes payload_;
 };
 
@@ -154,7 +187,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             waiting = 0;
         };
         for (StreamReader& stream : streams)
-            stream.begin_segment();
+            stream.begin_segment(s);
         while (true) {
             // In the order of the file.
             StreamReader* first = nullptr;
@@ -174,7 +207,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             RecordedMessage message;
             // As if it had arrived when it was taken: it keeps its place.
             message.arrived = info.clock.session + (frame->time() - segment.origin);
-            if (!first->take(recording, message))
+            if (!first->take(recording, info.clock.session, message))
                 continue;
             waiting += message.message->size();
             messages.push_back(std::move(message));

@@ -15,6 +15,7 @@ struct RecoveredStream {
     std::uint64_t saved = 0;
     std::uint64_t damaged = 0;      // left out
     std::uint64_t undecodable = 0;  // left out: they refer to pictures that are not there
+    std::uint64_t repeated = 0;     // left out: of version 1, they stand in it twice
 };
 
 struct Recovered {

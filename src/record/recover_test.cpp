@@ -3,6 +3,7 @@
 #include "record/recover.h"
 
 #include "base/error.h"
+#include "record/recording_layout.h"
 #include "record/test_recordings.h"
 
 namespace theatron::record {
@@ -192,6 +193,48 @@ TEST(Recover, LeavesWhatRefersAcrossAPlaceWhereTheFileGoesBack) {
         const auto header = whole->read_header(frames[i]);
         EXPECT_TRUE(header->key || (i > 0 && frames[i - 1].number == header->reference)) << i;
     }
+}
+
+// As version 1 was written: without a description, copies of the head and checks.
+Bytes version_1_of(const std::vector<Message>& messages) {
+    const testing::TemporaryFolder folder;
+    MatroskaLayout layout;
+    layout.side_name = side_name;
+    Track track;
+    track.codec_id = depth_codec_id;
+    track.width = track.height = 16;
+    layout.tracks.push_back(track);
+    MatroskaWriter writer(folder.path() / "1.mkv", layout);
+    for (const Message& m : messages) {
+        Block block;
+        block.key = m.header.key;
+        block.time_us = (m.header.captured - messages[0].header.captured).count();
+        block.payload = wire::media_payload(*m.bytes);
+        block.side = ByteView(*m.bytes).first(wire::media_header_size);
+        EXPECT_EQ(writer.write({block}), "");
+    }
+    EXPECT_EQ(writer.finish(), "");
+    return bytes_of(folder.path() / "1.mkv");
+}
+
+TEST(Recover, SavesOnceWhatStandsTwiceInAFileOfVersion1) {
+    const auto messages = with_keys(60, 50);
+    Bytes bytes = version_1_of(messages);
+    const ByteView cluster = as_bytes(std::string_view("\x1f\x43\xb6\x75"));
+    const auto first = std::search(bytes.begin(), bytes.end(), cluster.begin(), cluster.end());
+    const Bytes clusters(first, bytes.end());
+    bytes.insert(bytes.end(), clusters.begin(), clusters.end());
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "broken.mkv", bytes);
+    const auto broken = RecordingFile::open(folder.path() / "broken.mkv");
+    EXPECT_EQ(frames_in(*broken), 2 * messages.size());
+    const Recovered saved = recover(*broken, folder.path() / "whole.mkv", {});
+    EXPECT_EQ(saved.cameras[0].depth.saved, messages.size());
+    EXPECT_GT(saved.cameras[0].depth.repeated, 0u);
+    const auto whole = RecordingFile::open(folder.path() / "whole.mkv");
+    EXPECT_EQ(count_equal(*whole, messages), messages.size());
+    EXPECT_EQ(frames_in(*whole), messages.size());
+    expect_playable(*whole);
 }
 
 // Where the copies of the head stand.
