@@ -203,7 +203,9 @@ net::Client::Handler Participant::handler() {
     h.control = [this](ByteView message) { on_control(message); };
     h.media = [this](Bytes& message) { return on_media(message); };
     h.state = [this](const wire::State& state) { on_state(state); };
-    h.now = [this] { return now(); };
+    // Not the session's clock: it jumps when it becomes known, and acknowledgements would wait for
+    // as long as it jumped back.
+    h.now = steady_now;
     h.tick = [this] { on_tick(); };
     return h;
 }

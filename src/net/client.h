@@ -23,7 +23,7 @@ public:
         // See Connection::Events. May be empty.
         std::function<bool(Bytes&)> media;
         std::function<void(const wire::State&)> state;  // may be empty
-        std::function<TimePoint()> now;                 // session time
+        std::function<TimePoint()> now;                 // a steady clock of this machine
         std::function<void()> tick;                     // ten times a second
     };
 

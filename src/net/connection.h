@@ -54,7 +54,7 @@ public:
         // connection.
         std::function<void()> control_lost;
         std::function<void(const std::string& why)> closed;
-        std::function<TimePoint()> now;  // session time
+        std::function<TimePoint()> now;  // a steady clock; of a host, session time
     };
 
     // `socket` has finished its handshakes. Media that is not taken ends the connection.

@@ -88,8 +88,7 @@ public:
     void keep_everything() { keeps_everything_ = true; }
 
     // Fills `envelope` with what to send next; false if there is nothing, or media
-    // has to wait. `now` is the session time that is written into a media message
-    // as `sent`.
+    // has to wait. `now`, on a clock that never jumps, is written into a media message as `sent`.
     bool next(Bytes& envelope, TimePoint now);
 
     // When to ask next() again if only the ceiling held something back; otherwise after

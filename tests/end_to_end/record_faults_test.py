@@ -5,12 +5,13 @@ import os
 import pathlib
 import shutil
 import signal
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
 
-from raw_peer import FakeHost, RawPeer, camera, media_message
+from raw_peer import ACKNOWLEDGEMENT, FakeHost, RawPeer, camera, media_message
 from slow_disk import SlowDisk
 from theatron_process import Process, host, make_recording, run, write_png
 
@@ -103,6 +104,34 @@ class RecordFaults(unittest.TestCase):
             self.assertEqual(figures["lost"] + figures["dropped"], 0)
             self.assertEqual(self.assert_decodes(self.file)["frames"], figures["cameras"][0]["depth"]["pictures"])
             self.file.unlink()
+
+    def test_pictures_are_acknowledged_also_after_the_sessions_clock_proves_to_be_far_behind(self):
+        told = []
+
+        def acknowledged(guest):
+            while (envelope := guest.receive())[0] != ACKNOWLEDGEMENT:
+                pass
+            told.append(struct.unpack_from("<Q", envelope, 1)[0])
+
+        def script(guest):
+            guest.stream.settimeout(20)
+            guest.receive_control("Join")
+            guest.welcome(cameras=[camera(0, has_color=False)])
+            guest.send_control("Settings", settings=[{"stream": 0, "setting": 1, "codec": "strata"}])
+            guest.send_media(media_message(bytes(10_000), frame=1, captured_us=1))
+            acknowledged(guest)
+            _, ping = guest.receive_control("Ping")
+            guest.send_control("Pong", ping_sent_us=ping["sent_us"], received_us=1, sent_us=1)
+            guest.send_media(media_message(bytes(10_000), frame=2, captured_us=2))
+            acknowledged(guest)
+            guest.send_control("CameraState", camera=0, state=2)
+            guest.wait_for_end()
+
+        with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
+            self.says(recorder, "camera 0 has ended")
+            self.ends(recorder, COMPLETE)
+            self.assertEqual(fake.faults, [])
+        self.assertGreater(told[1], told[0] + 10_000)
 
     def record_from_a_fake_host(self, cameras, expected):
         """Pictures of camera 0 come before the session's clock is known, then others in another codec."""
