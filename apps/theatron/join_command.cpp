@@ -35,11 +35,29 @@
 namespace theatron::app {
 namespace {
 
+// The host chooses where H.264 can be decoded here.
+std::string best_color() {
+    const auto h264 = video::parse_color_setting("h264").setting;
+    return video::missing_color_decoder(h264).empty() ? std::string(video::auto_color)
+                                                      : video::ColorSetting().text;
+}
+
+// One spelling of what a person wrote. Throws Error with one sentence where it cannot be had here.
+std::string checked_color(const std::string& text) {
+    const bool automatic = text == video::auto_color;
+    const auto parsed = video::parse_color_setting(automatic ? "h264" : text);
+    for (const std::string& problem :
+         {parsed.problem, video::missing_color_decoder(parsed.setting)})
+        if (!problem.empty())
+            throw Error(problem);
+    return automatic ? text : parsed.setting.text;
+}
+
 struct Flags {
     std::string link;
     std::string name = "guest";
     std::string depth_codec = "strata";
-    std::string color_codec = "jpeg:quality=85";
+    std::string color_codec = best_color();
     std::string offscreen, depth_file;
     std::string renderer = viewer::automatic;
     std::string size = "1280x720";
@@ -195,14 +213,11 @@ void run(const Flags& flags) {
     options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     const auto depth = video::parse_depth_setting(flags.depth_codec);
-    const auto color = video::parse_color_setting(flags.color_codec);
-    for (const std::string& problem :
-         {depth.problem, color.problem, video::missing_depth_decoder(depth.setting),
-          video::missing_color_decoder(color.setting)})
+    for (const std::string& problem : {depth.problem, video::missing_depth_decoder(depth.setting)})
         if (!problem.empty())
             throw Error(problem);
     options.depth_codec = depth.setting.text;
-    options.color_codec = color.setting.text;
+    options.color_codec = checked_color(flags.color_codec);
     options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
     options.remark = [](const std::string& text) { log::say(text); };
 
@@ -295,6 +310,7 @@ void add_join_command(CLI::App& app) {
     command->footer(
         "Depth codecs: " + join_names(video::depth_codec_names()) +
         "\nColour codecs: " + join_names(video::color_codec_names()) +
+        ", auto (H.264 or JPEG, whichever suits the host; see 'theatron status')"
         "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
         "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20'.\n"

@@ -97,7 +97,12 @@ std::string lossy_outside_region(const std::string& depth) {
 
 }  // namespace
 
-session::CodecSteps codec_steps() {
+session::CodecSteps codec_steps(std::shared_ptr<const send::AutoColor> auto_is_h264) {
+    const auto now = [auto_is_h264](const std::string& color) {
+        return color != video::auto_color
+                   ? color
+                   : std::string(*auto_is_h264 ? send::auto_h264 : send::auto_jpeg);
+    };
     CodecSteps steps;
     // Asked for every frame.
     const auto known = std::make_shared<std::map<std::string, CodecSteps::Layered>>();
@@ -111,9 +116,9 @@ session::CodecSteps codec_steps() {
         }
         return found->second;
     };
-    steps.coarser = coarser;
-    steps.color_is_chain = [](const std::string& color) {
-        return Options::parse(color).kind() == "h264";
+    steps.coarser = [now](const std::string& color) { return coarser(now(color)); };
+    steps.color_is_chain = [now](const std::string& color) {
+        return Options::parse(now(color)).kind() == "h264";
     };
     steps.lossy_outside_region = lossy_outside_region;
     return steps;

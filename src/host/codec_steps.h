@@ -2,10 +2,14 @@
 // How the codecs of this build can send less, for session/ladder.h.
 #pragma once
 
+#include <memory>
+
+#include "send/auto_color.h"
 #include "session/ladder.h"
 
 namespace theatron::host {
 
-session::CodecSteps codec_steps();
+// `auto_is_h264`: what automatic colour is just now.
+session::CodecSteps codec_steps(std::shared_ptr<const send::AutoColor> auto_is_h264);
 
 }  // namespace theatron::host

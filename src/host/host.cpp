@@ -34,6 +34,8 @@ session::HostSession::CheckedCodec check_depth(const std::string& text) {
 }
 
 session::HostSession::CheckedCodec check_color(const std::string& text) {
+    if (text == video::auto_color)
+        return {text, ""};
     const auto parsed = video::parse_color_setting(text);
     return {parsed.setting.text,
             parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem};
@@ -94,7 +96,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.equal_secrets = net::equal_secrets;
-    config.steps = codec_steps();
+    config.steps = codec_steps(color_watch.is_h264());
     const session::ViewerSession::Wishes usual;
     config.usual_depth = check_depth(usual.depth_codec).codec;
     config.usual_color = check_color(usual.color_codec).codec;
@@ -155,6 +157,10 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
         lane.cameras = cameras.size();
         lane.open_again = [this, specification = specifications[i]] {
             return capture::open_camera_at(specification, places);
+        };
+        lane.make_color = [is_h264 = color_watch.is_h264()](const video::ColorSetting& setting) {
+            return setting.text == video::auto_color ? send::make_auto_encoder(is_h264)
+                                                     : video::make_color_encoder(setting);
         };
         lane.moments = moments;
         lane.one_per_moment = true;

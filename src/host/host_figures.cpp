@@ -128,6 +128,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"age_ms", age_ms(participant)}});
     return {{"name", figures.name},
             {"seconds", figures.seconds},
+            {"automatic_color", figures.automatic_color},
             {"cameras", cameras},
             {"participants", participants},
             {"turned_away", figures.turned_away},
@@ -253,6 +254,8 @@ std::string to_table(const nlohmann::json& figures) {
         if (const std::string problem = text(camera, "problem"); !problem.empty())
             table += "    " + problem + "\n";
     }
+    if (const std::string color = text(figures, "automatic_color"); !color.empty())
+        table += "automatic colour is " + color + "\n";
     for (const auto& participant : participants) {
         const std::string renderer = text(participant, "renderer");
         std::snprintf(line, sizeof(line),

@@ -14,7 +14,8 @@ namespace theatron::host {
 
 struct HostFigures {
     std::string name;
-    double seconds = 0;  // since the host began
+    double seconds = 0;           // since the host began
+    std::string automatic_color;  // what it is now, and why
     struct Camera {
         send::LaneFigures lane;
         std::uint64_t dropped_slow = 0;  // given up because a receiver was too slow
@@ -33,8 +34,8 @@ struct HostFigures {
     std::uint64_t faults = 0;       // that cost a connection, a picture or a camera (base/fault.h)
 };
 
-// {"name","seconds","cameras":[{"name","state","problem","fps","age_ms","stages":[…],
-// "dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
+// {"name","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
+// "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests",…}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 

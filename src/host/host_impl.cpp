@@ -63,6 +63,7 @@ net::Server::Handler Host::Impl::handler() {
         hold_lanes();
         session->on_tick(steady_now());
         carry_out();
+        color_watch.on_tick(lanes, steady_now());
         note_participants();
     };
     h.http = [this](const net::HttpRequest& request) {
@@ -349,6 +350,7 @@ HostFigures Host::Impl::figures() const {
     HostFigures figures;
     figures.name = name;
     figures.seconds = to_seconds(steady_now() - begun);
+    figures.automatic_color = color_watch.reason();
     for (const auto& lane : lanes) {
         const auto dropped = dropped_slow_figures.find(lane->id());
         figures.cameras.push_back(

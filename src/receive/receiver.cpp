@@ -69,13 +69,12 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
                 stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
             }
         } else {
-            const auto parsed = video::parse_color_setting(s.codec);
+            stream.color_is_automatic = s.codec == video::auto_color;
+            const auto parsed = video::parse_color_setting(
+                stream.color_is_automatic ? std::string("jpeg") : s.codec);
             problem = parsed.problem;
-            if (problem.empty()) {
-                stream.color = video::make_color_decoder(parsed.setting.id);
-                stream.color_codec = parsed.setting.id;
-                stream.color_reference.reset();
-            }
+            if (problem.empty())
+                set_color_codec(stream, parsed.setting.id);
         }
         if (!problem.empty())
             throw Error("The host sends in a way that this Theatron does not know: " + problem);
@@ -186,10 +185,34 @@ Exactness Receiver::exactness(const Stream& stream, ByteView payload) {
     return exact && !exact->region.empty() ? Exactness::region : Exactness::nowhere;
 }
 
+void Receiver::set_color_codec(Stream& stream, video::ColorCodecId codec) {
+    stream.color = video::make_color_decoder(codec);
+    stream.color_codec = codec;
+    stream.color_reference.reset();
+}
+
+// Automatic colour may change its codec with a key frame.
+Status Receiver::follow_color_codec(Stream& stream, const wire::MediaHeader& header) {
+    if (header.codec == std::uint8_t(stream.color_codec))
+        return Status::ok;
+    const auto codec = video::ColorCodecId(header.codec);
+    if (!stream.color_is_automatic ||
+        (codec != video::ColorCodecId::jpeg && codec != video::ColorCodecId::h264))
+        return Status::malformed;
+    if (!header.key)
+        return Status::missing_reference;
+    if (!video::missing_color_decoder({codec, ""}).empty())
+        return Status::unsupported;
+    set_color_codec(stream, codec);
+    stream.codec =
+        std::string(video::auto_color) + (codec == video::ColorCodecId::h264 ? ": h264" : ": jpeg");
+    return Status::ok;
+}
+
 Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                               TimePoint now) {
-    if (header.codec != std::uint8_t(stream.color_codec))
-        return Status::malformed;
+    if (const Status s = follow_color_codec(stream, header); s != Status::ok)
+        return s;
     // Seen before any memory is taken for the picture.
     const auto size = video::read_color_size(stream.color_codec, payload);
     if (!size)

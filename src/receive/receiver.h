@@ -109,6 +109,7 @@ private:
         std::unique_ptr<codec::DepthStreamDecoder> depth;
         std::unique_ptr<video::ColorDecoder> color;
         video::ColorCodecId color_codec{};
+        bool color_is_automatic = false;  // the host may change `color_codec`
         // What a colour frame that is no key frame must refer to.
         std::optional<FrameNumber> color_reference;
 
@@ -136,6 +137,8 @@ private:
 
     Status decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
+    static void set_color_codec(Stream& stream, video::ColorCodecId codec);
+    static Status follow_color_codec(Stream& stream, const wire::MediaHeader& header);
     Status decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
     void count(Stream& stream, const wire::MediaHeader& header, std::size_t size, TimePoint now);

@@ -164,6 +164,30 @@ TEST_F(ReceiverTest, LostColorIsAskedForAsAKeyFrame) {
     EXPECT_EQ(receiver.refused(), 0u);
 }
 
+TEST_F(ReceiverTest, AutomaticColorChangesItsCodecWithAKeyFrameAndOtherColorNever) {
+    if (!video::missing_color_encoder({video::ColorCodecId::h264, "h264"}).empty())
+        GTEST_SKIP() << "no H.264 encoder on this machine";
+    Source jpeg("trvl", SettingId{1}, "jpeg"), h264("trvl", SettingId{1}, "h264"),
+        raw("trvl", SettingId{1}, "raw");
+    for (Source* source : {&jpeg, &h264, &raw})
+        source->set_color_id(SettingId{0x8002});
+    set_color("auto");
+    EXPECT_EQ(receiver.on_media(jpeg.color(0), at(0)), Status::ok);
+    (void)h264.color(1, true);
+    EXPECT_EQ(receiver.on_media(h264.color(2, false), at(2)), Status::missing_reference);
+    EXPECT_EQ(receiver.on_media(h264.color(3, true), at(3)), Status::ok);
+    EXPECT_EQ(receiver.figures(at(3))[1].codec, "auto: h264");
+    EXPECT_EQ(receiver.on_media(h264.color(4, false), at(4)), Status::ok);
+    EXPECT_EQ(receiver.on_media(jpeg.color(5), at(5)), Status::ok);
+    EXPECT_EQ(receiver.on_media(raw.color(6), at(6)), Status::malformed);
+
+    receiver.set_settings({{color_stream(camera), SettingId{0x8003}, "jpeg"}});
+    for (Source* source : {&jpeg, &h264})
+        source->set_color_id(SettingId{0x8003});
+    EXPECT_EQ(receiver.on_media(jpeg.color(7), at(7)), Status::ok);
+    EXPECT_EQ(receiver.on_media(h264.color(8, true), at(8)), Status::malformed);
+}
+
 class DepthOnly : public ReceiverTest {
 protected:
     DepthOnly() : ReceiverTest(false) {}

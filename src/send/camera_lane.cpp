@@ -60,6 +60,7 @@ LaneEncoders::Environment CameraLane::encoder_environment() const {
     environment.share =
         encoder_share(info_.frames_per_second, workers_.threads(), options_.cameras);
     environment.make_depth = options_.make_depth;
+    environment.make_color = options_.make_color;
     return environment;
 }
 

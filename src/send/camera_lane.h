@@ -56,6 +56,7 @@ public:
         std::size_t cameras = 1;
         // As in LaneEncoders::Environment; empty: the usual ones.
         std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
+        std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color;
         // Of the camera's care, of header times and of waiting for key frames.
         capture::WatchedCamera::Clock clock = capture::WatchedCamera::steady_clock();
     };
@@ -89,6 +90,9 @@ public:
     void request_key(StreamId stream, SettingId setting);
 
     LaneFigures figures() const;
+    // Of these, what is cheap to ask for.
+    std::vector<EncoderFigures> encoder_figures() const { return encoders_.figures(); }
+    std::uint64_t dropped_newest() const { return meter_.dropped(DropReason::newer); }
 
     // Returns once no work on frames runs or is due, here or behind.
     void wait_idle();

@@ -31,6 +31,8 @@ Duration expected_cost(std::string_view codec) {
     }
     if (kind == "h264")
         return options.take("preset", "ultrafast") == "ultrafast" ? 6ms : 15ms;
+    if (kind == "auto")
+        return 5ms;  // it may be either
     if (kind == "raw")
         return 200us;
     return kind == "ans" ? 3ms : 2ms;

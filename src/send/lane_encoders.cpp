@@ -86,6 +86,11 @@ void LaneEncoders::set_settings(const std::vector<LaneSetting>& depth,
                      });
     color_ = updated(color_, color, color_stream(camera_), keys,
                      [](Color& encoder, const std::string& codec) {
+                         if (codec == video::auto_color) {
+                             // Each picture says what it is.
+                             encoder.parsed.text = codec;
+                             return;
+                         }
                          const auto parsed = video::parse_color_setting(codec);
                          assert(parsed.problem.empty());
                          encoder.parsed = parsed.setting;
@@ -201,6 +206,8 @@ bool LaneEncoders::encode(Color& e, const ColorData& color, wire::MediaHeader he
     // what an encoder may have kept of it.
     if (!encoded)
         return false;
+    if (encoded->codec)
+        header.codec = std::uint8_t(*encoded->codec);
     header.key = encoded->key;
     header.reference = encoded->key ? header.frame : e.encoded_last;
     e.encoded_last = header.frame;

@@ -80,6 +80,11 @@ std::string LaneMeter::filter() const {
     return counts_.filter;
 }
 
+std::uint64_t LaneMeter::dropped(DropReason reason) const {
+    const std::lock_guard lock(mutex_);
+    return counts_.dropped[std::size_t(reason)];
+}
+
 LaneFigures LaneMeter::figures(TimePoint now) const {
     const std::lock_guard lock(mutex_);
     LaneFigures f = counts_;

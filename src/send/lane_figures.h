@@ -77,6 +77,7 @@ public:
     void on_bytes(bool depth, std::size_t bytes);
     void on_filter(const std::string& spelling);
     std::string filter() const;
+    std::uint64_t dropped(DropReason reason) const;
 
     // Fills in all but name, camera and encoders.
     LaneFigures figures(TimePoint now) const;

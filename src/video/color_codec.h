@@ -25,6 +25,10 @@ enum class ColorCodecId : std::uint8_t {
     h264 = 67,
 };
 
+// A receiver that asks for this leaves the choice to the host: JPEG or H.264, which may change from
+// picture to picture; the media header says which one it is. It is no codec of this module.
+inline constexpr std::string_view auto_color = "auto";
+
 // A codec as a receiver asks for it, checked and in its one spelling.
 struct ColorSetting {
     ColorCodecId id = ColorCodecId::jpeg;
@@ -56,6 +60,8 @@ struct EncodedColor {
     ByteView bytes;
     // False: it refers to the picture that this encoder encoded before it.
     bool key = true;
+    // Of an encoder that changes its codec; otherwise it is the setting's.
+    std::optional<ColorCodecId> codec = std::nullopt;
 };
 
 // One stream's encoder. Not thread safe.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// How busy the whole machine is, as the system counts it. Linux only; elsewhere it is never busy.
+#pragma once
+
+namespace theatron {
+
+// Measures between two calls. Not thread safe.
+class MachineLoad {
+public:
+    // Share of all cores that did anything since the last call, 0 to 1; 0 at the first call.
+    double since_last();
+
+private:
+    double busy_ = 0, all_ = 0;  // since the machine was started, in the system's ticks
+};
+
+}  // namespace theatron

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "send/auto_color.h"
+
+#include "base/error.h"
+
+namespace theatron::send {
+namespace {
+
+std::unique_ptr<video::ColorEncoder> make(std::string_view setting) {
+    return video::make_color_encoder(video::parse_color_setting(setting).setting);
+}
+
+class AutoEncoder final : public video::ColorEncoder {
+public:
+    explicit AutoEncoder(std::shared_ptr<const AutoColor> is_h264) : is_h264_(std::move(is_h264)) {}
+
+    Result<video::EncodedColor> encode(const ColorData& color, bool key) override {
+        if (*is_h264_ && !h264_failed_) {
+            const bool begins = !h264_;
+            if (begins)
+                h264_ = make(auto_h264);
+            auto encoded = h264_->encode(color, key || begins);
+            if (encoded) {
+                encoded->codec = video::ColorCodecId::h264;
+                return encoded;
+            }
+            // A camera's damaged picture says nothing about the encoder.
+            if (encoded.error() == Status::malformed)
+                return encoded;
+            h264_failed_ = true;
+        }
+        h264_.reset();
+        auto encoded = jpeg_->encode(color, key);
+        if (encoded)
+            encoded->codec = video::ColorCodecId::jpeg;
+        return encoded;
+    }
+
+private:
+    const std::shared_ptr<const AutoColor> is_h264_;
+    const std::unique_ptr<video::ColorEncoder> jpeg_ = make(auto_jpeg);
+    std::unique_ptr<video::ColorEncoder> h264_;
+    bool h264_failed_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<video::ColorEncoder> make_auto_encoder(std::shared_ptr<const AutoColor> is_h264) {
+    return std::make_unique<AutoEncoder>(std::move(is_h264));
+}
+
+}  // namespace theatron::send

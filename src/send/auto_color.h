@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encoder of automatic colour (video::auto_color): H.264 or JPEG, picture by picture.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string_view>
+
+#include "video/color_codec.h"
+
+namespace theatron::send {
+
+// The two encodings that automatic colour changes between.
+inline constexpr std::string_view auto_h264 = "h264:crf=20", auto_jpeg = "jpeg:quality=85";
+
+// Says which one it is now, to the encoders of all cameras. From any thread.
+using AutoColor = std::atomic<bool>;  // true: H.264
+
+// Each picture says in EncodedColor::codec what it is. The first one after a change is a key
+// frame. Where H.264 cannot encode a picture it is JPEG from then on.
+std::unique_ptr<video::ColorEncoder> make_auto_encoder(std::shared_ptr<const AutoColor> is_h264);
+
+}  // namespace theatron::send
