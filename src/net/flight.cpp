@@ -13,7 +13,7 @@ constexpr Duration jitter = std::chrono::milliseconds(3);
 // How fast older measurements of the rate are forgotten, in time of a busy way.
 constexpr double memory_s = 0.06;
 // Measurements of the rate together stand for at most this much time.
-constexpr double longest_busy_s = 2 * memory_s;
+constexpr double busy_time_s = 2 * memory_s;
 // A rate seen longer ago says nothing about the way of today.
 constexpr Duration rate_validity = std::chrono::seconds(2);
 // The shortest round trip is that of the last one to two of these.
@@ -23,7 +23,7 @@ constexpr Duration bucket = std::chrono::seconds(5);
 constexpr Duration low_patience = std::chrono::seconds(3);
 constexpr double drain_share = 0.75;
 // A peer that stood still for seconds has a long round trip, and no queue that takes so long.
-constexpr Duration longest_drain = std::chrono::milliseconds(250);
+constexpr Duration drain_time = std::chrono::milliseconds(250);
 // A chunk that was held back and met no queue raises the measured rate by this part of it: on a
 // long way many such chunks are answered before the first of them can show that it was too much.
 constexpr double growth = 1.0 / 6;
@@ -84,7 +84,7 @@ void Flight::note_round_trip(Duration took, TimePoint now) {
         low_seen_ = now;
     } else if (low_seen_ != TimePoint{} && now - low_seen_ > low_patience) {
         low_seen_ = now;
-        draining_until_ = now + std::min(2 * took, longest_drain);
+        draining_until_ = now + std::min(2 * took, drain_time);
     }
 }
 
@@ -98,9 +98,9 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
         busy_seconds_ = busy_seconds_ * kept + busy;
         // A peer that stood still for seconds must not weigh so much that the rate stays low for
         // seconds, too, once it goes on.
-        if (const double scale = longest_busy_s / busy_seconds_; scale < 1) {
+        if (const double scale = busy_time_s / busy_seconds_; scale < 1) {
             busy_bytes_ *= scale;
-            busy_seconds_ = longest_busy_s;
+            busy_seconds_ = busy_time_s;
         }
         busy_at_ = now;
     } else if (newest.held_back) {
