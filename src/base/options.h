@@ -27,8 +27,8 @@ public:
     int take_int(std::string_view key, int fallback, int min, int max);
     bool take_flag(std::string_view key, bool fallback = false);  // 0 or 1
 
-    // What is wrong, as a sentence for the user; empty if nothing is. A key that
-    // was given and never taken is wrong too, so ask after the last take.
+    // The first problem as a sentence for the user; empty if there is none. A key that
+    // was given and never taken is a problem too, so call this after the last take.
     std::string problem() const;
 
     // Throws Error with problem(), if there is one.

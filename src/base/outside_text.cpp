@@ -14,8 +14,8 @@ struct Character {
     bool valid = false;
 };
 
-// The first character of `text`, which is not empty. Of an invalid sequence the longest part
-// that could have begun a character counts as one, as Unicode recommends.
+// The first character of `text`, which is not empty. In an invalid sequence the longest part
+// that could begin a character counts as one, as Unicode recommends.
 Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return std::uint8_t(text[i]); };
     const std::uint8_t lead = byte(0);

@@ -16,8 +16,8 @@ struct CameraPlaces {
     struct Entry {
         std::string camera;  // CameraInfo::name
         Pose room_from_camera;
-        // Of rotation (about the camera's axes, radians), then translation (along them, metres),
-        // row by row; nothing where it is not known.
+        // Covariance of rotation (about the camera's axes, radians), then translation (along them,
+        // metres), row by row; empty if unknown.
         std::optional<std::array<double, 36>> covariance;
         double depth_offset_mm = 0;  // the camera measures this much too far
         bool operator==(const Entry&) const = default;

@@ -14,7 +14,7 @@
 
 namespace theatron::medical {
 
-// What a part is, for its usual look and for the order in which parts are drawn.
+// The kind of a part. It decides the part's default colour and opacity and the drawing order.
 enum class Role : std::uint8_t { shell, artery, portal_vein, hepatic_vein, tumour, other };
 
 inline constexpr std::array<std::string_view, 6> role_names{"shell",        "artery", "portal_vein",

@@ -12,8 +12,8 @@ struct Segment {
     Vec3 a, b;
 };
 
-// The pieces in which triangles cross the plane through `point` across `normal` (any length). Of a
-// closed surface they join to closed lines.
+// The line segments in which triangles cut the plane through `point` with this `normal` (of any
+// length, not 0). The segments of a closed surface join to closed lines.
 std::vector<Segment> cut_mesh(const Mesh& mesh, Vec3 point, Vec3 normal);
 
 }  // namespace theatron::medical

@@ -46,7 +46,7 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-// Whether the triangles at each vertex are one fan, in a mesh whose edges have two triangles each.
+// True if the triangles at each vertex form one fan. Each edge of `mesh` must have two triangles.
 bool has_one_fan_per_vertex(const Mesh& mesh) {
     struct Half {
         std::uint64_t key;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface encloses, and whether it encloses anything at all. Pure functions.
+// Volume, area and topology of a surface: closed, manifold, neither. Pure functions.
 #pragma once
 
 #include "medical/mesh.h"

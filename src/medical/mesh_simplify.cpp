@@ -148,7 +148,7 @@ private:
         return common_.size() == 2 && near_a_.size() + near_b_.size() > 8 - 1;
     }
 
-    // Whether a triangle at `v` that stays would turn over or become a sliver.
+    // True if moving `v` to `to` turns one of its remaining triangles over or makes it a sliver.
     bool turns(std::uint32_t v, std::uint32_t other, Vec3 to) const {
         for (const std::uint32_t index : around_[v]) {
             const Triangle& t = mesh_.triangles[index];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the bytes that came may be acknowledged, and when: the receiver's half of flow
+// Decides how many received bytes are acknowledged, and when: the receiver's half of flow
 // control (net/flight.h is the sender's).
 //
-// A media message is acknowledged when a decoder has taken it, so that what the sender may put
-// on the way bounds what waits undecoded, too. Chunks of a message that is not complete are
-// acknowledged as they come, as far as earlier messages do not wait: a message larger than the
+// A media message is acknowledged when a decoder has taken it. The sender's window then also
+// bounds the undecoded messages. Chunks of an incomplete message are acknowledged on arrival,
+// except for as many bytes as earlier messages still wait with: so a message larger than the
 // sender's window gets through. Pure: time is an argument.
 #pragma once
 
@@ -17,15 +17,15 @@ namespace theatron::net {
 
 class Acknowledger {
 public:
-    // Acknowledgements of media are no closer than this.
+    // Shortest time between two acknowledgements of media.
     static constexpr Duration interval = std::chrono::milliseconds(4);
 
-    // An envelope has come that is no acknowledgement.
+    // An envelope of this size has arrived that is no acknowledgement.
     void came(std::size_t bytes, bool is_media, TimePoint now) {
-        came_ += bytes;
+        received_ += bytes;
         note(is_media, now);
     }
-    // A media message is complete, and waits until taken() is told of as many bytes.
+    // A media message is complete. It waits until taken() is called for as many bytes.
     void waits(std::size_t bytes) { waiting_ += bytes; }
     void taken(std::size_t bytes, TimePoint now) {
         waiting_ -= std::min(waiting_, std::uint64_t(bytes));
@@ -34,33 +34,35 @@ public:
 
     // The acknowledgement to send now, if any.
     std::optional<wire::Acknowledgement> due(TimePoint now) {
-        if (untold() == 0 || (untold() < wire::max_untold && !media_untold_) ||
+        if (unsent() == 0 || (unsent() < wire::max_untold && !media_unsent_) ||
             (ask_again() && now < *ask_again()))
             return std::nullopt;
-        told_ = came_ - waiting_;
-        told_at_ = now;
-        media_untold_ = false;
-        return wire::Acknowledgement{told_, now - newest_};
+        acknowledged_ = received_ - waiting_;
+        acknowledged_at_ = now;
+        media_unsent_ = false;
+        return wire::Acknowledgement{acknowledged_, now - newest_};
     }
 
-    // When to ask due() again if nothing comes until then.
+    // The time to call due() again if nothing arrives before.
     std::optional<TimePoint> ask_again() const {
-        if (!media_untold_ || untold() == 0)
+        if (!media_unsent_ || unsent() == 0)
             return std::nullopt;
-        return told_at_ + interval;
+        return acknowledged_at_ + interval;
     }
 
 private:
-    // What came before a message that waits may have been told already.
-    std::uint64_t untold() const { return came_ - waiting_ > told_ ? came_ - waiting_ - told_ : 0; }
+    // Bytes to acknowledge. 0 also if chunks of a message that now waits were acknowledged before.
+    std::uint64_t unsent() const {
+        return std::max(received_ - waiting_, acknowledged_) - acknowledged_;
+    }
     void note(bool is_media, TimePoint now) {
         newest_ = now;
-        media_untold_ = media_untold_ || is_media;
+        media_unsent_ = media_unsent_ || is_media;
     }
 
-    std::uint64_t came_ = 0, waiting_ = 0, told_ = 0;
-    bool media_untold_ = false;
-    TimePoint newest_, told_at_;
+    std::uint64_t received_ = 0, waiting_ = 0, acknowledged_ = 0;
+    bool media_unsent_ = false;
+    TimePoint newest_, acknowledged_at_;
 };
 
 }  // namespace theatron::net

@@ -21,11 +21,11 @@ public:
 
     bool known() const { return count_ > 0; }
 
-    // What to add to the local clock to get session time. Zero if not known.
+    // Session time minus local time. Zero if not known.
     Duration offset() const;
 
-    // The session clock is within this of local + offset(), if both ways of the
-    // best exchange took between nothing and its whole round trip.
+    // Largest difference between session time and local + offset(): half of the round trip
+    // of the best exchange, whatever share of it each direction took.
     Duration error_bound() const;
 
     Duration round_trip() const;  // of the best exchange kept

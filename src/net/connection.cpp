@@ -104,12 +104,12 @@ void Connection::taken(std::size_t bytes) {
     acknowledge();
 }
 
-// Tells the other side what has been taken, now or when it is time.
+// Sends an acknowledgement of the taken bytes, now or when the next one is due.
 void Connection::acknowledge() {
     if (finished_)
         return;
-    if (const auto word = acknowledger_.due(now_())) {
-        outbox_.put_acknowledgement(*word);
+    if (const auto acknowledgement = acknowledger_.due(now_())) {
+        outbox_.put_acknowledgement(*acknowledgement);
         write();
     }
     const auto again = acknowledger_.ask_again();
@@ -123,8 +123,8 @@ void Connection::acknowledge() {
     });
 }
 
-// Keeps what the kernel holds back small, so that dropping happens in the outbox and not after the
-// fact, and what is sent next waits behind little.
+// Keeps the kernel's queue of unsent bytes short. Frames are then dropped in the outbox while they
+// are still whole, and the next envelope waits behind few bytes.
 void Connection::limit_unsent() {
     const std::size_t limit = std::bit_floor(outbox_.unsent_limit());
     if (std::exchange(unsent_limit_, limit) == limit)
@@ -184,8 +184,8 @@ void Connection::take(ByteView envelope) {
     acknowledge();
 }
 
-// What is called may end this connection, and `closed` may destroy who owns the handlers: they
-// are kept until the last call has returned.
+// A handler may end this connection, and `closed` may destroy the owner of the handlers. So this
+// function shares their ownership until the last call has returned.
 void Connection::hand_on(const wire::Unwrapper::Unwrapped& unwrapped) {
     const auto events = events_;
     if (!unwrapped.control.empty())
@@ -270,7 +270,7 @@ void Connection::finish(const std::string& why) {
     beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_both,
                                                        ignored);
     beast::get_lowest_layer(socket_).close();
-    // Moved out first: nothing may be called after `closed`, and who is called may call back.
+    // Moved out first: nothing may be called after `closed`, and `closed` may call this object.
     if (const auto events = std::exchange(events_, nullptr); events && events->closed)
         events->closed(why);
 }

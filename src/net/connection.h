@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One WebSocket over TLS, after its handshakes: what server and client share.
 //
-// Reads envelopes and takes them apart; writes what its outbox says is next,
-// one envelope at a time, so that the newest frame is chosen as late as
-// possible. Everything runs on the io_context's one thread.
+// Reads and parses envelopes; writes the envelopes that its outbox chooses, one at
+// a time, so that the newest frame is chosen as late as possible. Everything runs
+// on the io_context's one thread.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -30,7 +30,7 @@ using WebSocket = boost::beast::websocket::stream<TlsStream>;
 // Sends small messages at once. Call once the socket is open.
 void tune_socket(boost::asio::ip::tcp::socket& socket);
 
-// A viewer's, so that pictures find room; a host's sockets need less.
+// Receive buffer of a viewer's socket, bytes: large enough for pictures. A host needs less.
 inline constexpr int viewer_receive_buffer = 1 << 20;
 void set_receive_buffer(boost::asio::ip::tcp::socket& socket, int bytes);
 
@@ -44,14 +44,14 @@ public:
     struct Events {
         std::function<void(ByteView)> control;
         // A complete media message, which may be moved away or exchanged for other memory. True:
-        // it has been taken. False: it waits, and taken() must be told its size later.
+        // it has been taken. False: it waits, and taken() must be called with its size later.
         std::function<bool(Bytes&)> media;
         std::function<void(const wire::State&)> state;
         std::function<void(const wire::Voice&)> voice;
         // A frame of media has begun to leave.
         std::function<void()> frame_left;
-        // More control waited than is kept; what waited is gone. Without it that ends the
-        // connection.
+        // More control waited than the outbox keeps, and all of it was dropped. If this handler is
+        // empty the connection ends.
         std::function<void()> control_lost;
         std::function<void(const std::string& why)> closed;
         std::function<TimePoint()> now;  // a steady clock; of a host, session time
@@ -67,7 +67,7 @@ public:
     void send_states(std::span<const wire::State> states);
     void send_voice(const wire::Voice& voice);
     Outbox::Pushed send_media(Media media);
-    // A media message that waited is no longer in the way: see Events::media.
+    // A media message of this size that waited has been taken: see Events::media.
     void taken(std::size_t bytes);
 
     // See Outbox.
@@ -78,10 +78,10 @@ public:
     // To be called a few times a second: gives up a peer that takes nothing.
     void look();
 
-    // Sends what control is queued, then closes. `why` is what `closed` is told.
+    // Sends the control messages that are queued, then closes. `closed` is called with `why`.
     void close(const std::string& why);
     void end(const std::string& why);  // at once
-    void abandon();                    // at once, and `closed` is not told
+    void abandon();                    // at once, without calling `closed`
 
 private:
     void take(ByteView envelope);

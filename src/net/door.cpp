@@ -77,7 +77,7 @@ struct Door::Impl {
 
     explicit Impl(asio::io_context& i) : inside(i) {}
 
-    // What completes is told on the door's thread, though sockets belong to `inside`.
+    // Runs a completion handler on the door's thread, although sockets belong to `inside`.
     template <class Handler>
     auto here(Handler handler) {
         return asio::bind_executor(io.get_executor(), std::move(handler));
@@ -113,7 +113,7 @@ public:
             leave("met a fault");
     }
 
-    // What follows an operation that succeeded.
+    // The completion handler of an operation: runs `work` on success, else ends the connection.
     template <class Work>
     auto step(Work work) {
         return door_.here(
@@ -346,7 +346,7 @@ std::uint16_t Door::port() const {
 
 void Door::run() {
     name_this_thread("door");
-    // Of this thread alone, on Linux.
+    // On Linux this sets the priority of the calling thread only.
     setpriority(PRIO_PROCESS, id_t(gettid()), niceness);
     impl_->accept();
     // A handler that threw cost its own connection; the others go on.

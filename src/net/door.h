@@ -25,9 +25,9 @@ public:
     // the end of the answer.
     static constexpr Duration request_deadline = std::chrono::seconds(3);
     static constexpr Duration first_message_deadline = std::chrono::seconds(2);
-    // Of an HTTP request's head.
+    // Largest head of an HTTP request.
     static constexpr std::size_t max_request_bytes = 8 * 1024;
-    // What the kernel may hold of what a stranger sent, and a participant. It doubles them.
+    // Receive buffers of sockets before and after the token was shown. Linux doubles them.
     static constexpr int stranger_receive_buffer = 16 * 1024;
     static constexpr int participant_receive_buffer = 64 * 1024;
     // When no more sockets can be had: one pending connection is closed, then this pause.

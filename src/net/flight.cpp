@@ -8,33 +8,33 @@
 namespace theatron::net {
 namespace {
 
-// A chunk that took so much longer than the fastest has queued.
+// A chunk whose round trip is longer than the shortest one by more than this has queued.
 constexpr Duration jitter = std::chrono::milliseconds(3);
-// How fast older measurements of the rate are forgotten, in time of a busy way.
+// Time constant with which older measurements of the rate lose weight, in time of a busy path.
 constexpr double memory_s = 0.06;
 // Measurements of the rate together stand for at most this much time.
 constexpr double busy_time_s = 2 * memory_s;
-// A rate seen longer ago says nothing about the way of today.
+// A rate measured longer ago is not reported: the path may have changed.
 constexpr Duration rate_validity = std::chrono::seconds(2);
 // The shortest round trip is that of the last one to two of these.
 constexpr Duration bucket = std::chrono::seconds(5);
-// With a queue that never empties the shortest round trip would creep upwards:
-// after so long without a short one, less is sent for a moment.
+// With a queue that never empties, the shortest round trip would grow without end. After this time
+// without a short one the window shrinks for a moment, so that the queue drains.
 constexpr Duration low_patience = std::chrono::seconds(3);
 constexpr double drain_share = 0.75;
-// A peer that stood still for seconds has a long round trip, and no queue that takes so long.
+// A round trip of seconds comes from a peer that paused. No queue needs so long to drain.
 constexpr Duration drain_time = std::chrono::milliseconds(250);
-// A chunk that was held back and met no queue raises the measured rate by this part of it: on a
-// long way many such chunks are answered before the first of them can show that it was too much.
+// A chunk that waited for the window and met no queue adds this share of its bytes to the measured
+// rate. On a long path many such chunks are sent before a queue shows that the rate is reached.
 constexpr double growth = 1.0 / 6;
-// The allowed queue is so long, and what so many bytes take besides.
+// The allowed queue: this time, plus the transmission time of these bytes.
 constexpr double queue_s = 0.005, queue_bytes = 25e3;
-// Where the rate is higher than this, the narrowest place is rather the peer's decoders, to which
-// the pictures of many cameras come at once.
+// Above this rate the bottleneck is probably the peer's decoders, at which the pictures of many
+// cameras arrive at once.
 constexpr double decoders_bytes_per_second = 12.5e6;
 constexpr Duration shortest_queue = std::chrono::milliseconds(8);
 constexpr Duration longest_queue = std::chrono::milliseconds(30);
-// A chunk takes about so long, and what the kernel holds back.
+// Transmission times of a chunk and of the unsent bytes in the kernel, about.
 constexpr double chunk_s = 0.003, unsent_s = 0.006;
 constexpr std::size_t smallest_chunk = 2 * 1024;
 constexpr std::size_t smallest_unsent = 4 * 1024, largest_unsent = 64 * 1024;
@@ -91,20 +91,20 @@ void Flight::note_round_trip(Duration took, TimePoint now) {
 void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint now) {
     const Duration queued = took - round_trip();
     if (queued > jitter) {
-        // A chunk that found the way empty has not waited since the last answer.
+        // The queue of a chunk that met an empty path began after the last answer.
         const double busy = to_seconds(std::min(now - last_answer_, queued));
         const double kept = std::exp(-busy / memory_s);
         busy_bytes_ = busy_bytes_ * kept + bytes;
         busy_seconds_ = busy_seconds_ * kept + busy;
-        // A peer that stood still for seconds must not weigh so much that the rate stays low for
-        // seconds, too, once it goes on.
+        // A peer that paused for seconds must not weigh so much that the rate also stays low for
+        // seconds after the pause.
         if (const double scale = busy_time_s / busy_seconds_; scale < 1) {
             busy_bytes_ *= scale;
             busy_seconds_ = busy_time_s;
         }
         busy_at_ = now;
     } else if (newest.held_back) {
-        // It was held back and met no queue: the way carries more than is known.
+        // It was held back and met no queue: the path carries more than the measured rate.
         if (busy_seconds_ > 0)
             busy_bytes_ += growth * bytes;
         else

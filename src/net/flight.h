@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is on its way to one peer, what the way carries, and how much more may
-// be put on it: the answer to buffers in the network that would rather make
-// frames old than drop them.
+// Flow control towards one peer: bytes in flight, the rate of the path, and the window
+// that follows from both. Network buffers are long and make frames old instead of
+// dropping them; the window keeps their queues short.
 //
-// The peer says how many bytes it has taken. From chunks that had to queue
-// behind others comes the rate at which the narrowest place serves them, which may
-// be the link or the peer's decoders; the shortest round trip is the way's own delay.
-// Media on its way is kept to what that rate carries in one round trip and a small
-// queue, so a frame that is chosen late is also new when it arrives, and a state waits
-// behind little. Control, states and voice count, too, and may exceed the window by
-// interaction_reserve. Pure: time is an argument.
+// The peer acknowledges the bytes that it has taken. Chunks that queued behind others
+// show the rate of the bottleneck, which is the link or the peer's decoders. The
+// shortest round trip is the delay of the path without queues. The window is the rate
+// times the sum of round trip and a short queue: a frame that is chosen late is then
+// still new on arrival, and a state waits behind few bytes. Control, states and voice
+// count too and may exceed the window by interaction_reserve.
+// Pure: time is an argument.
 #pragma once
 
 #include <cstdint>
@@ -22,42 +22,42 @@ namespace theatron::net {
 
 class Flight {
 public:
-    // Before anything is known about the way, and never less than the latter.
+    // The window before the first measurement, and the smallest one; bytes.
     static constexpr double first_window = 1 << 20;
     static constexpr double smallest_window = 26 * 1024;
-    // Bytes of control, states and voice that may be on the way beyond the window.
+    // Bytes of control, states and voice that may be in flight beyond the window.
     static constexpr double interaction_reserve = 8 * 1024;
     static_assert(wire::max_untold < std::size_t(smallest_window));
 
-    // The queue that is allowed at the narrowest place of a way with this rate: long enough for
-    // the rate to be used in full, short enough for what must not wait
+    // The queueing time that is allowed at a bottleneck of this rate: long enough to use the whole
+    // rate, short enough for states and voice, which share the queue
     // (docs/decisions/traffic-classes.md).
     static Duration allowed_queue(double bytes_per_second);
 
-    // A chunk of media leaves. `queued` is when its message was there to be sent.
+    // A chunk of media is sent. `queued` is the time when its message entered the outbox.
     void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now);
-    // Control, states or voice leave.
+    // An envelope of control, states or voice is sent.
     void sent_interaction(std::size_t bytes, TimePoint now) { sent(bytes, now, false, now); }
 
-    // The peer has taken `total` bytes since the beginning, and said so `held` later. What cannot
-    // be is ignored.
+    // The peer has taken `total` bytes since the beginning and waited for `held` before it sent
+    // this. Totals that are impossible or not newer are ignored.
     void acknowledge(std::uint64_t total, Duration held, TimePoint now);
 
-    // False if what is on its way should arrive first. A peer that never
-    // acknowledges anything is not held back. Ask when there is media to send.
+    // False if the window is full. True for a peer that has never acknowledged anything.
+    // Call only if there is media to send: a refusal marks the next chunk as held back.
     bool may_send(TimePoint now);
     // The same for control, states and voice.
     bool may_send_interaction(TimePoint now) const;
-    // There is nothing more to send now.
+    // The outbox is empty: the next chunk has not been held back.
     void idle() { held_back_ = false; }
 
     std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
     double window(TimePoint now) const;
 
-    // What suits the rate of the way; the largest while it is not known.
-    std::size_t chunk_size() const;    // media in one envelope
-    std::size_t unsent_limit() const;  // what the kernel may hold that has not left yet
-    // What the way carries; 0 while it is not known, or was last seen long ago.
+    // Sizes that suit the measured rate; the largest ones before the first measurement.
+    std::size_t chunk_size() const;    // bytes of media in one envelope
+    std::size_t unsent_limit() const;  // bytes that the kernel may keep unsent
+    // The measured rate; 0 if there is no measurement, or none of the last two seconds.
     double bytes_per_second(TimePoint now) const;
     Duration round_trip() const;  // the shortest of the last seconds
 
@@ -83,7 +83,7 @@ private:
     std::deque<Chunk> chunks_;  // on their way, oldest first
     TimePoint last_answer_;
 
-    // Of the last while in which chunks queued.
+    // Bytes and time of the last phases in which chunks queued; older ones weigh less.
     double busy_bytes_ = 0, busy_seconds_ = 0;
     TimePoint busy_at_;
     double window_at_first_ = first_window;

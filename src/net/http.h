@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a browser or a monitoring system asks without a WebSocket, and how to read it.
+// HTTP requests without a WebSocket, from browsers and monitoring systems, and their parsing.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ std::string query_value(std::string_view target, std::string_view parameter);
 // The token that a request shows: "Authorization: Bearer TOKEN", or token=TOKEN in the query.
 std::string shown_token(const HttpRequest& request);
 
-// Whether a page of `origin` (that header; empty: no browser) may talk to `host` (that header):
-// only one that this host itself served.
+// True if a page of `origin` (that header; empty: no browser) may connect to `host` (that header).
+// Only pages that this host itself served may.
 bool is_own_origin(std::string_view origin, std::string_view host);
 
 }  // namespace theatron::net

@@ -9,10 +9,10 @@
 namespace theatron::net {
 namespace {
 
-// The burst that a ceiling allows before it holds media back, and all else.
+// The bursts that a ceiling tolerates before it holds back media, and the other classes.
 constexpr Duration ceiling_burst = std::chrono::milliseconds(20);
 constexpr Duration interaction_burst = std::chrono::milliseconds(100);
-// What TLS, WebSocket, TCP and IP add to an envelope, about: so much, and a share of its bytes.
+// Estimated overhead of TLS, WebSocket, TCP and IP: bytes per envelope, and a share of its bytes.
 constexpr std::size_t envelope_overhead = 90;
 constexpr double overhead_share = 0.03;
 
@@ -60,7 +60,7 @@ void Outbox::wait(Lane& lane, Media media) {
     lane.waiting.push_back(std::move(media));
 }
 
-// Of all streams, so that a gap has one beginning and one end.
+// The bound counts all streams together, so that a gap begins and ends in all of them.
 Outbox::Pushed Outbox::keep(Media media) {
     Lane& lane = lanes_[media.stream];
     lane.broken = lane.broken || media.setting != lane.setting;

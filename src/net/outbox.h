@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to send next to one peer, and what to drop: the sending policy, apart
-// from any socket.
+// The sending policy towards one peer: chooses the next envelope and drops messages,
+// without any socket.
 //
 // Each class of traffic (wire/envelope.h) has its rule. Acknowledgements go first, and only the
-// newest waits. Control is complete and in order; when a peer leaves too much of it waiting, all
-// that waits is given up, and the peer must be told everything anew. Of voice the oldest packets
-// are given up, of states the newest with a key replaces the one that waits. Media goes last. It
-// waits in short queues, one per stream, and the newest frame wins: a frame that any receiver can
-// do without is dropped as soon as a newer one comes; a broken chain of references is cut at once
-// and taken up again at the next key frame. So a slow peer gets fewer frames, never older ones, and
-// memory is bounded. A peer that records is sent everything instead, in order and however late, up
-// to a bound of bytes. How much may be on its way at once is up to Flight, how much in a second to
-// a ceiling; all classes but acknowledgements count in both.
+// newest waits. Control is complete and in order; if too much of it waits, all of it is dropped
+// and the session's state must be sent again. Of voice, the oldest packets are dropped. A new
+// state replaces the waiting one with the same key. Media goes last. It waits in short queues, one
+// per stream, and the newest frame wins: when a newer frame comes, a waiting frame to which none
+// refers is dropped; a broken chain of references is cut at once and continued at the next key
+// frame. So a slow peer gets fewer frames, never older ones, and memory is bounded. A peer that
+// records gets everything instead, in order and however late, up to a bound of bytes. Flight limits
+// the bytes in flight, a ceiling the bytes per second; all classes except acknowledgements count
+// in both.
 #pragma once
 
 #include <deque>
@@ -37,15 +37,15 @@ struct Media {
     FrameNumber reference = 0;
     int temporal_layer = 0;
     bool key = false;
-    TimePoint queued;  // when it was there to be sent
+    TimePoint queued;  // when it entered the outbox
 };
 
-// How sending to one peer goes, since the last time that it was asked for.
+// Figures of sending to one peer since the last call of take_figures().
 struct SendingFigures {
-    double bytes_per_second = 0;  // what the way to the peer carries; 0 while not known
-    Duration round_trip{};        // the way's own
+    double bytes_per_second = 0;  // rate of the path to the peer; 0 while not known
+    Duration round_trip{};        // of the path without queues
     Duration delay{};             // the longest from queued to arrived
-    int dropped = 0;              // frames given up
+    int dropped = 0;              // frames
     std::size_t bytes_on_the_way = 0;
 };
 
@@ -54,22 +54,22 @@ class Outbox {
 public:
     // Frames of one stream that may wait behind the one being sent.
     static constexpr std::size_t max_waiting = 2;
-    // What may wait for a peer for which everything is kept. When it is full, frames are given up
-    // until half of it has left, and each stream goes on with a key frame.
+    // Bytes that may wait for a peer for which everything is kept. If they are more, frames are
+    // dropped until half of them has left, and each stream continues with a key frame.
     static constexpr std::size_t max_kept_bytes = std::size_t(64) << 20;
-    // More control than this is not kept for a peer that reads nothing.
+    // Bytes of control that may wait for a peer that reads nothing.
     static constexpr std::size_t max_control_bytes = std::size_t(1) << 20;
-    // What a message costs here besides its bytes.
+    // Bytes that a waiting message counts beside its own.
     static constexpr std::size_t control_overhead = 64;
-    // States with different keys that may wait; further ones are left out.
+    // States with different keys that may wait; further ones are dropped.
     static constexpr std::size_t max_waiting_states = 1024;
     // Packets of one speaker that may wait, and of all together.
     static constexpr std::size_t max_waiting_voice = 3, max_waiting_voices = 96;
-    // Media waits and nothing is taken for so long: the peer should be given up.
+    // Longest time in which a peer takes nothing although something waits: see stands_still().
     static constexpr Duration give_up_after = std::chrono::seconds(30);
 
-    // Queues a control envelope (wire::wrap_control). False if there was no room: this one and all
-    // that waited are gone, and the peer's picture of the session must be sent anew.
+    // Queues a control envelope (wire::wrap_control). False if there was no room: then this one and
+    // all that waited are dropped, and the session's state must be sent to the peer again.
     [[nodiscard]] bool push_control(Bytes envelope);
 
     void put_acknowledgement(const wire::Acknowledgement& newest) { acknowledgement_ = newest; }
@@ -77,9 +77,9 @@ public:
     void push_voice(const wire::Voice& voice);
 
     struct Pushed {
-        int dropped = 0;  // frames given up, this one included if need be
-        // Nothing of this stream goes out before a key frame. Said once until the peer takes
-        // something: another key frame would only replace the one that waits.
+        int dropped = 0;  // frames, possibly including this one
+        // Nothing of this stream is sent before a key frame. True only once until the peer takes
+        // something: another key frame would only replace the waiting one.
         bool needs_key = false;
     };
     Pushed push_media(Media media);
@@ -87,30 +87,30 @@ public:
     // From now on frames wait in order up to max_kept_bytes, and none replaces another.
     void keep_everything() { keeps_everything_ = true; }
 
-    // Fills `envelope` with what to send next; false if there is nothing, or media
-    // has to wait. `now`, on a clock that never jumps, is written into a media message as `sent`.
+    // Fills `envelope` with the next one to send; false if nothing waits or all is held back.
+    // `now`, on a clock that never jumps, is written into a media message as `sent`.
     bool next(Bytes& envelope, TimePoint now);
 
-    // When to ask next() again if only the ceiling held something back; otherwise after
-    // the next acknowledge() or push.
+    // The time to call next() again if the ceiling held something back; empty otherwise.
+    // Call next() also after each acknowledge() and push.
     std::optional<TimePoint> ask_again() const { return ask_again_; }
 
     void acknowledge(const wire::Acknowledgement& word, TimePoint now);
 
-    // How much of what has not left yet the kernel should hold at most.
+    // Bytes that the kernel should keep unsent at most.
     std::size_t unsent_limit() const { return flight_.unsent_limit(); }
 
-    // At most so much from now on; 0: no ceiling.
+    // Limits the rate from now on; 0: no ceiling.
     void set_ceiling(double bytes_per_second) { ceiling_ = bytes_per_second; }
 
     SendingFigures take_figures(TimePoint now);
 
-    // Whether the peer has taken nothing for give_up_after although something waits for it. Ask a
-    // few times a second.
+    // True if the peer has taken nothing for give_up_after although something waits for it. Call it
+    // a few times a second.
     bool stands_still(TimePoint now);
 
-    // A frame of the stream has not begun to leave: another would only wait behind it, and
-    // frames are not kept.
+    // True if a frame of the stream waits and has not begun to leave: another frame would only
+    // wait behind it. False for a peer for which everything is kept.
     bool is_behind(StreamId stream) const {
         if (keeps_everything_)
             return false;
@@ -168,8 +168,8 @@ private:
     TimePoint sending_queued_;
     std::size_t sent_ = 0;  // bytes of sending_ that are out
 
-    // What the peer has taken, as a count that only has to change; and whether it took all that
-    // was there.
+    // A count that changes whenever the peer takes something; and true while nothing is
+    // waiting.
     std::uint64_t moved_ = 0;
     bool idle_ = true;
     std::uint64_t moved_before_ = 0;

@@ -270,7 +270,7 @@ const Bytes& body(int value) {
     return bodies.try_emplace(value, 4, std::byte(value)).first->second;
 }
 
-// What the next envelope holds.
+// The content of the next envelope.
 struct Next {
     std::map<std::uint32_t, int> states;
     std::vector<int> voice;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which connections of strangers are kept, and whose TLS handshake is next: what a host has
-// for those who have not shown a token, so that they cannot shut out those who can
+// Limits connections that have not shown a token: chooses those that are kept and the next TLS
+// handshake, so that strangers cannot shut out people who have the token
 // (docs/decisions/strangers.md).
 //
 // A connection is pending from its acceptance until its token was seen. Addresses from which a
@@ -23,7 +23,7 @@ class Places {
 public:
     // Pending connections of strangers, and as many of known addresses.
     static constexpr std::size_t max_pending = 256;
-    // Known addresses; the one that was heard of longest ago is forgotten first.
+    // Known addresses; the one that was noted longest ago is forgotten first.
     static constexpr std::size_t max_known = 256;
     // TLS handshakes begun: each costs about 0.7 ms of a core. Strangers all together, known
     // addresses all together, and a single address.
@@ -31,8 +31,8 @@ public:
 
     enum class Id : std::uint64_t {};
 
-    // `address` has come. Returns who has to go for it, if anybody: the longest pending
-    // connection of the address that has the most.
+    // A connection from `address` was accepted. Returns its id, and the connection to close for
+    // it, if any: the longest pending one of the address that has the most.
     struct Entered {
         Id id{};
         std::optional<Id> evicted;
@@ -40,7 +40,7 @@ public:
     Entered enter(const std::string& address);
     void leave(Id id);
 
-    // Who would be evicted next.
+    // The connection that would be evicted next.
     std::optional<Id> next_to_go() const;
 
     // The token was shown from this address.
@@ -49,15 +49,15 @@ public:
 
     // `id` waits for its handshake.
     void want_handshake(Id id);
-    // Whose handshake may begin now: known addresses first, then the address that had the fewest
-    // lately, of these the longest waiting.
+    // The connection whose handshake may begin now: known addresses first, then the address with
+    // the fewest recent handshakes, and of its connections the one that waits longest.
     std::optional<Id> next_handshake(TimePoint now);
     bool handshakes_wait() const { return waiting_ > 0; }
 
     std::size_t pending() const { return entries_.size(); }
 
 private:
-    // So many a second, and a tenth of a second's at once.
+    // A rate limit whose burst is a tenth of a second's handshakes.
     struct Budget {
         double left = 0;
         TimePoint filled;
@@ -81,8 +81,8 @@ private:
     void refill(TimePoint now);
 };
 
-// What counts as one address: an IPv4 address, or the 64 bits of an IPv6 address that one
-// network has. `text` as Asio writes addresses.
+// The key under which limits count an address: an IPv4 address itself, or the 64-bit prefix of an
+// IPv6 address, which one network has. `text` as Asio writes addresses.
 std::string address_group(const std::string& text);
 
 }  // namespace theatron::net

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host's side of the network: one TLS 1.3 port, one WebSocket per
-// participant. What the messages mean is its user's business. Strangers are
+// participant. It does not read the content of messages. Strangers are
 // kept apart until they have shown the token (net/door.h).
 #pragma once
 
@@ -22,27 +22,27 @@ class Server {
 public:
     // Participants at once; a room holds fewer people.
     static constexpr std::size_t max_participants = 128;
-    // Connections without the token that are being told so; the oldest goes for another.
+    // Connections without the token that are still being refused; a new one closes the oldest.
     static constexpr std::size_t max_uninvited = 16;
 
     // Called on the thread that runs the server, unless said otherwise. A call that throws costs
     // the connection that it was made for.
     struct Handler {
-        // On the door's thread, at the same time as the others: whether a connection's first
-        // control message shows the token. Empty: they all do.
+        // On the door's thread, at the same time as the others: true if a connection's first
+        // control message shows the token. Empty: all connections are invited.
         std::function<bool(ByteView first)> invited;
         // On the door's thread, too. Empty: the host says what it is.
         std::function<HttpAnswer(const HttpRequest&)> http;
         // Also on the door's thread: a stranger did not get in; `why` in a few words. May be empty.
         std::function<void(const std::string& address, const std::string& why)> turned_away;
 
-        // A connection has sent its first message, which `control` is told next.
+        // A connection has sent its first message. The next call is `control` with that message.
         std::function<void(PeerId, const std::string& address, bool invited)> connected;
         std::function<void(PeerId, ByteView)> control;
         std::function<void(PeerId, const wire::State&)> state;  // may be empty
         // A frame has begun to leave to a peer: is_behind() may have changed. May be empty.
         std::function<void(PeerId)> frame_left;
-        // A peer did not read, and control for it was given up: it must be told everything anew.
+        // A peer did not read, and control for it was dropped: send it the session's state again.
         // Empty: its connection ends.
         std::function<void(PeerId)> control_lost;
         std::function<void(PeerId, const std::string& why)> closed;
@@ -57,8 +57,8 @@ public:
 
     std::uint16_t port() const;
 
-    // Serves until stop(), with a second thread for strangers. What was posted and not begun by
-    // then is left out.
+    // Serves until stop(), with a second thread for strangers. Posted work that has not begun by
+    // then is not run.
     void run();
 
     // From any thread.

@@ -10,7 +10,7 @@
 
 namespace theatron::render {
 
-// What one RGB-D camera gives.
+// The pictures of one RGB-D camera.
 struct BallSceneImages {
     DepthImage depth;
     ColorImage color;
@@ -21,15 +21,15 @@ struct BallSceneImages {
 // camera stands 3 cm beside the depth camera.
 Calibration ball_scene_camera(int i, int count, double spread_degrees, Size depth, Size color);
 
-// What the camera measures: depth with noise of this standard deviation that depends on
-// `seed` alone, colour without noise. Pixels at a depth edge are measured as
-// one of the two surfaces.
+// The camera's measurement of the scene: depth in units of the calibration with Gaussian noise
+// of this standard deviation, the same for equal `seed`; colour without noise. A pixel at a
+// depth edge shows one of the two surfaces.
 BallSceneImages ball_scene_images(const Calibration& calibration, double noise_mm, unsigned seed);
 
 // The exact picture. Where the scene ends, depth is 0 and colour black.
 Picture ball_scene_picture(const CameraView& view, Size size);
 
-// Where the cameras look.
+// The point that the cameras are turned to, in the room.
 inline constexpr Vec3 ball_scene_middle{0, 0.9, 0};
 
 // The picture that every renderer's golden picture is of: two cameras, seen from between.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What "blend" is for: several cameras that look at the same surfaces.
+// The renderer "blend" with several cameras that see the same surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>

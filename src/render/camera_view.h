@@ -18,9 +18,9 @@ struct CameraView {
     double near_m = 0.05, far_m = 100;
 };
 
-// What a camera sees, drawn into a picture of `picture` size: the picture agrees
-// with the camera's own, pixel by pixel, but for its lens distortion. Where the
-// pictures' proportions differ, more is seen at two sides and nothing is lost.
+// The camera's own view for a picture of `picture` size. The drawn picture agrees with the
+// camera's, pixel by pixel, but for its lens distortion. Where the pictures' proportions
+// differ, the drawn one shows more at two sides and loses nothing.
 CameraView view_of_camera(const CameraModel& camera, const Pose& room_from_camera, Size picture);
 
 // A view from `eye` towards `target` with room's up up in the picture. `eye`

@@ -97,7 +97,7 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
     return u;
 }
 
-// Whether all but the place in the room is the same.
+// True if the two differ at most in the camera's place in the room.
 bool same_images(Calibration a, const Calibration& b) {
     a.room_from_camera = b.room_from_camera;
     a.registered = b.registered;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of a camera's cloud is shown: of a participant's own camera only the person, and
-// of oneself nothing that blocks one's view. Every renderer fades out at the borders.
+// The part of a camera's cloud that is drawn: of a participant's own camera only the person, and
+// of the viewer's own body nothing that blocks the view. Every renderer fades out at the borders.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 namespace theatron::render {
 
 struct CloudCut {
-    // Only what is near a point of the room is shown.
+    // Only points in this ball of the room are drawn.
     struct Ball {
         Vec3 middle;
         double radius_m = 0;
         bool operator==(const Ball&) const = default;
     };
-    // What is near a line in the room is not shown.
+    // Points within this distance of a line in the room are not drawn.
     struct Capsule {
         Vec3 from, to;
         double radius_m = 0;

@@ -90,7 +90,7 @@ public:
     // that is a change: then clouds are empty until their images are uploaded again.
     bool set_depth_step(int step);
 
-    // Which part of a camera's cloud is shown; all of it when added.
+    // Sets the part of a camera's cloud that is drawn; all of it when added.
     void set_cut(CameraId camera, const CloudCut& cut);
 
     // Takes a camera's newest images; both may be freed afterwards. `color` may

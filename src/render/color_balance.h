@@ -25,8 +25,8 @@ public:
     // Estimates anew if there is enough that is new. True if gains changed.
     bool update();
 
-    // What to multiply a camera's sRGB values with: x, y, z for red, green, blue. Near 1;
-    // changes slowly, except when a camera is first compared with others.
+    // Factors for a camera's sRGB values: x, y, z for red, green, blue. Near 1; they change
+    // slowly, except when a camera is first compared with others.
     Vec3 gain(CameraId camera) const;
 
 private:

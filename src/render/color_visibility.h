@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each colour camera sees of what its depth camera measured: without it the
-// colours of the foreground would also be painted on what is hidden behind.
+// The surfaces that each colour camera sees, among those that its depth camera measured. Without
+// this map the foreground's colours would also be painted on the surfaces that it hides.
 //
 // One small depth map for each camera, drawn again when the camera's images or lenses
 // changed, not for each view.
@@ -25,8 +25,8 @@ private:
     Framebuffer framebuffer_;
 };
 
-// Whether a colour camera needs a map: not if its pictures are already those of
-// the depth camera.
+// True if the colour camera needs such a map. A colour picture that is registered to the depth
+// camera needs none.
 bool may_be_hidden(const Calibration& calibration);
 
 }  // namespace theatron::render

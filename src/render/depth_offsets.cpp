@@ -111,7 +111,7 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
     const int step = (color.size.width + largest_copy - 1) / largest_copy;
     copy_brightness(color, step, camera.brightness);
     camera.color = scaled(calibration.color, camera.brightness.size);
-    // Of each block the first pixel, not the mean, was taken.
+    // The copy has the first pixel of each block, not the block's mean.
     camera.color.cx += 0.5 - 0.5 / step;
     camera.color.cy += 0.5 - 0.5 / step;
     find_samples(camera);
@@ -149,7 +149,7 @@ void DepthOffsets::find_samples(Camera& camera) {
         }
 }
 
-// What `b` says of an offset of `a`, from texture of this size in pixels.
+// The equation for the offset of `a` that texture of this size (pixels) in `b` gives.
 DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, double offset_m,
                                              int size) {
     const Pose b_from_a = inverse(b.calibration.room_from_camera) * a.calibration.room_from_camera;
@@ -182,8 +182,8 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
         if (x < 0 || y < 0 || x >= b.depth.size.width || y >= b.depth.size.height ||
             std::abs(metres(b.calibration, b.depth.view().row(y)[x]) - there.z) > hidden_m)
             continue;
-        // What b sees if the point is nearer or further by half of that, and where on the surface
-        // that is.
+        // Texture in b if the point is nearer or further by half a texture's size, and the place
+        // on the surface of `a` to which that move corresponds.
         const double step = 0.5 * size * there.z / b.color.fx;
         const Vec3 along = ray - from_b * (dot(ray, s.normal) / dot(from_b, s.normal));
         const auto texture = seen_by_a(s.point), here = seen_by_b(point),

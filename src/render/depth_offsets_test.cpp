@@ -72,7 +72,7 @@ protected:
         offsets.add(CameraId(camera), i.calibration, i.depth.view(), i.color.view());
     }
 
-    // Of all cameras.
+    // Updates until no camera is waiting.
     bool update_all() {
         bool any = false;
         while (offsets.update())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one camera shows depends on no other one: neither on their sizes, nor on their coming and
-// going, nor on how often it moved itself.
+// The picture of one camera depends on no other one: neither on their sizes nor on their coming
+// and going. It does not depend either on how often the camera itself was moved.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens from one picture to the next: cameras that come and go, things that move, noise.
+// Changes from one picture to the next: cameras that come and go, objects that move, noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>

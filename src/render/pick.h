@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ray points at: of a pointer's, a hand's, or through a pixel of a picture.
+// The object that a ray meets first: a pointer's ray, a hand's, or one through a pixel.
 //
 // Rays are followed on the CPU, because a controller's ray belongs to no picture, and because
 // reading one back from the GPU would wait for it.

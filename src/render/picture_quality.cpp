@@ -13,7 +13,7 @@ bool lies_behind(int mm, int other_mm, int jump_mm) {
     return other_mm == 0 || other_mm > mm + jump_mm;
 }
 
-// Whether something further away begins beside this pixel.
+// True if this pixel shows a surface and one of its four neighbours shows one behind, or none.
 bool is_outline(DepthView depth_mm, int x, int y) {
     const int mm = depth_mm.row(y)[x];
     const auto behind = [&](int nx, int ny) {
@@ -93,7 +93,7 @@ void OutlineError::add(DepthView drawn_mm, DepthView exact_mm, MaskView mask) {
 
 namespace {
 
-// Whether another surface begins within two pixels.
+// True if a pixel at most two columns and two rows away shows another surface.
 bool near_outline(DepthView depth_mm, int x, int y) {
     const int mm = depth_mm.row(y)[x];
     for (int ny = std::max(y - 2, 0); ny <= std::min(y + 2, depth_mm.size.height - 1); ++ny)

@@ -27,8 +27,8 @@ struct DrawnClouds {
     std::string renderer;
 };
 
-// All that is drawn at one moment. Which cameras, how present they are and what is cut off them
-// is kept by the CloudSet, as it changes seldom.
+// All that is drawn at one moment. The CloudSet keeps the list of cameras, their presence and their
+// cuts, which change seldom.
 struct RoomPicture {
     const SceneFrame* scene = nullptr;  // none: the clouds alone
     std::vector<DrawnClouds> clouds;

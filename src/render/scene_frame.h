@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn beside the clouds: the room, organs, people, panels, texts. The viewer owns the
-// description of a picture; room, organs and people append to it, anew for each picture. No GL type
+// Everything in a picture except the clouds: the room, organs, people, panels, texts. The viewer
+// owns the description; room, organs and people append to it, anew for each picture. No GL type
 // appears here.
 #pragma once
 
@@ -63,8 +63,8 @@ public:
     Size size() const;
     // Opaque; of the texture's size.
     void set(ColorView picture);
-    // To be drawn into instead, with colour and opacity; the row y = 0 is the upper one. What was
-    // drawn is seen after finish().
+    // A target for drawing, instead of set(): with colour and opacity; row y = 0 is the upper one.
+    // The drawing appears on surfaces after finish().
     DrawTarget target() const;
     void finish();
 
@@ -87,7 +87,7 @@ struct SurfaceLook {
     bool unlit = false;
 };
 
-// What a ray found (pick.h); given by whoever appends an object.
+// Names an object in the result of a pick (pick.h). The code that appends an object chooses it.
 enum class ObjectId : std::uint32_t { none = 0 };
 
 struct SceneObject {
@@ -117,7 +117,7 @@ struct SceneFrame {
     std::vector<SceneText> texts;
     Vec3 to_light{0.3, 1, 0.2};  // a direction
     double light = 2.2;          // of white light, beside the surroundings' 1
-    // What casts shadows, all but the backdrop, lies in this ball.
+    // All objects that cast shadows (the opaque ones, without the backdrop) lie in this ball.
     Vec3 shadow_middle{0, 1, 0};
     double shadow_radius_m = 2.5;
     SceneQuality quality = SceneQuality::high;

@@ -132,7 +132,7 @@ struct ScenePasses::Parts {
         glClearBufferfv(GL_DEPTH, 0, &farthest);
         shadow.use();
         for (const SceneObject& object : frame.objects) {
-            // What is half transparent would hide light as something solid does.
+            // A depth map has no opacity: a translucent object would cast a solid one's shadow.
             if (is_translucent(object) || (object.backdrop && !with_backdrop))
                 continue;
             set_matrix(shadow_clip_from_object, clip_from_room * matrix(object.room_from_object));

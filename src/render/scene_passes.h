@@ -26,7 +26,7 @@ public:
     ScenePasses(ScenePasses&&) noexcept;
     ScenePasses& operator=(ScenePasses&&) noexcept;
 
-    // What is the same for both eyes. Changes framebuffer and viewport.
+    // Draws the maps that both eyes share: shadows. Changes framebuffer and viewport.
     void prepare(const SceneFrame& frame);
     void draw_opaque(const SceneFrame& frame, const CameraView& view, const DrawTarget& target);
     // From back to front, each object's inside before its outside: right for objects that

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of each depth pixel whatever the view: drawn once for each new image,
-// read by the vertices of every view.
+// Properties of each depth pixel that do not depend on the view. They are drawn once for each new
+// image and read by the vertices of every view.
 #pragma once
 
 #include <optional>

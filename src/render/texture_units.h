@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which texture unit each sampler of the cloud shaders reads, so that no two passes that draw
-// together take the same one.
+// The texture unit of each sampler of the cloud shaders, in one place, so that no two passes that
+// draw together take the same one.
 #pragma once
 
 namespace theatron::render::texture_unit {
 
-// Of the camera that is drawn; see CloudCamera::bind.
+// Images of the camera that is drawn; see CloudCamera::bind.
 inline constexpr int depth_image = 0, rays = 1, color_picture = 2;
 inline constexpr int nearest_in_color = 3;                                 // ColorVisibility
 inline constexpr int edge_distances = 4;                                   // EdgeMaps

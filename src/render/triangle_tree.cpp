@@ -21,7 +21,7 @@ double along(Vec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// Whether the ray passes through the box before `limit`. Infinite quotients compare as they should.
+// True if the ray meets the box before `limit`. Infinite quotients compare correctly.
 bool meets(Vec3 low, Vec3 high, Vec3 from, Vec3 direction, double limit) {
     double enter = 0, leave = limit;
     for (int axis = 0; axis < 3; ++axis) {

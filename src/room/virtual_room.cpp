@@ -10,15 +10,15 @@ namespace {
 using render::MeshData;
 using render::SceneObject;
 
-// Between the cameras and the walls, and the least that feels like a room.
+// Distance between the cameras and the walls, and the smallest room.
 constexpr double margin_m = 1.5, least_side_m = 6, least_height_m = 2.8, above_cameras_m = 0.4;
-// What the cameras look at is inside, too.
+// The walls also enclose the point at this distance ahead of each camera.
 constexpr double looks_at_m = 2.5;
 // Sensors measure a floor some centimetres too low now and then.
 constexpr double floor_below_m = 0.03;
 constexpr double label_height_m = 0.065, label_below_m = 0.14;
 constexpr double letter_width = 0.8;  // of a capital's height, about
-// Who looks from a camera's place is not to look into its mark.
+// A camera's mark is not drawn if the eye is nearer than this: it would fill the picture.
 constexpr double free_around_eye_m = 0.35;
 // Nearer labels would fill the picture.
 constexpr double label_from_m = 1.2;

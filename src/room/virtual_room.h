@@ -36,12 +36,12 @@ std::optional<RoomExtent> extent_of(const std::vector<RoomCamera>& cameras);
 // Needs the GL context current in which it was made.
 class VirtualRoom {
 public:
-    // Changes what is there. Cheap if nothing has changed.
+    // Rebuilds the room for these cameras. Cheap if nothing has changed.
     void set_cameras(const std::vector<RoomCamera>& cameras);
 
-    // Appends what an eye there sees of the room, and sets the light: labels face the eye, and the
-    // mark that it stands in is left out. Nothing where there is no room. What was appended is
-    // valid until the next call of set_cameras.
+    // Appends the room's objects and texts and sets the light: labels face the eye of `view`, and a
+    // mark around the eye is left out. Appends nothing if no camera is registered. The appended
+    // objects are valid until the next call of set_cameras.
     void add_to(render::SceneFrame& frame, const render::CameraView& view) const;
 
 private:

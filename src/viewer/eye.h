@@ -11,7 +11,7 @@
 
 namespace theatron::viewer {
 
-// What the eye can start from. Both maps outlive the call that they are given to.
+// The cameras whose view the eye can take. Both maps must outlive the call that takes them.
 struct ViewableCameras {
     const std::map<CameraId, Calibration>& calibrations;
     const std::map<CameraId, receive::CameraFramePtr>& newest;  // of cameras that sent a picture

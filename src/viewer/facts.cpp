@@ -9,7 +9,7 @@
 namespace theatron::viewer {
 namespace {
 
-// What the eye does not notice in an operation, and what it does.
+// An older picture is marked as trouble.
 constexpr double old_ms = 500;
 
 std::string rounded(double value, int digits, const char* unit) {

@@ -13,7 +13,7 @@
 
 namespace theatron::viewer {
 
-// What is drawn around the clouds.
+// The virtual room around the clouds: drawn or not, and in which quality.
 struct RoomChoice {
     bool shown = true;
     std::optional<render::SceneQuality> quality;  // none: as the driver's speed suggests
@@ -25,8 +25,8 @@ public:
     explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})
         : choice_(choice), people_(std::move(people)) {}
 
-    // Takes over what is new: cameras and frames. Returns the cameras whose picture
-    // is new. Throws Error if somebody is to be seen by a camera that the host never had.
+    // Takes over new cameras and frames. Returns the cameras with a new picture. Throws
+    // Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
     // See render::CloudSet; what the cameras show stays.
@@ -52,7 +52,7 @@ private:
     Status upload(const receive::CameraFrame& frame);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
-    // What is drawn beside the clouds, null if nothing.
+    // Everything in the picture except the clouds; null if nothing.
     const render::SceneFrame* scene_for(const render::CameraView& view);
 
     RoomChoice choice_;

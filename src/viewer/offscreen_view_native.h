@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a participant sees, drawn offscreen: the newest frames of all cameras.
+// A participant's view, drawn offscreen: the newest frames of all cameras.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways of drawing in words: on the command line, and in what a host says about them.
+// Renderer choices as text: on the command line, and in a host's commands to participants.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ void check_renderer_choice(const std::string& name);
 // The renderer that a choice means for so many cameras, where time does not matter.
 std::string renderer_for(const std::string& choice, std::size_t cameras);
 
-// Follows what the host said if there is such a renderer. If not nothing changes, and a sentence
-// for the person is returned.
+// Applies the host's command if it names an existing renderer. Otherwise nothing changes, and the
+// return value is a sentence for the participant; empty on success.
 std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word);
 
-// What a host says: "blend", "2 mesh", "Dr. A mesh lock", "all auto", "all free".
+// A host's command: "blend", "2 mesh", "Dr. A mesh lock", "all auto", "all free".
 struct RendererText {
     std::string who;  // number or name of a participant; empty: all
     wire::SetRenderer word;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window on the desktop that OpenGL ES 3 draws into (a core profile where the driver has no
-// ES), and what is done there.
+// ES), and its input events.
 #pragma once
 
 #include <memory>
@@ -23,12 +23,12 @@ public:
     DesktopWindow(const DesktopWindow&) = delete;
     DesktopWindow& operator=(const DesktopWindow&) = delete;
 
-    // Returns when something was done at the window, wake() was called or the time
+    // Returns at the next input event of the window, after wake(), or when the timeout
     // is over.
     void wait(Duration timeout);
     // From any thread; also remembered for the next wait().
     void wake();
-    // What was done since the last call.
+    // The input since the last call.
     WindowInput poll();
 
     // False while there is nobody to see it, for example minimised.

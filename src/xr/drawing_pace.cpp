@@ -8,17 +8,17 @@ namespace theatron::xr {
 namespace {
 
 constexpr Duration too_slow = 40ms;
-// What a better way is expected to take before it is tried: clearly less.
+// A better mode is tried again if its expected time is below this, clearly less than too_slow.
 constexpr Duration has_room = 30ms;
-// Where pictures take so long that nobody would wait for a whole window of them, two decide: the
-// quicker one, as the first of a new way also makes programs.
+// When pictures take longer than `impatience` together, two of them decide instead of a full
+// window: the faster one, because the first picture of a new mode also compiles shaders.
 constexpr std::size_t least = 2;
 constexpr Duration impatience = 600ms;
-// What saves less than this share of the time only looks worse.
+// A cheaper mode is kept if it takes at most this share of the time; else it only costs detail.
 constexpr double worthwhile = 0.85;
-// An attempt to go up that fails is seen, so the next one waits twice as long.
+// A failed return to a better mode is visible, so the next attempt waits twice as long.
 constexpr Duration first_patience = 2s, longest_patience = 256s;
-// One that has held so long has not failed.
+// A return to a better mode counts as successful after this time.
 constexpr Duration held = 60s;
 
 }  // namespace
@@ -78,7 +78,7 @@ void DrawingPace::add(TimePoint now, Duration drawing) {
     }
 }
 
-// 0 where there are too few yet.
+// 0 while there are too few times.
 Duration DrawingPace::median_when_enough() {
     if (count_ < window && (count_ < least || sum_ <= impatience))
         return {};
@@ -108,7 +108,7 @@ void DrawingPace::leave_slow_way(Duration median, TimePoint now) {
     go_to(current_ + 1, now);
 }
 
-// Whether it helps to draw so instead of as before.
+// Ends the trial of a cheaper mode: keeps the mode, tries the next cheaper one, or goes back.
 void DrawingPace::judge_trial(Duration median, TimePoint now) {
     const double times_as_long = double(before_.count()) / double(median.count());
     if (times_as_long * worthwhile >= 1) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much work goes into a picture, so that looking around stays fluent on a slow machine: the
-// best way of drawing that keeps up.
+// Chooses how much work goes into a picture, so that the view moves fluently on a slow machine: the
+// best drawing mode that is fast enough.
 //
-// A pure state machine, fed with how long pictures took.
+// A pure state machine; its input is the drawing time of each picture.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace theatron::xr {
 
-// A way of drawing the clouds.
+// A mode of drawing the clouds.
 struct DrawingWay {
     std::string renderer;
     int depth_step = 1;  // see render::CloudSet::set_depth_step
@@ -23,29 +23,29 @@ struct DrawingWay {
     bool operator==(const DrawingWay&) const = default;
 };
 
-// The ways among which there is a choice, best first. With `scale` above 0 that many pixels are
-// drawn in all of them.
+// The modes to choose from, best first. A `scale` above 0 is the scale of all of them; 0 leaves
+// the scale to the choice.
 //
-// For a viewer who left the renderer to us: "blend" where there are two cameras and more, then
-// "mesh", each with all points before it is drawn with fewer; last with fewer pixels. Colour keeps
-// its sharpness with fewer points, so that "blend" with a quarter of them is better to look at than
-// "mesh" with all. Which is quicker depends on the driver.
+// For the renderer "auto": "blend" if there are at least two cameras, then "mesh", each with all
+// points first and then with fewer; last with fewer pixels. Colour keeps its sharpness with fewer
+// points, so that "blend" with a quarter of the points shows more detail than "mesh" with all.
+// The driver decides which of these two is faster.
 std::vector<DrawingWay> automatic_ways(std::size_t cameras, double scale);
-// For one who wants this renderer: fewer pixels, nothing else.
+// For a renderer that the viewer chose: fewer pixels, nothing else.
 std::vector<DrawingWay> ways_of(const std::string& renderer, double scale);
 
 class DrawingPace {
 public:
-    // At least one way; begins with the first.
+    // `ways` has at least one mode; the first one is the current one at the beginning.
     explicit DrawingPace(std::vector<DrawingWay> ways);
 
     const std::vector<DrawingWay>& ways() const { return ways_; }
     const DrawingWay& way() const { return ways_[current_]; }
 
-    // A picture is shown at `now` and took so long, from its beginning to its presentation. On a
-    // GPU drawing runs behind, but the driver lets only a few pictures queue up and then makes the
-    // presentation wait: where it cannot keep up, this is its time for a picture, without asking.
-    // Waiting for the screen counts, too: at most its 17 ms (33 ms at 30 Hz), which is in time.
+    // Call after each picture, shown at `now`; `drawing` is the time from its beginning to its
+    // presentation. A GPU draws later, but the driver queues only a few pictures and then blocks
+    // the presentation: if the GPU is too slow, `drawing` is its time for a picture.
+    // Waiting for the screen counts too: at most 17 ms (33 ms at 30 Hz), which is below the limit.
     void add(TimePoint now, Duration drawing);
 
 private:
@@ -64,14 +64,14 @@ private:
     std::size_t count_ = 0;
     Duration sum_{};
 
-    // The way that was too slow, while another one is tried instead of it.
+    // During a trial of a cheaper mode: the mode that was too slow, and its median time.
     bool trying_ = false;
     std::size_t tried_from_ = 0;
     Duration before_{};
     bool nothing_helps_ = false;
 
-    // What was left for being too slow, last one last, and how many times as long it took as what
-    // came instead.
+    // Stack of the modes that were abandoned as too slow, with their time relative to that of the
+    // mode that replaced them.
     struct Left {
         std::size_t way;
         double times_as_long;
@@ -79,7 +79,7 @@ private:
     std::vector<Left> left_;
 
     TimePoint changed_at_{};
-    bool came_up_ = false;  // to this way, from a worse one
+    bool came_up_ = false;  // the last change was to a better mode
     Duration patience_;     // before the next attempt to go up
 };
 

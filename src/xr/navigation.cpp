@@ -58,7 +58,7 @@ Viewpoint approached(const Viewpoint& from, double clicks) {
     const double distance = length(way);
     if (distance < 1e-6)
         return from;
-    // Who flew closer than that stays there.
+    // An eye that is already closer than closest_m, because it flew there, stays.
     const double least = std::min(closest_m, distance);
     const double wanted = std::max(distance * std::pow(closer_per_click, clicks), least);
     Viewpoint to = from;

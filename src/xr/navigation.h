@@ -22,12 +22,12 @@ struct Viewpoint {
 // the eye (x right, y down, metres), in the distance `along_m` along the view's axis.
 Viewpoint around(const Viewpoint& from, Vec2 place, double along_m);
 
-// What a person did since the last time. Ways of the mouse are in heights of the
-// window, x to the right and y down, so that they mean the same at every size.
+// A person's input since the last call. Mouse movements are in heights of the window,
+// x to the right and y down, so that they mean the same at every window size.
 struct Steering {
     Vec2 turn;            // dragged with the left button
     Vec2 slide;           // dragged with the right or the middle one
-    double approach = 0;  // clicks of the wheel, positive comes closer
+    double approach = 0;  // clicks of the wheel, positive moves closer
     Vec3 fly;             // keys held, -1 to 1: x right, y up in the room, z forward
     bool fast = false;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person did at the window, in plain values: no type of the window system.
+// A person's input at the window, in plain values: no type of the window system.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace theatron::xr {
 
-// What a key asks for at the moment it is pressed. Those that fly are held, not pressed:
-// they are part of the steering.
+// The command of a key, given at the moment it is pressed. Keys for flying act as long as
+// they are down: they are part of Steering.
 enum class Action {
     leave,
     help,

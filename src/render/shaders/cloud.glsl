@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every cloud shader knows of the camera that is drawn: its images and its calibration.
+// Inputs of every cloud shader for the camera that is drawn: its images and its calibration.
 
 layout(std140) uniform Camera {
     mat4 clip_from_camera;   // its w is the distance along the view's axis

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which place of the colour picture shows a point. Needs cloud.glsl.
+// The place of the colour picture that shows a point. Needs cloud.glsl.
 
 // The distance of the nearest surface that the colour camera sees, along that camera's axis,
 // as a fraction of farthest_m. Filled by color_depth.vert.
 uniform sampler2D nearest_in_color;
 
-// How far away is what the colour camera has at `pixel`; farthest_m: nothing known.
+// Distance in metres of the surface that the colour camera sees at `pixel`; farthest_m: unknown.
 float nearest_at(vec2 pixel) {
     vec2 place = (pixel + 0.5) / camera.color_image.xy;
     return texture(nearest_in_color, place).r * farthest_m;
@@ -40,9 +40,9 @@ vec3 color_place(vec3 point) {
     float hiding = nearest_at(pixel);
     if (hiding > behind)
         return vec3(pixel, inside);
-    // What hides the point lies, for the depth camera, on the side of the colour camera
-    // from it; away from there the background comes into the colour camera's view.
-    // Beside the line between the two, only the map's coarseness can hide anything.
+    // In the depth camera's picture the hiding surface lies beside the point, on the colour
+    // camera's side. In the opposite direction the background comes into the colour camera's
+    // view. Beside the line between the two cameras only the map's coarseness hides a point.
     float background = 0.5 * (hiding + seen_at.z);
     vec2 away = normalize(camera.color_from_camera[3].xy) * size.x / 320.0;
     vec2 beside = vec2(-away.y, away.x);

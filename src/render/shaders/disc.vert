@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splats that lie in their surface: ellipses in the picture, with the depth of the
-// surface at each of their pixels. What neighbours cover is then decided by
-// geometry, not by which point comes first.
+// surface at each of their pixels. Where splats overlap, this depth decides which one is
+// seen, not the order in which they are drawn.
 
 flat out float v_share;
 flat out vec3 v_place;    // colour pixel, diameter

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each block is from the next edge of the surface: 0 at it, 1 from about ten
-// depth pixels on. What edges.frag drew is the input.
+// The distance of each block from the next edge of the surface: 0 at the edge, 1 from about
+// ten depth pixels on. The input is the map that edges.frag drew.
 
 uniform sampler2D whole;
-uniform sampler2D distances_before;  // what this shader drew for the frame before
+uniform sampler2D distances_before;  // this shader's output for the previous frame
 uniform bool has_before;
 
 layout(location = 0) out vec4 out_distance;

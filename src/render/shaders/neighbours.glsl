@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which neighbouring pixels lie on one surface. Needs cloud.glsl and measured.glsl or
+// Decides whether neighbouring pixels lie on one surface. Needs cloud.glsl and measured.glsl or
 // refined.glsl.
 
 // Depth beside the image is that of its border: cells there do not exist.
@@ -8,7 +8,7 @@ float surface_near(ivec2 pixel, ivec2 offset) {
     return surface_m(clamp(pixel + offset, ivec2(0), last));
 }
 
-// The side of what a pixel at distance `z` sees, in metres.
+// The side of the square that a pixel covers at distance `z`, in metres.
 float footprint_m(float z) {
     return z * camera.depth.y;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clouds write: a colour, and the distance along the view's axis in
-// millimetres, 0 beyond what 16 bits hold.
+// Outputs of the cloud shaders: a colour, and the distance along the view's axis in
+// millimetres, 0 where it does not fit into 16 bits.
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out uint out_depth_mm;

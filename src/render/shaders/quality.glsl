@@ -5,8 +5,8 @@
 uniform sampler2D edge_distances;
 
 // `steepness`: change of depth per footprint, to the right and downwards. `seen`: how well
-// the colour camera sees the point, see color_place.glsl. What depends on the view is in
-// alignment.glsl.
+// the colour camera sees the point, see color_place.glsl. The factor that depends on the view
+// is in alignment.glsl.
 float quality_at(ivec2 pixel, vec3 point, vec2 steepness, float seen) {
     // Noise and the size of a pixel grow with the distance; one metre is as good as it gets.
     float near = min(1.0, 1.0 / (point.z * point.z));

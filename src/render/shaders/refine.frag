@@ -2,7 +2,7 @@
 // Depth for blending: less noise, also over time, and small gaps closed where both sides of a gap lie on one
 // surface. Nothing is continued beyond what was measured.
 
-uniform usampler2D refined_before;  // what this shader drew for the frame before
+uniform usampler2D refined_before;  // this shader's output for the previous frame
 uniform bool has_before;
 
 layout(location = 0) out uint out_depth;
@@ -68,7 +68,7 @@ float straightened(ivec2 pixel, float z) {
     return z;
 }
 
-// What the sensor's deviation may be: it grows as less light comes back.
+// The assumed standard deviation of the sensor's noise. It grows as less light comes back.
 float noise_m(float z) {
     return 0.0015 + 0.0008 * z * z;
 }
@@ -131,17 +131,17 @@ float widened(float around[8]) {
     return count >= 2.0 ? sum / count : 0.0;
 }
 
-// The lowest bits of refined depth tell what happened: 0 nothing, 1 or 2 it was further or nearer than before,
-// more: for how many frames it has been missing.
+// The lowest bits of refined depth are a state: 0 unchanged, 1 or 2 measured further or nearer than
+// before, 3 and more: number of frames without a measurement, plus 2.
 const uint went_back = 1u, came_near = 2u, longest_missing = 15u;
 
 uint remembered(float z, uint happened) {
     return (floatBitsToUint(z) & ~age_bits) | happened;
 }
 
-// What stays follows its noise slowly; what moves is taken as it is, but a step is believed only
-// when the next frame confirms it: at edges depth flutters. What is missing is kept for some frames. Where
-// its neighbours no longer measure the old surface, nothing is kept.
+// A surface at rest follows its noise slowly. A moving one is taken as measured, but a large step only after
+// the next frame confirms it, because depth flutters at edges. Without a measurement the old depth stays
+// for some frames. Nothing is kept where the neighbours no longer measure the old surface.
 uint steadied(float around[8], float measured, float z) {
     if (!has_before)
         return remembered(z, 0u);

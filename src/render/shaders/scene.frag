@@ -96,8 +96,8 @@ vec3 shown(vec3 c) {
 }
 
 #ifndef LOW_QUALITY
-// Whether a place lies behind what is seen in its direction, but not far behind: that would
-// be another thing, before it only as the eye sees it.
+// True if the place lies behind the surface that the eye sees in its direction, but not far behind.
+// Far behind, the two belong to different objects, and the nearer one takes no light away.
 bool is_hidden(vec3 place, float reach) {
     vec4 clip = clip_from_room * vec4(place, 1.0);
     float seen = texture(scene_depth, 0.5 + 0.5 * clip.xy / clip.w).r;
@@ -106,7 +106,7 @@ bool is_hidden(vec3 place, float reach) {
 }
 
 // The share of the light from all around that reaches the place. Along each direction two places
-// are looked at: one alone passes through walls that stand near.
+// are tested, because one alone misses walls that stand near.
 float open_share(vec3 n) {
     if (!occludes)
         return 1.0;

@@ -19,8 +19,8 @@ float borrowed_depth(float neighbours[8]) {
     return 0.0;
 }
 
-// Whether this surface is hidden from here on along `direction`, where it is not connected to the next pixel: by the
-// next pixel with depth.
+// True if the next pixel with depth along `direction` hides the continuation of this surface, which is not
+// connected to the next pixel.
 bool hidden_beyond(ivec2 pixel, ivec2 direction, float z, float next, float limit) {
     if (next == 0.0)
         next = surface_near(pixel, 2 * direction);
@@ -79,8 +79,8 @@ void main() {
     vec3 color = color_place(point);
     float quality = quality_at(pixel, point, steepness, color.z);
     vec2 place = color.xy / max(camera.color_image.xy, vec2(1.0));
-    // What is hidden is there all the same: the next camera's shadow may begin where this one's ends.
-    // It may fall back as it did, but never rises in front of what other cameras measure.
+    // A hidden surface exists all the same, and the next camera's shadow may begin where this one's ends.
+    // Its continuation may fall back at its slope, but never rises in front of other cameras' surfaces.
     vec2 shift = goes_on_behind * hidden;
     z += max(dot(shift, steepness), 0.0) * footprint_m(z);
     out_surface.x = floatBitsToUint(z);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surface.frag found out about each depth pixel. Needs cloud.glsl.
+// Reads the properties of a depth pixel that surface.frag wrote. Needs cloud.glsl.
 
 uniform usampler2D surfaces;
 

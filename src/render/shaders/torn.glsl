@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fragments of mesh.vert's triangles are no surface.
+// Decides for a fragment of mesh.vert's triangles whether it belongs to no surface.
 
 bool is_torn(ivec3 cell, vec2 grid_place, float support) {
     vec2 inside = grid_place - vec2(cell.xy);
