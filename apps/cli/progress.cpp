@@ -26,7 +26,7 @@ capture::Progress show_progress() {
             throw Error("Stopped before this was complete: " + std::string(what) + ".");
         if (state->what != what)
             *state = {std::string(what), steady_now(), -1};
-        // What is over at once needs no progress.
+        // A step shorter than a second shows no progress.
         if (steady_now() - state->begin < 1s)
             return;
         const int percent = int(done * 100) / (terminal ? 1 : 10) * (terminal ? 1 : 10);

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What of a stream is missing and how even it came.
+// Figures of a recorded stream: rate, missing frames and gaps.
 struct Figures {
     double seconds = 0;
     double frames_per_second = 0;
@@ -71,7 +71,7 @@ Json describe(const record::StreamContent& stream, double nominal_fps) {
             {"longest_gap_ms", f.longest_gap_ms}};
 }
 
-// Which filters depth went through, and from when on.
+// The filters that were applied to depth, each with the frame and time of its beginning.
 Json describe_filters(const record::StreamContent& depth) {
     Json list = Json::array();
     for (const record::FilterChange& change : depth.filters) {

@@ -89,7 +89,7 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
-// Of grown-ups, on average.
+// Mean distance of an adult's eyes.
 constexpr double eye_distance_m = 0.063;
 
 viewer::RoomChoice parse_room(const Flags& flags) {
@@ -122,7 +122,7 @@ struct OffscreenPicture {
         viewer::check_renderer_choice(flags.renderer);
     }
 
-    // What is new, also what the host said about drawing.
+    // Takes over new cameras and frames, and the host's renderer command.
     void take(client::Participant& participant) {
         scene.take(participant);
         if (const auto word = participant.take_renderer_word())

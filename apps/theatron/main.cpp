@@ -15,13 +15,13 @@
 
 namespace {
 
-// What was printed may still be on its way, and its disk full.
+// Output may still be in a buffer, and writing it can fail.
 int with_output_written(int code) {
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout)
         return code;
     std::fprintf(stderr,
-                 "theatron: What there was to print could not be written: its disk is full "
+                 "theatron: The output could not be written: its disk is full "
                  "or its reader gone.\n");
     return code != 0 ? code : 1;
 }

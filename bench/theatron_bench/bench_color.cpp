@@ -78,7 +78,7 @@ struct Coder {
     std::function<std::unique_ptr<video::ColorDecoder>()> make_decoder;
 };
 
-// What a camera hands over: the frame itself, or with noise as JPEG.
+// The pictures as a camera delivers them: without noise as pixels, with noise as JPEG.
 std::vector<ColorData> camera_pictures(const std::vector<ColorImage>& frames, double noise) {
     const auto jpeg =
         video::make_color_encoder(video::parse_color_setting("jpeg:quality=90").setting);

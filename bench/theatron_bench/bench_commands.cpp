@@ -77,7 +77,7 @@ CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, C
     command->add_option("folder", flags.folders, "Folders with depth/*.png and color/*")
         ->required();
     command->add_option("--codecs", flags.codecs,
-                        "Which codecs, separated by blanks (default: all)");
+                        "Names of codecs, separated by blanks (default: all)");
     command->add_option("--frames", flags.frames, "At most so many frames of each")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
@@ -360,7 +360,7 @@ void add_view(CLI::App& bench) {
         ->capture_default_str()
         ->check(CLI::Range(1, 12));
     command->add_option("--renderers", flags->renderers,
-                        "Which renderers, separated by blanks (default: all)");
+                        "Names of renderers, separated by blanks (default: all)");
     command
         ->add_option("--exposure", flags->scene.exposure_stops,
                      "How far the cameras' exposures differ, in stops")

@@ -16,7 +16,7 @@
 
 namespace theatron::cases {
 
-// What identifies the patient, apart from the content: a file for the host alone.
+// Texts that identify the patient, in a file of their own that never leaves the host.
 inline constexpr const char* identifiers_name = "identifiers.json";
 
 inline constexpr const char* mesh_extension = ".thmesh";
@@ -32,14 +32,14 @@ struct LoadedCase {
     std::vector<medical::Mesh> meshes;     // one for each part
     std::vector<medical::Volume> volumes;  // one for each series
 };
-// The whole case, in memory. Throws Error at the first thing that is wrong.
+// Reads the whole case into memory. Throws Error at the first problem.
 LoadedCase read_case(const std::filesystem::path& folder);
 
 struct CheckReport {
     std::vector<std::string> problems;  // sentences; without any the case can be shown
-    std::vector<std::string> remarks;   // sentences on what is unusual
+    std::vector<std::string> remarks;   // sentences on unusual content
 };
-// Everything that is wrong with a case, not only the first thing. Throws nothing.
+// All problems of a case, not only the first one. Does not throw.
 CheckReport check_case(const std::filesystem::path& folder);
 
 }  // namespace theatron::cases

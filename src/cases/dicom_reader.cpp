@@ -28,7 +28,7 @@ public:
         size_ = lseek(descriptor, 0, SEEK_END);
     }
 
-    // Whether a value was asked for that the file has only a part of.
+    // True if a read reached beyond the end of the file.
     bool is_cut_off() const { return cut_off_; }
 
 protected:

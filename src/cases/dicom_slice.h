@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One DICOM image as its reader, a process of its own, hands it over.
 //
-// The reader may have been taken over by the file, so its answers are outside bytes: decoding is
-// safe for any. Only what is needed comes through; what identifies the patient stays apart.
+// A malicious file may control the reader, so its answers are untrusted: decoding is safe for any
+// bytes. Only the fields below pass through. Texts that identify the patient are kept separately.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ struct DicomSlice {
     bool inverted = false;      // MONOCHROME1
     bool deidentified = false;  // PatientIdentityRemoved is YES
     std::vector<Identifier> identifiers;
-    // What is stored, row by row. Unsigned values beyond 32767 are not representable: then all were
-    // lowered by 32768.
+    // Stored values, row by row. `lowered`: the file has unsigned values beyond 32767, so 32768
+    // was subtracted from all values.
     bool lowered = false;
     std::vector<std::int16_t> samples;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the processes that read foreign files answer: one byte, and how many bytes lie in the shared
-// memory. Only for this module.
+// Answers of the processes that read foreign files: one byte for the result, and the number of
+// bytes in the shared memory. Only for this module.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) 
     inside.send(message);
 }
 
-// Content into the shared memory, or what else is to be said.
+// Copies content into the shared memory and answers; too_large if it does not fit.
 inline void answer(sandbox::Inside& inside, ByteView content) {
     if (content.size() > inside.area().size())
         return answer(inside, Answer::too_large);

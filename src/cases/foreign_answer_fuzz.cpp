@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a reader that was taken over may answer: decoding it stays inside it. The first byte chooses
-// between an image and a mesh.
+// Answers of a reader that a malicious file controls: decoding must stay inside their bytes. The
+// first byte chooses between an image and a mesh.
 #include <cstdlib>
 
 #include "cases/foreign_files.h"

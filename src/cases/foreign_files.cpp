@@ -212,7 +212,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
                         (reply.what == Answer::unreadable ? "is damaged or no mesh"
                                                           : reason_of(reply.what)) +
                         ".");
-        // What the child may still change is copied before it is checked.
+        // The child can still change the shared memory: a copy is checked, not the memory itself.
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<NamedMesh> mesh = decode_named_mesh(copy);
         if (!mesh)

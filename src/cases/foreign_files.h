@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DICOM images and meshes of other programs, read by large libraries in processes that may do
-// nothing else (docs/decisions/foreign-files.md). What comes back is checked here.
+// DICOM images and meshes of other programs, read by large libraries in sandboxed processes
+// (docs/decisions/foreign-files.md). This module checks the answers of those processes.
 //
 // One thread at a time uses an object. All functions throw Error with one sentence.
 #pragma once
@@ -40,8 +40,8 @@ private:
     std::unique_ptr<sandbox::Child> child_;
 };
 
-// Whether a file's first bytes are those of DICOM (PS3.10), or those of no other kind that is
-// known and its name ends as DICOM files' names do.
+// True if the file begins as DICOM does (PS3.10), or if its beginning belongs to no other known
+// kind and its name ends like a DICOM file's.
 bool is_dicom_file(const std::filesystem::path& file);
 // STL, OBJ, PLY, GLB, by the end of the name.
 bool is_mesh_file(const std::filesystem::path& file);

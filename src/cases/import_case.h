@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a case (case_folder.h) out of what surgeons' programs write: folders with DICOM images,
+// Makes a case (case_folder.h) out of the files of surgeons' programs: folders with DICOM images,
 // surfaces (STL, OBJ, PLY, GLB) and label maps (NIfTI, NRRD).
 //
-// The source stays as it is. Large libraries read it in processes of their own. What identifies the
-// patient goes into a file of its own that only this user can read.
+// The source is not changed. Large libraries read it in processes of their own. Texts that identify
+// the patient go into a separate file that only this user can read.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ struct ImportReport {
     std::vector<std::string> remarks;  // sentences on what was left out or looks unusual
 };
 
-// Told about long steps: what is being done, and how far (0 to 1). May throw to stop.
+// Called during long steps with their name and progress (0 to 1). May throw to stop the import.
 using Progress = std::function<void(std::string_view what, double done)>;
 
 // Writes the case's folder, which must not exist yet, whole or not at all. Throws Error with one

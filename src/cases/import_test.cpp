@@ -134,7 +134,7 @@ TEST_F(Import, ImagesAndSurfacesBecomeACaseWithoutTheirIdentifiers) {
     EXPECT_EQ(loaded.manifest.parts[0].role, medical::Role::shell);
     EXPECT_FALSE(loaded.manifest.deidentified);
 
-    // What names the patient is in one file, for this user alone, and nowhere else.
+    // Texts that identify the patient are in one file, for this user alone, and nowhere else.
     for (const auto& entry : fs::directory_iterator(target())) {
         const Bytes bytes = files::read_file(entry.path());
         const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -32,8 +32,8 @@ ParsedManifest parse_manifest(std::string_view text);
 // parse_manifest() of the result gives `value` again where its texts are clean and within bounds.
 std::string manifest_text(const medical::Case& value);
 
-// Whether a manifest may name this file: letters, digits, '.', '_', '-' and blanks, not hidden, so
-// that it lies in the case's folder.
+// True if a manifest may name this file: letters, digits, '.', '_', '-' and blanks, not hidden. So
+// the file lies in the case's folder.
 bool is_plain_file_name(std::string_view name);
 
 }  // namespace theatron::cases

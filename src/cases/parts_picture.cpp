@@ -34,8 +34,8 @@ public:
         });
     }
 
-    // Over what is behind it: the far side first, then the near one. What is seen edge-on covers
-    // more, as a skin does.
+    // Draws a translucent part over the picture: its far side first, then the near one. A surface
+    // that is seen at a grazing angle covers more, as a skin does.
     void draw_over(const Mesh& mesh, Rgb color, double opacity) {
         for (const bool near_side : {false, true}) {
             std::vector<Pixel> layer(pixels_.size());

@@ -129,7 +129,7 @@ TEST(RealCase, ALabelMapBecomesClosedManifoldSurfacesOfItsVolume) {
     }
 }
 
-// What dcmj2pnm (of DCMTK) makes of the same file, in the same window.
+// Compares with the picture that dcmj2pnm (of DCMTK) makes of the same file in the same window.
 TEST(RealCase, WindowedSlicesAreThoseOfDcmtk) {
     THEATRON_REQUIRE_CASE("hcc-tace-048");
     if (std::system("command -v dcm2pnm dcmj2pnm >/dev/null 2>&1") != 0)

@@ -119,7 +119,7 @@ std::string read_labels(ByteView content, bool packed, std::size_t count, Sample
     const std::size_t most = packed ? content.size() * gzip_most_ratio : content.size();
     if (wanted > most)
         return "holds less than its header announces";
-    // What a file of this size can hold is what is taken at once, and no more.
+    // `count` has been checked against the file's size, so this reservation is bounded.
     out.reserve(count);
     LabelCollector collector(type, big_endian, out);
     const auto take = [&](ByteView piece) { return collector.take(piece); };

@@ -10,8 +10,8 @@
 
 namespace theatron::cases {
 
-// Unpacks gzip. Tells `take` of each piece, until it wants no more (false) or all `wanted` bytes
-// were there; never unpacks more. False: damaged, or fewer bytes than wanted.
+// Unpacks gzip and calls `take` for each piece, until `take` returns false or all `wanted` bytes
+// have been passed; never unpacks more. False: damaged, or fewer bytes than wanted.
 bool unpack_gzip(ByteView packed, std::size_t wanted, const std::function<bool(ByteView)>& take);
 
 // No gzip stream unpacks to more than this many times its size.
@@ -42,7 +42,7 @@ private:
     bool good_ = true;
 };
 
-// Reads `count` samples out of `content`. Returns what is wrong, as the end of a sentence.
+// Reads `count` samples out of `content`. Returns the problem as the end of a sentence, or nothing.
 std::string read_labels(ByteView content, bool packed, std::size_t count, SampleType type,
                         bool big_endian, std::vector<std::uint16_t>& out);
 

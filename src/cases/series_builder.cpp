@@ -33,7 +33,7 @@ std::string in_mm(double value) {
     return text;
 }
 
-// What two images of one series must have in common.
+// Returns a sentence if the two images cannot belong to one volume; empty if they can.
 std::string difference(const DicomSlice& a, const DicomSlice& b) {
     if (!b.has_place)
         return "An image of the series says nothing about its place in the patient, so the series "

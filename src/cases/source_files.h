@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies in a folder that a case is imported from, by kind.
+// Lists the files of a folder that is imported as a case, by kind.
 #pragma once
 
 #include <filesystem>

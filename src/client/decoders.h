@@ -25,35 +25,35 @@ public:
         std::function<void(StreamId, SettingId)> needs_key;
         // A message for which on_media() returned false is no longer waiting.
         std::function<void(std::uint64_t connection, std::size_t bytes)> taken;
-        // One sentence: the host sends in a way that cannot be decoded.
+        // One sentence: this build cannot decode a codec that the host uses.
         std::function<void(const std::string&)> problem;
         std::function<TimePoint()> now;  // session time
     };
     explicit Decoders(Events events);
     ~Decoders();
 
-    // The functions below are for one thread, and none of them waits.
+    // The functions below are for one thread. None of them waits for decoding.
 
-    // As in Receiver, in the order of the calls; messages that wait for other cameras are left out.
-    // Returns a number that is new each time.
+    // As in Receiver, in the order of the calls; messages that still wait are dropped.
+    // Returns the generation, a number that is new each time.
     std::uint64_t set_cameras(const std::vector<wire::Camera>& cameras);
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
-    // Takes the message away and leaves other memory for the next. True if a thread decodes it at
-    // once, or if it is left out: because no camera's pictures can need it
-    // (receive::max_media_size), or because far too much waits. `connection` is any number that
-    // comes back with Events::taken.
+    // Moves the message away and leaves other memory for the next. True if a thread decodes it at
+    // once, or if it is dropped: because it belongs to no camera, or because more than
+    // most_bytes_waiting would wait. False: Events::taken follows, with this `connection`, which
+    // may be any number.
     bool on_media(Bytes& message, std::uint64_t connection);
 
-    // Of a short time ago, but for the ages, which are of now.
+    // Figures of a short time ago, except for age_now_ms, which is of now.
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
 
 private:
-    // Limit for all threads together, in bytes: more is left out. A sender that heeds
-    // acknowledgements never gets there.
+    // Bytes that may wait for all threads together; messages beyond them are dropped. A sender
+    // that obeys flow control never reaches this limit.
     static constexpr std::size_t most_bytes_waiting = std::size_t(128) << 20;
-    // What a message costs besides its bytes, about.
+    // Estimated memory of a message beside its bytes.
     static constexpr std::size_t message_overhead = 256;
     // Memory of messages that is kept for the next ones, of each thread.
     static constexpr std::size_t most_bytes_spare = std::size_t(8) << 20;
@@ -61,7 +61,7 @@ private:
     struct Message {
         Bytes bytes;
         std::uint64_t connection = 0;
-        bool is_taken = false;  // as its sender was told
+        bool is_taken = false;  // on_media() returned true for it
         std::size_t cost() const { return bytes.capacity() + message_overhead; }
     };
     struct Cameras {

@@ -87,7 +87,7 @@ struct Held {
         decoders.set_cameras({camera(0)});
         decoders.set_settings({{depth_stream(CameraId{0}), setting, "raw"}});
     }
-    // Whether the message was taken at once.
+    // True if the message was taken at once.
     bool send(FrameNumber number) {
         Bytes bytes = message(number);
         return decoders.on_media(bytes, 7);

@@ -25,7 +25,7 @@ constexpr std::size_t max_poses = 256;
 
 }  // namespace
 
-// What other threads see.
+// State shared with other threads, under `mutex`.
 struct Participant::Shared {
     mutable std::mutex mutex;
     std::condition_variable changed;
@@ -36,7 +36,7 @@ struct Participant::Shared {
     std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
     std::uint64_t decoder_generation = 0;                // of the cameras that these belong to
     std::uint64_t connection = 0;                        // counts them
-    std::size_t taken = 0;    // bytes of its messages that decoders took, not yet told
+    std::size_t taken = 0;    // bytes that decoders took, not yet passed to the client
     bool is_telling = false;  // tell_taken() has been posted
     std::vector<receive::StreamFigures> figures;
     bool reset_wanted = false;
@@ -119,7 +119,7 @@ Decoders::Events Participant::decoded_events() {
     return events;
 }
 
-// From a decoding thread: the host is told by the participant's.
+// From a decoding thread; the participant's thread sends the acknowledgement.
 void Participant::on_taken(std::uint64_t connection, std::size_t bytes) {
     const std::lock_guard lock(shared_->mutex);
     if (connection != shared_->connection || !shared_->client)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A participant: one connection to a host that finds back by itself, and the
+// A participant: one connection to a host, with automatic reconnection, and the
 // newest decoded images of every camera.
 #pragma once
 
@@ -31,25 +31,25 @@ public:
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
         bool records = false;  // as in wire::Join
-        // Told what a person should know: reconnecting, refused, a camera ended.
-        // Called from the participant's thread with one line of clean text.
+        // Messages for the user: reconnecting, refused, a camera ended. Called
+        // from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;
-        // If set, media goes here as it comes instead of being decoded. Called
-        // from the participant's thread; the message is valid during the call.
+        // If set, media is not decoded but passed to this function. Called from
+        // the participant's thread; the message is valid during the call.
         std::function<void(const wire::MediaHeader&, ByteView message)> media;
-        // Told that cameras() or settings() are new, or that the clock is known on this connection.
-        // Called from the participant's thread, before the media that this is about.
+        // Called when cameras() or settings() are new, or when the clock becomes known on this
+        // connection. From the participant's thread, before the media to which this applies.
         std::function<void()> described;
-        // Somebody's pose has come; one without parts says that this participant has left. Called
-        // from the participant's thread.
+        // Another participant's pose has arrived; a pose without head and hands means that the
+        // participant has left. Called from the participant's thread.
         std::function<void(ParticipantId, const wire::PersonPose&)> pose;
-        // Told that a frame can be taken or the connection has changed. Called from
-        // the participant's thread.
+        // Called when a frame can be taken or the connection has changed, from the
+        // participant's thread or a decoding thread.
         std::function<void()> news;
     };
 
-    // Begins to connect at once, on a thread of its own. Throws Error for a codec
-    // that does not exist.
+    // Begins to connect at once, on a thread of its own. Throws Error if name, token and
+    // codecs do not fit into the first message.
     explicit Participant(Options options);
     ~Participant();
 
@@ -60,12 +60,12 @@ public:
         std::string host_name;
         Duration round_trip{};         // the shortest of the last exchanges
         Duration newest_round_trip{};  // of the last one
-        int pongs = 0;                 // how many exchanges there were
+        int pongs = 0;                 // exchanges so far
         Duration clock_error{};
         bool clock_known = false;  // now() is the session's time
-        int joins = 0;             // how often it got in, 1 without any loss
+        int joins = 0;             // successful joins; 1 if the connection was never lost
         wire::ChooseDelivery goal;
-        wire::Delivery delivery;  // how much of what was asked for the host sends
+        wire::Delivery delivery;  // the part of the requested data that the host sends
     };
     Status status() const;
 
@@ -74,7 +74,7 @@ public:
         Calibration calibration;
         wire::CameraState state;
     };
-    // All cameras of the host; `generation` grows whenever they changed.
+    // All cameras of the host. `generation` grows whenever they changed.
     std::vector<Camera> cameras(std::uint64_t& generation) const;
 
     // How the host sends each stream to this participant.
@@ -83,35 +83,35 @@ public:
     // From within `media` and `described` only: asks the host for a key frame.
     void request_key(StreamId stream, SettingId setting);
 
-    // The newest frame of each camera that is newer than what was taken before.
+    // The newest frame of each camera that has a new one since the last call.
     std::vector<receive::CameraFramePtr> take_frames();
 
-    // Waits until some frame is there to be taken, at most `timeout`.
+    // Waits until a frame can be taken, at most `timeout`. False after the timeout.
     bool wait_for_frame(Duration timeout);
 
     std::vector<receive::StreamFigures> figures() const;
     void reset_figures();
 
-    // Session time now, as well as it is known; of a moment on the steady clock.
+    // Estimated session time, now and at a time of the steady clock.
     TimePoint now() const;
     TimePoint session_time(TimePoint steady) const;
 
-    // Other codecs from now on; an empty text keeps the codec.
+    // Requests other codecs; an empty text keeps the codec.
     void choose_codecs(const std::string& depth, const std::string& color);
 
-    // What the host said about drawing since the last call, if anything. With a new connection its
-    // earlier words no longer hold: that is a word, too.
+    // The host's newest renderer command since the last call, if any. Each join also gives one,
+    // with an empty renderer: commands of an earlier connection no longer apply.
     std::optional<wire::SetRenderer> take_renderer_word();
-    // Tells the host how this participant draws.
+    // Reports this participant's renderer to the host.
     void tell_renderer(const std::string& renderer);
 
-    // Where this participant is, from any thread. The newest is sent; the others get up to 90 a
-    // second (session/pose_board.h).
+    // Sends this participant's pose, from any thread. Only the newest one is sent; the others get
+    // up to 90 in a second (session/pose_board.h).
     void send_pose(const wire::PersonPose& pose);
-    // The newest pose of each of the others who sent one.
+    // The newest pose of each other participant that sent one.
     std::map<ParticipantId, wire::PersonPose> poses() const;
 
-    // Another target latency and ceiling from now on.
+    // Requests another target latency and ceiling.
     void choose_delivery(const wire::ChooseDelivery& goal);
 
 private:
@@ -140,7 +140,7 @@ private:
 
     struct Shared;
     std::unique_ptr<Shared> shared_;
-    std::unique_ptr<Decoders> decoders_;  // its threads use what is shared
+    std::unique_ptr<Decoders> decoders_;  // its threads use shared_
     std::thread thread_;
 };
 

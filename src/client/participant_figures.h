@@ -26,10 +26,10 @@ struct ParticipantFigures {
     Participant::Status status;
     std::vector<CameraFigures> cameras;
 
-    // Of the slowest camera, and of the slowest one that is live.
+    // Rate of the slowest camera, and of the slowest one that is live.
     double frames_per_second() const;
     double live_frames_per_second() const;
-    // Of all cameras together.
+    // Sums over all cameras.
     double mbit_per_second() const;
     std::uint64_t dropped() const;
 };

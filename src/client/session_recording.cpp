@@ -198,7 +198,7 @@ private:
                 intake_.on_end(camera_of(camera.description.depth_stream));
     }
 
-    // Of a frame that went through some.
+    // The filters of a frame whose header says that it was filtered.
     std::string filters_of(StreamId stream) {
         const std::string& filters = filters_[stream];
         return filters.empty() ? "unnamed" : filters;

@@ -34,7 +34,7 @@ fs::path make_folder(const fs::path& folder) {
     return folder;
 }
 
-// Of one camera: the folder itself.
+// The folder of a camera; the export folder itself if there is only one camera.
 fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size_t camera) {
     return source.one_camera ? folder
                              : folder / ("camera-" + std::to_string(source.numbers[camera]));
@@ -43,7 +43,7 @@ fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size
 // The colour of each depth pixel.
 class ColorOfDepth {
 public:
-    // Counts in `undecoded`, which must stay, what it cannot decode.
+    // Counts pictures that it cannot decode in `undecoded`, which must outlive this object.
     ColorOfDepth(const Calibration& calibration, std::uint64_t& undecoded)
         : undecoded_(undecoded),
           size_(calibration.color.size),
@@ -51,8 +51,8 @@ public:
           out_(calibration.depth.size),
           seen_(calibration.depth.size) {}
 
-    // False if the frame has no colour, or none that can be decoded. What was found is valid until
-    // the next call.
+    // False if the frame has no colour, or none that can be decoded. The result is valid until the
+    // next call.
     bool apply(const Frame& frame) {
         if (frame.color.empty())
             return false;

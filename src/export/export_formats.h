@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recording can be turned into. All functions throw Error.
+// The formats into which a recording can be converted. All functions throw Error.
 #pragma once
 
 #include <filesystem>

@@ -43,7 +43,7 @@ void for_each_in(const fs::path& folder, Visit visit) {
         visit(at->path());
 }
 
-// What an export has made in `folder`.
+// Adds the files and folders in `folder` that an earlier export may have made.
 void find(const fs::path& folder, bool may_have_cameras, Found& found) {
     for_each_in(folder, [&](const fs::path& path) {
         const std::string name = path.filename().string();

@@ -4,7 +4,7 @@
 //
 // Each class of traffic (wire/envelope.h) has its rule. Acknowledgements go first, and only the
 // newest waits. Control is complete and in order; if too much of it waits, all of it is dropped
-// and the session's state must be sent again. Of voice, the oldest packets are dropped. A new
+// and the session's state must be sent again. Voice drops its oldest packets. A new
 // state replaces the waiting one with the same key. Media goes last. It waits in short queues, one
 // per stream, and the newest frame wins: when a newer frame comes, a waiting frame to which none
 // refers is dropped; a broken chain of references is cut at once and continued at the next key

@@ -23,8 +23,8 @@
 
 namespace theatron::receive {
 
-// The newest of one camera, decoded. Depth and colour are of the same moment
-// where both have come; colour is older where it is late, empty before the first.
+// The newest images of one camera, decoded. Depth and colour are of the same moment
+// if both have arrived. Late colour is of an earlier one; it is empty before the first.
 struct CameraFrame {
     CameraId camera{};
     FrameNumber number = 0;
@@ -35,17 +35,17 @@ struct CameraFrame {
 };
 using CameraFramePtr = std::shared_ptr<const CameraFrame>;
 
-// Where depth is what the host's filters gave, to the bit.
+// The part of the depth image that equals the output of the host's filters bit by bit.
 enum class Exactness {
     nowhere,
     region,  // bounded error outside of the region of interest
     everywhere,
 };
 
-// What of one stream came so far, for status lines and reports to the host.
+// Figures of one received stream, for status lines and reports to the host.
 struct StreamFigures {
     StreamId stream{};
-    std::string codec;  // what the host sends now
+    std::string codec;  // the current one
     double frames_per_second = 0;
     double mbit_per_second = 0;  // payload and media header
     std::uint64_t frames = 0;    // decoded
@@ -78,8 +78,8 @@ public:
 
     explicit Receiver(Events events) : events_(std::move(events)) {}
 
-    // What the host announced. Streams that are gone are forgotten. A camera whose calibration
-    // cannot be read (Status of decode_calibration) gets no pictures.
+    // Sets the cameras that the host announced. Streams of other cameras are forgotten. A camera
+    // whose calibration cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
     // Throws Error if a codec is one that this build does not know.
     void set_settings(const std::vector<wire::StreamSetting>& settings);
@@ -91,7 +91,7 @@ public:
     std::vector<StreamFigures> figures(TimePoint now);
     std::uint64_t refused() const { return refused_; }
 
-    // Begins counting anew: rates, ages and drops.
+    // Resets rates, ages and drops.
     void reset_figures();
 
 private:
@@ -101,7 +101,7 @@ private:
         // By the calibration. Pictures of other sizes are refused.
         Size size;
         std::size_t max_message = 0;
-        // Empty until the host has said how it sends; there is a decoder from then on.
+        // Empty before the first set_settings(); a decoder exists afterwards.
         std::optional<SettingId> setting;
         std::string codec;
         codec::DepthSetting depth_setting;
@@ -110,7 +110,7 @@ private:
         std::unique_ptr<video::ColorDecoder> color;
         video::ColorCodecId color_codec{};
         bool color_is_automatic = false;  // the host may change `color_codec`
-        // What a colour frame that is no key frame must refer to.
+        // The frame to which a colour frame that is no key frame must refer.
         std::optional<FrameNumber> color_reference;
 
         bool counting = false;  // a frame has come since the figures were reset
@@ -127,7 +127,7 @@ private:
         bool asked_for_key = false;
         TimePoint asked_at;
     };
-    // What waits for its other half.
+    // Images that wait for the other one of the same moment.
     struct CameraState {
         std::shared_ptr<CameraFrame> depth;  // newest, not yet handed on
         std::shared_ptr<const ColorImage> color;

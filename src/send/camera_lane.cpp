@@ -9,8 +9,8 @@
 namespace theatron::send {
 namespace {
 
-// If no frame comes in this time, a wanted key frame is made of the last one:
-// someone joined a camera that stands still or has ended.
+// If no frame comes in this time, a requested key frame is made of the last one:
+// a participant joined a camera that is stale or has ended.
 constexpr Duration key_patience = 100ms;
 
 }  // namespace
@@ -140,7 +140,7 @@ void CameraLane::on_frame(FramePtr frame) {
     begin_work();
 }
 
-// Every 20 ms, on the workers' looking thread.
+// Every 20 ms, on the workers' thread for periodic calls.
 void CameraLane::look() {
     const capture::WatchedCamera::Status status = capture_->look();
     {
@@ -257,7 +257,7 @@ void CameraLane::take_orders() {
     orders_.keys.clear();
 }
 
-// Shows the frame's depth in filtered_, if there is a filter.
+// Filters the frame's depth into filtered_, if there is a filter.
 void CameraLane::filter_frame() {
     filtered_at_ = {};
     if (filter_.off())

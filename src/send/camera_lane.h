@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera's way through the host: capture, filter, then encode once per setting.
+// The processing of one camera on the host: capture, filter, then encode once per setting.
 //
 // A thread waits for the camera and does nothing else. The work on a frame runs on
-// threads that all lanes share, one frame of a lane at a time, depth and colour
-// side by side where a thread is idle. Between the two the newest frame wins, so slow work never
-// makes frames older. Lanes know nothing of each other: nobody waits for a neighbour.
+// threads that all lanes share: one frame of a lane at a time, its depth and colour in
+// parallel if a thread is idle. Between capture and work the newest frame wins, so slow work
+// never makes frames older. Lanes are independent: none waits for another.
 #pragma once
 
 #include <atomic>
@@ -35,33 +35,33 @@ public:
     struct Events {
         // From a working thread; depth and colour may come from two at once.
         std::function<void(EncodedMedia)> media;
-        // Whenever the camera's condition has changed. From the workers' looking thread.
+        // The camera's condition has changed. From the workers' thread for periodic calls.
         std::function<void(wire::CameraState)> state;
-        // Encoding in this setting keeps up with the camera no longer, or does again; it takes
-        // `cpu` a picture. From a working thread.
+        // Encoding in this setting no longer keeps up with the camera, or does again; it takes
+        // `cpu` for a picture. From a working thread.
         std::function<void(SettingId, bool keeps_up, Duration cpu)> keeps_up = [](SettingId, bool,
                                                                                   Duration) {};
     };
 
     struct Options {
-        // How many may wait for the work; one for the least age, more for the fewest drops.
+        // Frames that may wait for work: 1 for the lowest age, more for the fewest drops.
         std::size_t waiting_frames = 1;
         // Opens a live camera again when it has failed. Empty: nothing does.
         capture::WatchedCamera::Open open_again;
         // Common to cameras whose frames belong together. Null: the lane's own.
         std::shared_ptr<SharedMoments> moments;
-        // Frames that are the second of their moment are passed over.
+        // Drops frames that are the second of their moment.
         bool one_per_moment = false;
-        // How many share the workers: a setting's share of their time follows from it.
+        // Cameras that share the workers: it determines a setting's share of their time.
         std::size_t cameras = 1;
         // As in LaneEncoders::Environment; empty: the usual ones.
         std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
         std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color;
-        // Of the camera's care, of header times and of waiting for key frames.
+        // The clock of the watched camera, of header times and of waiting for key frames.
         capture::WatchedCamera::Clock clock = capture::WatchedCamera::steady_clock();
     };
 
-    // Takes over `camera` and starts at once. `workers` outlives the lane.
+    // Takes over `camera` and starts at once. `workers` must outlive the lane.
     CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Events events,
                Workers& workers, Options options);
     ~CameraLane();
@@ -83,18 +83,18 @@ public:
     // where a codec's error is bounded; empty: all of it. It must be strata::is_valid.
     void set_region(codec::strata::Region region);
 
-    // Begins no frame while held: nobody could take it yet. The newest one waits.
+    // While held, no work on a frame begins: no receiver could take it yet. The newest one waits.
     void hold(bool held);
 
-    // The next frame, or if none comes soon the last one again, becomes a key frame.
+    // The next frame becomes a key frame. If none comes within 100 ms, the last one is sent again.
     void request_key(StreamId stream, SettingId setting);
 
     LaneFigures figures() const;
-    // Of these, what is cheap to ask for.
+    // Figures that are cheap to read.
     std::vector<EncoderFigures> encoder_figures() const { return encoders_.figures(); }
     std::uint64_t dropped_newest() const { return meter_.dropped(DropReason::newer); }
 
-    // Returns once no work on frames runs or is due, here or behind.
+    // Returns once no work on frames runs or is due, also on background threads.
     void wait_idle();
 
 private:
@@ -129,7 +129,7 @@ private:
     void prepare_frame(TimePoint begin);
     void encode_frame();
     void encode_depth();
-    // Unless the other thread does or did.
+    // Does nothing if the other thread has begun it.
     void encode_color();
     // One of the two parts of the frame is done; the last one ends the work on it.
     void end_part();
@@ -160,7 +160,7 @@ private:
     // Only in work(), which runs once at a time.
     LaneEncoders encoders_;
     struct Picture {
-        wire::MediaHeader header;  // what is the same for all settings
+        wire::MediaHeader header;  // its fields that all settings share
         DepthView depth;           // of last_, or filtered
         TimePoint begun;
     };

@@ -148,7 +148,7 @@ TEST_F(Lane, EncodesOncePerSettingBeginningWithKeyFrames) {
     EXPECT_EQ(published[2].header.stream, depth_stream(CameraId{3}));
     EXPECT_GE(published[2].header.encoded, published[2].header.captured);
 
-    // What was published is what the camera gave.
+    // The published images equal those of the camera.
     codec::DepthStreamDecoder decoder(codec::parse_depth_setting("trvl").setting);
     DepthImage image(size);
     for (const int i : {0, 2}) {
@@ -196,7 +196,7 @@ TEST_F(Lane, ColorFramesNameWhatTheyReferTo) {
         lane->wait_idle();
     }
     const std::lock_guard lock(mutex);
-    // Which of a frame's settings comes first depends on what they cost.
+    // The order of a frame's settings depends on their costs.
     const auto of = [&](SettingId setting) {
         std::vector<wire::MediaHeader> headers;
         for (const EncodedMedia& media : published)

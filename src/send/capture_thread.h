@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thread that waits for one camera. If it does not come back out of the
-// camera's driver, another takes its place.
+// The thread that waits for one camera. If the camera's driver does not return,
+// another thread takes its place.
 #pragma once
 
 #include <atomic>
@@ -16,15 +16,15 @@ namespace theatron::send {
 
 class CaptureThread {
 public:
-    // `sink` is called from the thread, and not any more once the destructor has returned.
+    // `sink` is called from the thread, and never after the destructor has returned.
     CaptureThread(std::unique_ptr<capture::Camera> camera, capture::WatchedCamera::Open open_again,
                   std::function<void(FramePtr)> sink, capture::WatchedCamera::Clock clock);
     ~CaptureThread();
 
     const capture::CameraInfo& info() const { return shared_->camera.info(); }
 
-    // How the camera is, now. To be asked every 20 ms, from one thread: it is also
-    // when a driver that hangs is left to itself.
+    // The camera's status. Call it every 20 ms, from one thread: this call also
+    // replaces a thread whose driver hangs.
     capture::WatchedCamera::Status look();
 
 private:
@@ -38,7 +38,7 @@ private:
         std::thread thread;
         std::shared_ptr<std::atomic<bool>> done = std::make_shared<std::atomic<bool>>(false);
     };
-    // More threads than these are not left behind in one camera's driver.
+    // Threads of one camera that may hang in its driver; more are not started.
     static constexpr std::size_t most_left_behind = 3;
 
     void start(capture::WatchedCamera::Turn turn);

@@ -202,8 +202,8 @@ bool LaneEncoders::encode(Color& e, const ColorData& color, wire::MediaHeader he
     if (!e.encoder)
         e.encoder = environment_.make_color(e.parsed);
     const auto encoded = e.encoder->encode(color, key);
-    // A camera's damaged picture is left out; its depth is not. What follows must not refer to
-    // what an encoder may have kept of it.
+    // A camera's damaged picture is skipped; its depth is not. Later pictures must not refer to
+    // data of it that the encoder may have kept.
     if (!encoded)
         return false;
     if (encoded->codec)

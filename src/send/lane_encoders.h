@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoders of one lane: one for each distinct setting that somebody receives.
+// The encoders of one lane: one for each distinct setting that a participant receives.
 //
 // A frame is encoded at once in the cheapest setting and in those that take no more than their
-// share (encoder_cost.h), and each is published as soon as it is done. The others follow behind,
-// each on a thread that nothing waits for; while one is busy, frames are left out of its stream
-// alone. Its chain stays whole, since an encoder knows only the frames that it encoded.
+// share (encoder_cost.h), and each is published as soon as it is done. Background threads encode
+// the other settings; while such an encoder is busy, frames are skipped in its stream alone. Its
+// chain of references stays whole, because an encoder refers only to frames that it encoded.
 #pragma once
 
 #include <condition_variable>
@@ -34,13 +34,13 @@ struct EncodedMedia {
     std::shared_ptr<const Bytes> message;  // header and payload
 };
 
-// A setting to encode, in its one spelling.
+// A setting to encode, in its canonical spelling.
 struct LaneSetting {
     SettingId id{};
     std::string codec;
 };
 
-// Frames whose key was asked for.
+// Streams and settings whose next frame must be a key frame.
 using WantedKeys = std::set<std::pair<StreamId, SettingId>>;
 
 // CPU time of the calling thread.
@@ -50,19 +50,19 @@ Duration thread_cpu_time();
 class LaneEncoders {
 public:
     struct Events {
-        // From whichever thread encodes.
+        // Called from the thread that encoded.
         std::function<void(EncodedMedia)> publish;
-        // A key frame that was wanted while the encoder was busy is due: from a thread behind.
+        // A key frame that was requested of a busy encoder is due. From a background thread.
         std::function<void(StreamId, SettingId)> key_due = [](StreamId, SettingId) {};
-        // The setting keeps up with the camera no longer, or does again; what a picture takes.
+        // The setting no longer keeps up with the camera, or does again; `cpu` is for one picture.
         std::function<void(SettingId, bool keeps_up, Duration cpu)> keeps_up = [](SettingId, bool,
                                                                                   Duration) {};
     };
-    // What the encoders use of the world around; tests give their own.
+    // Clocks, threads and factories that the encoders use; tests replace them.
     struct Environment {
-        std::function<TimePoint()> now;  // when a message was encoded
+        std::function<TimePoint()> now;  // session time
         std::function<Duration()> cpu_time = thread_cpu_time;
-        // Does work later, on another thread.
+        // Runs work later, on a background thread.
         std::function<void(std::function<void()>)> behind;
         Duration share{};  // see encoder_share()
         std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
@@ -70,33 +70,33 @@ public:
     };
 
     LaneEncoders(CameraId camera, Events events, Environment environment);
-    // Returns when nothing is encoded behind any more.
+    // Returns when no background thread encodes any more.
     ~LaneEncoders();
 
-    // Encoders of settings that stay go on; they know their reference frames. A new
+    // Encoders of settings that stay are kept; they know their reference frames. A new
     // one begins with a key frame, which is added to `keys`.
     void set_settings(const std::vector<LaneSetting>& depth, const std::vector<LaneSetting>& color,
                       WantedKeys& keys);
-    // Of all depth encoders from the next frame on.
+    // Sets the region of all depth encoders from the next frame on.
     void set_region(const codec::strata::Region& region);
     bool empty() const { return depth_.empty() && color_.empty(); }
     bool has_depth() const { return !depth_.empty(); }
     bool has_color() const { return !color_.empty(); }
 
-    // `header` holds what is the same for all settings of the frame.
+    // `header` holds the fields that all settings of the frame share.
     void encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys);
-    // Of frame->color, which is not empty. Returns how many settings could not encode it at once
-    // because it is damaged.
+    // Encodes frame->color, which is not empty. Returns the number of settings that could not
+    // encode it at once because it is damaged.
     int encode_color(const FramePtr& frame, wire::MediaHeader header, const WantedKeys& keys);
 
-    // Returns when nothing is encoded behind and nothing waits for that.
+    // Returns when the background threads have no work of this object left.
     void wait_behind();
 
     // From any thread.
     std::vector<EncoderFigures> figures() const;
 
 private:
-    // What depth and colour have in common. One thread at a time encodes; `mutex` guards the rest.
+    // Fields of depth and colour encoders. One thread at a time encodes; `mutex` guards the rest.
     struct Encoder {
         LaneSetting setting;
         std::uint8_t codec = 0;
@@ -123,17 +123,17 @@ private:
         FrameNumber encoded_last = 0;
     };
 
-    // Chooses which encode the picture at once, into at_once.
+    // Writes the encoders that encode the picture at once into `at_once`.
     template <class E>
     void choose(const std::vector<std::shared_ptr<E>>& encoders, std::vector<std::size_t>& at_once);
-    // Whether the encoder takes the picture, and whether it must be a key frame. If it does,
-    // end() follows.
+    // Empty if the encoder is busy and skips the picture. Otherwise true if the picture must be a
+    // key frame; end() must follow.
     std::optional<bool> begin(Encoder& encoder, bool key);
     void end(Encoder& encoder, bool done, Duration cpu, StreamId stream);
-    // As one of a pair of begin() and end(); false if it could not be encoded.
+    // Between begin() and end(); false if the picture could not be encoded.
     bool encode(Depth& encoder, DepthView depth, wire::MediaHeader header, bool key);
     bool encode(Color& encoder, const ColorData& color, wire::MediaHeader header, bool key);
-    // Encodes, with end(), whatever happens.
+    // Encodes and calls end(), also if encoding throws.
     template <class E, class Picture>
     bool encode_and_end(E& encoder, const Picture& picture, const wire::MediaHeader& header,
                         bool key);
@@ -149,12 +149,12 @@ private:
     std::vector<std::shared_ptr<Depth>> depth_;
     std::vector<std::shared_ptr<Color>> color_;
     std::vector<std::size_t> depth_at_once_, color_at_once_;
-    Pool<DepthImage> depths_;  // for those behind
+    Pool<DepthImage> depths_;  // for background threads
     Pool<Bytes> messages_;
 
     std::mutex behind_mutex_;
     std::condition_variable behind_done_;
-    int behind_ = 0;  // pictures given to threads behind
+    int behind_ = 0;  // pictures at background threads
     bool stopping_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went on in a camera's lane since it began, for status lines and monitoring.
+// Counters and times of a camera's lane since its start, for status lines and monitoring.
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ enum class Stage : std::uint8_t {
 inline constexpr int stage_count = 6;
 const char* text_of(Stage stage);
 
-// Why a frame of the camera was not encoded.
+// The reason why a frame of the camera was not encoded.
 enum class DropReason : std::uint8_t {
     newer,      // a newer one came before the work on it began
     moment,     // the second of one moment
-    repeated,   // the camera repeated itself
-    time_jump,  // its time could not be
+    repeated,   // equal to the frame before
+    time_jump,  // with an impossible time
 };
 inline constexpr int drop_reasons = 4;
 const char* text_of(DropReason reason);

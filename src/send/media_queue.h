@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoded frames on their way from the lanes to the thread that sends them. Should that thread
-// be held up, the newest wins, or while somebody records all are kept for longer; the queue stays
+// Encoded frames between the lanes and the thread that sends them. If that thread is delayed, the
+// newest frame wins; while a participant records, all frames are kept for longer. The queue is
 // bounded in both cases.
 #pragma once
 
@@ -16,25 +16,25 @@ namespace theatron::send {
 
 class MediaQueue {
 public:
-    // Frames of one stream in one setting that wait. At one more, those that wait are dropped,
-    // and the stream goes on with a key frame.
+    // Frames of one stream in one setting that may wait. One more drops all that wait, and the
+    // stream continues with a key frame.
     static constexpr std::size_t max_waiting = 4;
-    // The same while somebody records: three seconds at 30 frames per second; of all streams
-    // together at most so many bytes.
+    // The same while a participant records: three seconds at 30 frames per second. All streams
+    // together may wait with at most `max_kept_bytes`.
     static constexpr std::size_t max_kept = 90;
     static constexpr std::size_t max_kept_bytes = std::size_t(128) << 20;
 
-    // From any thread. Somebody records, or nobody does any more.
+    // From any thread. True while at least one participant records.
     void keep_everything(bool keep);
 
-    // From any thread. True if nothing waited: somebody should be told to take.
+    // From any thread. True for the first frame since take(): the taker must then be woken.
     [[nodiscard]] bool put(EncodedMedia media);
 
     struct Taken {
         std::vector<EncodedMedia> media;  // in the order of each stream
-        // How many frames of a stream were dropped since the last time, because nobody took them.
+        // Frames of a stream that were dropped since the last call because nobody took them.
         std::map<StreamId, std::uint64_t> dropped;
-        // Nothing more of these comes before a key frame.
+        // Nothing of these is sent before a key frame.
         std::vector<std::pair<StreamId, SettingId>> broken;
     };
     Taken take();  // everything

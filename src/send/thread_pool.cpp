@@ -55,7 +55,7 @@ void ThreadPool::put(std::function<void()> work, bool first) {
 void ThreadPool::run() {
     name_this_thread(name_);
     if (added_niceness_ > 0) {
-        // Of this thread alone.
+        // On Linux this sets the priority of the calling thread only.
         const int niceness = getpriority(PRIO_PROCESS, id_t(getpid())) + added_niceness_;
         (void)setpriority(PRIO_PROCESS, id_t(gettid()), std::min(niceness, highest_niceness));
     }

@@ -19,8 +19,8 @@ public:
     // Work that has not begun is dropped; its owner no longer waits for it.
     ~ThreadPool();
 
-    // From any thread. Does `work` later, after everything that waits or before it. An exception
-    // of `work` is noted and goes no further.
+    // From any thread. Does `work` later, after all that waits or before it. An exception of
+    // `work` is logged and goes no further.
     void enqueue(std::function<void()> work);
     void enqueue_first(std::function<void()> work);
 

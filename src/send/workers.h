@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The threads that do the work of all cameras: as many as there are cores,
-// however many cameras there are, and one that looks after time.
+// however many cameras there are, and one thread for periodic calls.
 #pragma once
 
 #include <condition_variable>
@@ -19,7 +19,7 @@ class Workers {
 public:
     // 0: one thread per core.
     explicit Workers(int threads = 0);
-    ~Workers();  // what was begun is finished by its owner before
+    ~Workers();  // owners of work must have waited for it before
 
     int threads() const { return threads_; }
 
@@ -27,16 +27,16 @@ public:
 
     // Does `work` soon, first come first served. It must not wait for other work.
     void enqueue(std::function<void()> work) { pool_.enqueue(std::move(work)); }
-    // Does `work` before everything else that waits: it completes what is nearly done.
+    // Does `work` before all other work that waits. For work that completes a frame.
     void enqueue_first(std::function<void()> work) { pool_.enqueue_first(std::move(work)); }
-    // Does `work` later, behind everything else: on threads of their own, half as many as there
-    // are cores and of lower priority.
+    // Does `work` later, on background threads: half as many as the others, and of lower
+    // priority.
     void enqueue_behind(std::function<void()> work) { background_.enqueue(std::move(work)); }
     // True if work that is enqueued now begins at once.
     bool has_idle_thread() const { return pool_.has_idle_thread(); }
 
-    // Calls `look` every 20 ms, on a thread of its own, until forget() has returned. What it
-    // throws is noted and costs nobody else a look.
+    // Calls `look` every 20 ms, on a thread of its own, until forget() has returned. An exception
+    // of it is logged; the other calls go on.
     static constexpr Duration look_every = 20ms;
     using Ticket = std::uint64_t;
     Ticket look_after(std::function<void()> look);
@@ -45,15 +45,15 @@ public:
 private:
     void look_around();
 
-    // With a tenth of the weight of the other threads it still gets somewhere on a machine that is
-    // fully used.
+    // A tenth of the weight of the other threads: background work still progresses on a machine
+    // that is fully used.
     static constexpr int background_niceness = 10;
 
     const int threads_;
     ThreadPool pool_;
     ThreadPool background_;
 
-    std::mutex mutex_;  // guards all below; held while somebody looks
+    std::mutex mutex_;  // guards all below; locked during the periodic calls
     std::condition_variable changed_;
     std::map<Ticket, std::function<void()>> looks_;
     Ticket next_ticket_ = 1;

@@ -141,7 +141,7 @@ Status AvcDecoder::decode(ByteView access_unit, Size size, AvcLayout layout) {
         return Status::too_large;
     const avc::Sequence wanted = sequence_of(size, layout);
     if (unit->key) {
-        // What damaged headers left behind must not outlive the next key frame.
+        // State that damaged headers left in the decoder must not outlive the next key frame.
         l.open();
         if (!l.context)
             return Status::unsupported;

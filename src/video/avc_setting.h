@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user may say to an H.264 encoder, for colour and for depth.
+// Parameters of an H.264 encoder that a user can set, for colour and for depth.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct AvcParams {
 // sentence if preset or encoder is none; other trouble is kept by the options.
 AvcParams take_avc_params(Options& options, int usual_crf, std::string& problem);
 
-// The parameters in their one spelling: "crf=20" or "bitrate_mbit=5,preset=veryfast".
+// The parameters in canonical spelling: "crf=20" or "bitrate_mbit=5,preset=veryfast".
 std::string spelling(const AvcParams& params);
 
 }  // namespace theatron::video

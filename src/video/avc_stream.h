@@ -30,7 +30,7 @@ struct Unit {
 // Takes the first unit off `stream`; nothing if it does not begin with one.
 std::optional<Unit> take_unit(ByteView& stream);
 
-// What a sequence header says.
+// The fields of a sequence header that are needed here.
 struct Sequence {
     Size size;
     int bits = 8;       // of a sample: 8 or 10
@@ -44,7 +44,7 @@ struct Sequence {
 // several references, scaling lists, other samples than 4:2:0 or grey.
 Result<Sequence> read_sequence(ByteView unit);
 
-// What is known of an access unit.
+// The kind of an access unit, and its sequence header.
 struct AccessUnit {
     bool key = false;
     Sequence sequence;  // of a key frame

@@ -25,11 +25,11 @@ enum class ColorCodecId : std::uint8_t {
     h264 = 67,
 };
 
-// A receiver that asks for this leaves the choice to the host: JPEG or H.264, which may change from
-// picture to picture; the media header says which one it is. It is no codec of this module.
+// A receiver that requests this leaves the choice to the host: JPEG or H.264, which may change from
+// picture to picture; the media header names the codec. It is no codec of this module.
 inline constexpr std::string_view auto_color = "auto";
 
-// A codec as a receiver asks for it, checked and in its one spelling.
+// A codec as a receiver requests it, checked and in canonical spelling.
 struct ColorSetting {
     ColorCodecId id = ColorCodecId::jpeg;
     std::string text = "jpeg:quality=85";
@@ -42,10 +42,10 @@ struct ParsedColorSetting {
     std::string problem;  // empty if `setting` holds
 };
 
-// Understands "raw", "jpeg", "jpeg:quality=85", "h264:crf=20". The problem names the codecs
-// there are, or the parameter that is wrong. Where a quality of 85 or more is asked for, a camera's
-// own JPEG pictures are passed through untouched; below, they are encoded again. `pass=0` and
-// `pass=1` say otherwise. What is not smaller than the camera's own picture is never sent.
+// Parses "raw", "jpeg", "jpeg:quality=85", "h264:crf=20". The problem names the existing codecs,
+// or the wrong parameter. For qualities of 85 and more a camera's own JPEG pictures are passed
+// through untouched; below, they are encoded again. `pass=0` and `pass=1` override this. A newly
+// encoded JPEG that is not smaller than the camera's own picture is never sent.
 ParsedColorSetting parse_color_setting(std::string_view text);
 
 std::vector<std::string> color_codec_names();

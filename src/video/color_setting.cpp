@@ -11,7 +11,7 @@ ParsedColorSetting refused(std::string problem) {
     return {.setting = {}, .problem = std::move(problem)};
 }
 
-// Cameras deliver JPEG of quality 85 to 95. Who asks for less wants fewer bytes.
+// Cameras deliver JPEG of quality 85 to 95. A lower quality is a request for fewer bytes.
 bool usually_passes(int quality) {
     return quality >= JpegParams().quality;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All depth codecs: those of codec/ and those that need a video library. Who
-// sends or receives streams takes codecs from here; codec/ stays free of
-// libraries that not every machine has.
+// All depth codecs: those of codec/ and those that need a video library. Code that
+// sends or receives streams uses this header; codec/ itself needs no library that
+// some machines lack.
 #pragma once
 
 #include <memory>

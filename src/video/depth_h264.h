@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth as grey H.264 video (docs/formats/depth_h264.md): lossy, small, for
-// comparison and for thin links. Which pixels are valid is kept exactly; their
-// values become 1024 levels of equal ratio and go through x264.
+// comparison and for slow links. The set of valid pixels is kept exactly; their
+// values become 1024 levels of equal ratio and are encoded by x264.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels of a depth image are valid, coded without loss: one adaptive
-// binary decision a pixel, with its neighbours and the frame before as context.
+// Lossless coding of a depth image's mask of valid pixels: one adaptive binary
+// decision per pixel, with its neighbours and the previous frame as context.
 // The bytes are specified in docs/formats/depth_h264.md. Pure functions.
 #pragma once
 

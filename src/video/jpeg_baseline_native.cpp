@@ -10,7 +10,7 @@ using namespace jpeg_marker;
 
 constexpr int slots = 4;  // tables of a kind that a picture may keep
 
-// What the segments before the scan have said so far.
+// The tables of the segments that were read so far.
 struct Tables {
     std::array<std::array<std::uint8_t, 64>, slots> steps{};
     std::array<bool, slots> has_steps{};
@@ -34,8 +34,8 @@ Status read_quantization(ByteReader in, Tables& tables) {
     return Status::ok;
 }
 
-// Whether the lengths leave a prefix code without the code of ones alone, which
-// T.81 forbids.
+// True if a prefix code with these lengths exists in which no code consists of
+// ones alone: T.81 forbids that code.
 bool is_possible(const JpegHuffmanCode& code) {
     unsigned next = 0;
     for (std::size_t length = 1; length <= 16; ++length) {

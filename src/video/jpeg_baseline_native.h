@@ -59,8 +59,8 @@ struct JpegMarker {
 };
 JpegMarker find_jpeg_marker(ByteView coded, std::size_t from);
 
-// Whether the picture whose last coded byte is followed by `marker` has an end,
-// and no further picture or scan before it.
+// True if the picture has an end marker, and no further picture or scan before
+// it. `marker` is the marker after its last coded byte.
 bool ends_as_jpeg(ByteView coded, JpegMarker marker);
 
 }  // namespace theatron::video

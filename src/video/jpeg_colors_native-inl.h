@@ -24,7 +24,7 @@ using Colors = hn::RebindToSigned<PairsOfPixels>;
 using PairVector = hn::Vec<PairsOfPixels>;
 using ColorVector = hn::Vec<Colors>;
 
-// Of the even pixels and the odd ones.
+// Values of the even pixels and of the odd ones.
 struct EvenOdd {
     ColorVector even, odd;
 };

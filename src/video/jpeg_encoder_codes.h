@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard Huffman codes as our JPEG encoder looks them up: already joined
-// with the bits of the value that follows.
+// The standard Huffman codes in tables for our JPEG encoder: each code is already
+// followed by the bits of its value.
 #pragma once
 
 #include <bit>
@@ -18,15 +18,15 @@ using Code = std::uint32_t;
 // The codes of luma or of chroma. Rows are for the distance, in zigzag order, from
 // the last coefficient that was coded; row 0 is for DC.
 struct CodeTables {
-    // Of small values, which nearly all are.
+    // Codes of values from -small to small - 1: nearly all values.
     static constexpr int small = 128;
     Code by_value[17][2 * small];
-    // Of others by their size; the value's bits are still zero.
+    // Codes of the others by their size; the bits of the value are zero.
     Code by_size[17][12];
     Code end_of_block, sixteen_zeros;
 };
 
-// How many bits a value's magnitude has. Doubled, so that 0 is no special case.
+// Number of bits of a value's magnitude. Doubled, so that 0 is no special case.
 constexpr int size_of(int value) {
     return std::bit_width(2 * unsigned(value < 0 ? -value : value) + 1) - 1;
 }

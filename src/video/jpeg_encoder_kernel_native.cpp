@@ -205,7 +205,7 @@ public:
                                  tables.factor[1], tables.scale[1]);
     }
 
-    // Of the tile, this much lies in the picture.
+    // `width` x `height` pixels of the tile lie in the picture.
     HWY_INLINE void code_units(int width, int height, BitWriter& out) {
         const int units = (std::min(width, tile_width) + unit_size() - 1) / unit_size();
         const Block* const end = order_ + units * (halve_chroma_ ? 6 : 3);

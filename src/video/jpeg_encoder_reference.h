@@ -20,7 +20,7 @@ public:
     ReferenceScan(ColorView image, int quality, bool halve_chroma)
         : image_(image), quality_(quality), halve_chroma_(halve_chroma) {}
 
-    // What lies between the headers and the end marker.
+    // Returns the bytes between the headers and the end marker.
     Bytes encode() {
         const int unit = halve_chroma_ ? 16 : 8;
         for (int y = 0; y < image_.size.height; y += unit)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a baseline JPEG encoder knows beforehand: the quantisation and Huffman
-// tables that ITU-T T.81 gives as examples in annex K, and which nearly every
-// JPEG picture uses. Tables of pairs: of luma, and of both chroma components.
+// Constant tables of a baseline JPEG encoder: the quantisation and Huffman tables
+// that ITU-T T.81 gives as examples in annex K. Nearly every JPEG picture uses them.
+// Each pair of tables is for luma, and for both chroma components.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ inline constexpr int tile_blocks = tile_width / 8;
 // lie column by column, each column tile_width after the one before.
 struct BlockRow {
     alignas(64) std::int16_t values[8][tile_width];
-    // Which of a block's coefficients are not 0: a byte per column, lowest bit on top.
+    // Bit mask of a block's nonzero coefficients: a byte per column, the lowest bit on top.
     std::uint8_t nonzero[8][tile_blocks];
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a JPEG picture says about itself before any pixel: enough to refuse it,
+// The header of a JPEG picture, before its pixels: enough to refuse the picture,
 // to check its size and to reserve memory, without a JPEG library.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fast JPEG decoder's set-up hands to its kernels: tables and memory for
-// one picture. Native builds only.
+// Input of the fast JPEG decoder's kernels: tables and memory for one picture.
+// Native builds only.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct Component {
     Strip strip;
 };
 
-// What may be read after the last coded byte.
+// Readable bytes after the last coded byte.
 inline constexpr std::size_t slack = 32;
 
 struct Scan {

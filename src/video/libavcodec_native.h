@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both sides of H.264 need of libavcodec. Native builds only.
+// The parts of libavcodec that H.264 encoding and decoding share. Native builds only.
 #pragma once
 
 extern "C" {

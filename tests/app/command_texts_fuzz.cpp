@@ -13,7 +13,7 @@
 
 namespace {
 
-// What `parse` makes of the text, passed to `check` if it is understood.
+// Calls `parse` and passes its result to `check`. An Error of `parse` must have a text.
 template <class Parse, class Check>
 void try_text(const Parse& parse, const Check& check) {
     try {

@@ -103,10 +103,10 @@ class Care(unittest.TestCase):
     def test_metrics_tell_what_every_camera_does(self):
         with host(self.state, self.camera, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as viewer:
-            # Of 30 frames a second 5 must be counted, and states may be stale: the figures are tested here,
+            # 5 of 30 frames a second must be counted, and states may be stale: the figures are tested here,
             # not the machine, which runs other tests' hosts and llvmpipe at the same time. With bounds of
-            # 20 frames and 0.5 s this test failed on two busy cores. How many frames a quiet
-            # machine carries is measured by `theatron bench pipeline` (docs/decisions/lanes.md).
+            # 20 frames and 0.5 s this test failed on two busy cores. `theatron bench pipeline` measures
+            # the frame rate of a quiet machine (docs/decisions/lanes.md).
             viewer.wait_for(lambda f: f["fps"] > 5, 20)
             token = self.token(h.greeting)
             first = metrics(h.greeting, token)

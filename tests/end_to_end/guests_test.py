@@ -16,7 +16,7 @@ from theatron_process import Process, host, make_recording, run
 # An ordinary name in a hospital. The hundredth byte lies inside a character.
 LONG_NAME = "OOOOOOUniversitätsklinikum, Klinik für Herzchirurgie, Operationssaal 3, Überwachungsplatz der Anästhesie" + "ü" * 20
 MAX_NAME = 64
-# What a host can make a viewer take that draws nothing, "Memory" in docs/formats/connection.md.
+# Most memory that a host can make a viewer without pictures use, "Memory" in docs/formats/connection.md.
 MAX_VIEWER_MB = 2048
 
 

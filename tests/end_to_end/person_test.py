@@ -38,7 +38,7 @@ def make_person(folder):
 
 
 def place(x, y, mm):
-    """Of a pixel, in the room."""
+    """The room coordinates of a pixel."""
     z = mm / 1000
     return (x - WIDTH / 2) / FOCAL * z, CAMERA_Y - (y - HEIGHT / 2) / FOCAL * z, -z
 
@@ -58,7 +58,7 @@ class Person(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def host(self):
-        # What the camera gives, as it is.
+        # Without filters, depth reaches the viewer unchanged.
         return host(self.folder / "state", self.camera, options=("--filter", "off"))
 
     def join(self, link, *options):
@@ -69,7 +69,7 @@ class Person(unittest.TestCase):
         return read_png(depth)[3]
 
     def shares(self, rows, middle, reach):
-        """Of the body's and the wall's pixels within the reach, at its border and beyond it: those drawn."""
+        """The share of drawn pixels among the body's and the wall's: within the reach, at its border, beyond it."""
         counts = {}
         for y in range(2, HEIGHT - 2):
             for x in range(2, WIDTH - 2):

@@ -34,7 +34,7 @@ class Person(RawPeer):
         self.send(bytes([STATES, topic]) + struct.pack("<IH", number, len(body)) + body)
 
     def receive_poses(self):
-        """Of the next envelope that has some: body by participant."""
+        """The bodies by participant, in the next envelope that has poses."""
         while True:
             envelope = self.receive()
             if envelope[0] != STATES:

@@ -353,7 +353,7 @@ class FakeHost:
 
     `state`: the state folder of a real host whose identity it takes, so that links to that host lead here if
     `port` is that host's, too; by default it makes an identity. `receive_buffer`: of the sockets, small ones show
-    soon that nobody reads. What a script raises is in `faults`.
+    soon that nobody reads. `faults` holds the exceptions of scripts.
     """
 
     def __init__(self, script, *, state=None, token="0" * 32, port=0, receive_buffer=None):

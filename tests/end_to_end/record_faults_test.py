@@ -21,7 +21,7 @@ BUFFER_MB = 1
 
 
 def clock_ahead(seconds):
-    """What to put before a command so that its steady clock is ahead; None where that is not allowed."""
+    """A command prefix that sets the steady clock ahead; None where that is not allowed."""
     prefix = ("unshare", "--time", "--monotonic", str(seconds))
     if subprocess.run([*prefix, "true"], capture_output=True).returncode != 0:
         return None
@@ -185,7 +185,7 @@ class RecordFaults(unittest.TestCase):
             self.says(recorder, "Missing: ")
             before = file.stat().st_size
             disk.be("well")
-            # What the buffer held, and then some that came afterwards.
+            # The content of the buffer, and some frames that came afterwards.
             self.begun(recorder, file, before + (BUFFER_MB << 20) + 500_000)
             figures = self.ends(recorder, INCOMPLETE)
         self.assertGreater(figures["dropped"], 0)

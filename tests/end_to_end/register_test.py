@@ -17,7 +17,7 @@ FILLED = {(0, 0), (1, 0), (0, 1)}  # column, row
 
 
 def is_board(u, v):
-    """Whether the front of the board has material there; u to the right, v up, from its middle."""
+    """True if the front of the board has material there; u to the right, v up, from its middle."""
     if abs(u) > BOARD_WIDTH / 2 or abs(v) > BOARD_HEIGHT / 2:
         return False
     cell_width, cell_height = (BOARD_WIDTH - 5 * BAR) / 4, (BOARD_HEIGHT - 4 * BAR) / 3
@@ -28,7 +28,7 @@ def is_board(u, v):
 
 
 def position(degrees, radius=1.3):
-    """Of a camera around the board, at its height, which looks at it."""
+    """The position of a camera around the board, at its height, that is turned to it."""
     a = math.radians(degrees)
     return radius * math.sin(a), 1.2, radius * math.cos(a)
 

@@ -20,7 +20,7 @@ class Secrets(unittest.TestCase):
         shutil.rmtree(self.folder)
 
     def refused(self, *options, **environment):
-        """What a host says that does not start."""
+        """The error output of a host that must refuse to start."""
         done = subprocess.run(
             [PROGRAM, "host", "--camera", self.camera, "--listen", "127.0.0.1:0", "--seconds", "0.2", *map(str, options)],
             stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,

@@ -10,7 +10,7 @@ HOST_ADDRESS = "10.77.0.1"
 
 
 def missing():
-    """What is missing on this machine for shaped links, or None."""
+    """The reason why this machine cannot shape links, or None."""
     if os.geteuid() != 0:
         return "shaping a link needs root"
     if not pathlib.Path("/dev/net/tun").exists():

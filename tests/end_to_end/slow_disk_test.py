@@ -78,7 +78,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(os.stat(self.disk.folder / "file").st_size, 8)
 
     def after_file_size(self):
-        """Of the file as soon as the writer has opened it."""
+        """The size of the file as soon as the writer has opened it."""
         while not (self.disk.folder / "file").exists():
             self.assertIsNone(self.writer.poll())
         return os.stat(self.disk.folder / "file").st_size

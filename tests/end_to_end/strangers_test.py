@@ -120,7 +120,7 @@ class Strangers(unittest.TestCase):
             self.assertLess(h.memory_mb(), memory + 32)
 
     def client_hello(self, link):
-        """What a client says first, taken from one."""
+        """The first bytes of a TLS client, captured from a real one."""
         with socket.create_server(("127.0.0.1", 0)) as listener:
             there = Link.parse(link)._replace(port=listener.getsockname()[1])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One viewer on a link that becomes slow for a while: what it saw, second by second.
+"""One viewer on a link that becomes slow for a while: its figures, second by second.
 
     python3 tests/end_to_end/throttled_run.py --camera folder:DIR,loop=1 --need 40 --json throttled.json
 """
@@ -20,7 +20,7 @@ def percentile(values, q):
 
 
 class Sample:
-    """What the viewer said at one moment, `at` seconds after the run began."""
+    """The viewer's figures `at` seconds after the run began."""
 
     def __init__(self, at, figures):
         self.at = at

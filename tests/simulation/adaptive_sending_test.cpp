@@ -70,7 +70,7 @@ public:
     }
 
     void draw_region(bool drawn) { host_.on_region(drawn); }
-    // What is encoded of depth now.
+    // True if depth is being encoded with loss outside of the region.
     bool is_lossy() const {
         return std::any_of(host_.depth_settings().begin(), host_.depth_settings().end(),
                            [](const auto& s) { return s.codec.ends_with(",loss"); });

@@ -57,7 +57,7 @@ def zstd_frame(frame, size):
 
 
 def decode_bytes(header, content, reference):
-    """What zstd and lz4 share: planes, prediction, quantisation."""
+    """Decodes the part that zstd and lz4 share: planes, prediction, quantisation."""
     planes, step = header.parameter & 1, (header.parameter >> 1) + 1
     count = header.pixels
     need(planes or not header.delta, "a delta frame without planes")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the program writes can be read from the pages in docs/formats alone: the decoders in this
-folder give the program's own pixels, bit by bit. (docs/formats/depth_h264.md holds an H.264
-picture, which this folder does not decode.)"""
+"""The pages in docs/formats suffice to read the program's output: the decoders in this folder,
+written from them alone, give the program's own pixels, bit by bit. (docs/formats/depth_h264.md
+describes an H.264 picture, which this folder does not decode.)"""
 
 import os
 import pathlib
@@ -85,7 +85,7 @@ class Pages(unittest.TestCase):
 
 
 def png_pixels(path):
-    """Of a 16-bit grey PNG."""
+    """The pixels of a 16-bit grey PNG."""
     width, _, rows = grey_png.read_png(path)
     return [pixel for row in rows for pixel in struct.unpack(f">{width}H", row)]
 

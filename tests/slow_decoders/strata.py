@@ -21,7 +21,7 @@ def signed(v):
 
 
 class Frame:
-    """What is remembered of a frame. Rows are indexed from -2 on by y + 2 and by position."""
+    """State that later frames need of a frame. Rows are indexed from -2 on by y + 2 and by position."""
 
     def __init__(self, width, height):
         self.rows = -(-height // LANES) * LANES

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Payloads of every depth codec for the decoders in this folder, with what the
-// program's own decoder makes of them.
+// Payloads of every depth codec for the decoders in this folder, with the pixels
+// that the program's own decoder gives.
 //
 //   write_payloads OUT [FOLDER...]     FOLDER: depth/*.png, 16 bits
 //
 // OUT/index.txt has a line for each frame: file, codec, first frame of a stream or not,
 // frame, reference frame. File N.payload is the encoded image, N.depth the decoded
-// pixels, two bytes each, rows from the top. Of a folder come a part of the first frames
-// and, from the first folder, two whole frames.
+// pixels, two bytes each, rows from the top. Each folder gives a part of its first frames;
+// the first folder also gives two whole frames.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -45,7 +45,7 @@ DepthImage part_of(const DepthImage& whole, Size size, int x, int y) {
     return part;
 }
 
-// The middle of the first frames. Of a single picture, parts beside each other.
+// The middle of the first frames. If there is a single picture, overlapping parts of it.
 std::vector<DepthImage> parts_of(const std::vector<DepthImage>& frames) {
     const Size whole = frames.front().size;
     const Size size{std::min(part_size.width, whole.width - 2),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is missing in the recordings, and which fault explains it. Pure: no processes, no clock.
+"""Finds the gaps of recordings and the faults that explain them. Pure: no processes, no clock.
 
 All times are seconds of the host's steady clock, which the pictures' `captured` counts in, too.
 """

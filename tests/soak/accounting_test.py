@@ -19,7 +19,7 @@ HOST_STARTS = [-5.0, 10.0]
 
 
 def sent(begin=0, end=SECONDS):
-    """What a camera gives; its host was started anew after ten seconds."""
+    """The entries of a camera whose host was started anew after ten seconds."""
     for n in range(begin * 30, end * 30):
         yield Entry(n * PERIOD, n % 300, True)
 

@@ -23,7 +23,7 @@ def program(*words):
 
 
 def hashes_of(folder):
-    """Of the exported pictures of depth, by camera's folder, in order."""
+    """Hashes of the exported pictures of depth, by camera's folder, in order."""
     answer = {}
     for depth in sorted(folder.rglob("depth")):
         answer[depth.parent.name] = [hashlib.sha256(path.read_bytes()).hexdigest()
@@ -32,7 +32,7 @@ def hashes_of(folder):
 
 
 def known_hashes(source, folder):
-    """What each picture of `source` is when it was recorded and exported."""
+    """Hashes of all pictures of `source` after they were recorded and exported."""
     pictures = len(list((source / "depth").glob("*.png")))
     known, file, exported = set(), folder / "known.mkv", folder / "known"
     for _ in range(KNOWN_ATTEMPTS):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each kind of fault may cost, and why: the promises that a soak holds the program to."""
+"""The frames that each kind of fault may cost, and why: the promises that a soak checks."""
 import dataclasses
 import pathlib
 import re
@@ -54,7 +54,7 @@ class Happened:
 
 
 def kept_bytes():
-    """What the host keeps for a recorder that does not take it: Outbox::max_kept_bytes."""
+    """Bytes that the host keeps for a recorder that takes nothing: Outbox::max_kept_bytes."""
     shift = re.search(r"max_kept_bytes = std::size_t\((\d+)\) << (\d+)", OUTBOX.read_text())
     return int(shift[1]) << int(shift[2])
 

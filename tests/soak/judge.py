@@ -26,7 +26,7 @@ def entries_of(examiner):
 
 
 def delivered(polls):
-    """What the host's own counters say: good frames of each camera, and those that it left out, all processes together."""
+    """Counters of the host, summed over its processes: good frames of each camera, and frames left out by reason."""
     newest = {}
     for _, generation, figures in polls:
         newest[generation] = figures

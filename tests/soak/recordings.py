@@ -51,7 +51,7 @@ def elements(data, at, end):
             size, body = read_size(data, body)
         except (ValueError, IndexError):
             return
-        # Of unknown size, only the segment is: it goes to the end, or to the next one.
+        # Only a segment may have an unknown size: it ends at the file's end or at the next segment.
         stop = end if size == UNKNOWN_SIZE else body + size
         if stop > end:
             if identity != SEGMENT:

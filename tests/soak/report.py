@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a soak says while it runs and at its end."""
+"""Output of a soak while it runs and at its end."""
 import json
 import sys
 import time

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which faults happen when. The same seed, length and kinds give the same schedule."""
+"""The schedule of faults. The same seed, length and kinds give the same schedule."""
 import dataclasses
 import heapq
 import random

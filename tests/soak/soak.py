@@ -135,7 +135,7 @@ class Run:
             role.start()
 
     def _excuse_what_follows(self, role, child):
-        """What is missing until it runs again is part of the same finding."""
+        """Frames that are missing until it runs again belong to the same finding."""
         if role in (self.stage.host, self.stage.recorder):
             kind = f"{role.name} ended by itself"
             self.happened.append(Happened(Fault(0, kind, role.name, 0), (child.ended or 0) - SAMPLE_EVERY_S,

@@ -25,7 +25,7 @@ PORT = 4400  # inside a network namespace of its own
 
 
 def time_namespaces():
-    """Whether programs can be given another clock here."""
+    """True if this machine allows to run a program with another clock."""
     test = ["unshare", "--time", "--monotonic", "60", "true"]
     with contextlib.suppress(OSError):
         return subprocess.run(test, capture_output=True).returncode == 0

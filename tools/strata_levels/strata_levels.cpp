@@ -7,8 +7,8 @@
 //                                        but for header, weights and states
 //
 // FOLDER holds depth/*.png, 16 bits. TABLE is a file as `make` prints it, `standard` for the
-// program's table, or `none` for levels of 0. Of a folder, at most 30 frames are taken, each as
-// an intra frame and, but for the first, as a delta frame. The levels of a context are
+// program's table, or `none` for levels of 0. At most 30 frames of a folder are taken, each as
+// an intra frame and, except the first, as a delta frame. The levels of a context are
 // those of the tokens' mean share of the context's pixels; each sequence counts the same.
 #include <algorithm>
 #include <cmath>
@@ -178,7 +178,7 @@ Levels read_table(const std::string& name) {
     return levels;
 }
 
-// Of a frame whose encoder starts from the table: levels and tokens, without the constant parts.
+// Bytes of a frame whose encoder starts from the table: levels and tokens, no constant parts.
 double coded_bytes(const Counts& counts, const Levels& table) {
     Levels levels;
     choose_levels(counts, table, levels);
