@@ -60,7 +60,7 @@ struct EncodedColor {
     ByteView bytes;
     // False: it refers to the picture that this encoder encoded before it.
     bool key = true;
-    // Of an encoder that changes its codec; otherwise it is the setting's.
+    // Set by an encoder that changes its codec; otherwise the codec is that of the setting.
     std::optional<ColorCodecId> codec = std::nullopt;
 };
 
