@@ -24,7 +24,7 @@ struct Flags {
     bool json = false;
 };
 
-// A camera that gives nothing for so long gives nothing any more.
+// A camera without a picture for this time is treated as ended.
 constexpr Duration patience = std::chrono::seconds(12);
 
 filter::Background record(const Flags& flags) {

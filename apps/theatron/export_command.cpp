@@ -138,8 +138,8 @@ void run(const Flags& flags) {
                       << e.losses.damaged_color << " and " << e.losses.undecodable_color
                       << "; these are left out" << std::endl;
     };
-    // Each format begins anew: a camera plays from its first frame to its last. Where a camera's
-    // calibration changed, its pictures go on in a place of their own.
+    // For each format the cameras play from their first frame to their last. After a change of its
+    // calibration, a camera's pictures continue in a separate folder or file.
     const auto export_as = [&](const char* what, const std::string& place, auto write) {
         Exported exported;
         for (std::size_t n = 0; n < calibrations; ++n) {

@@ -96,7 +96,7 @@ void obey(host::Host& host, InputLines& input) {
     }
 }
 
-// One camera alone looks right wherever it stands.
+// The picture of a single camera is right without a registration.
 void say_unregistered(const std::vector<std::string>& unregistered, std::size_t cameras) {
     if (unregistered.empty() || cameras < 2)
         return;

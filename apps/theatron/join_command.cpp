@@ -200,7 +200,7 @@ bool obey(client::Participant& participant, const std::string& line) {
     return true;
 }
 
-// Obeys what has been typed so far. False if this ends the program.
+// Executes the lines that were typed so far. False if one of them ends the program.
 bool obey(client::Participant& participant, InputLines& input) {
     while (const auto line = input.next())
         if (!obey(participant, *line))

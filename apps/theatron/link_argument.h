@@ -10,14 +10,14 @@
 
 namespace theatron::app {
 
-// A link, or @FILE with a link as its first word; @/dev/stdin reads standard input. Throws Error.
-net::Link parse_link_argument(const std::string& argument);
+// Parses a link, or @FILE, a file that begins with a link; @/dev/stdin reads standard input.
+net::Link parse_link_argument(const std::string& argument);  // throws Error
 
-// A file that holds more is refused: it holds no link.
+// Characters that are read from a file at most; no link is longer.
 inline constexpr std::size_t max_link_characters = 4096;
 
-// The program's arguments; in `argv` itself, where `ps` looks, asterisks take the place of links'
-// tokens and of what --token is given.
+// Returns the program's arguments. In `argv` itself, which `ps` shows, asterisks replace the tokens
+// of links and the value of --token.
 std::vector<std::string> take_arguments(int argc, char** argv);
 
 }  // namespace theatron::app

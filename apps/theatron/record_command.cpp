@@ -70,7 +70,7 @@ std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
     const record::RecordCodecs codecs = check_codecs(flags);
     const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
-    std::error_code unknown;  // whoever creates the file says why that cannot be
+    std::error_code unknown;  // creating the file fails later with its reason
     if (!flags.overwrite && std::filesystem::exists(file, unknown))
         throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
     if (flags.cameras.empty()) {
@@ -156,7 +156,7 @@ class FileWatch {
 public:
     explicit FileWatch(std::filesystem::path first) : first_(std::move(first)) {}
 
-    // The file that is gone, deleted or renamed, or empty. Each is told once.
+    // Returns the file if it was deleted or renamed, only once for each; else an empty path.
     std::filesystem::path gone(std::uint32_t segment) {
         const auto path = record::segment_path(first_, segment);
         struct stat info {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region of interest of a camera in words, on the command line and on the
+// The region of interest of a camera as text, on the command line and on the
 // host's standard input: "0=120:80:200:160" is a box (x, y, width, height) in the
 // depth image of the first camera, "table=10:10:200:20:90:150" a polygon (x, y of
 // each corner) of the camera named table, in pixels as they are sent.

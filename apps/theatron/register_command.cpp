@@ -82,7 +82,7 @@ const char* in_words(BoardSession::Sight sight) {
     return "";
 }
 
-// After a view: what there is so far.
+// Prints the state of the registration after a view.
 void tell(const BoardSession& session, const std::vector<OpenCamera>& cameras, std::size_t taken,
           bool json) {
     const RigSolution solution = session.solve();
@@ -188,7 +188,7 @@ void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
     Vec3 middle{};
     for (const Pose& board : solution.reference_from_board)
         middle = middle + board.translation * (1.0 / double(session.places()));
-    // The first camera's place by hand, or in its own calibration, is the last word.
+    // A place of the first camera, by hand or in its own calibration, overrides the found one.
     const Calibration& first = cameras[0].camera->info().calibration;
     const auto floor = floor_of(cameras, session, solution);
     const Pose room = first.registered ? first.room_from_camera

@@ -181,7 +181,7 @@ Mean ghosts(const FilterClip& clip, const std::vector<DepthImage>& images) {
     return ghost;
 }
 
-// Holes that the filter is meant for: pixels without measurement, at most nine wide, on one
+// Holes that the filter should fill: pixels without measurement, at most nine wide, on one
 // surface.
 struct Holes {
     double filled = 0;    // share of those pixels

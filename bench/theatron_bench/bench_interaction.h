@@ -21,7 +21,7 @@ struct InteractionBench {
     // 10.77.0.1 (tools/link_shaper). Empty: both on loopback.
     std::string host_namespace, viewer_namespace;
     double link_delay_ms = 0;  // of that link, one way: taken off the poses' times
-    // The viewer's decoders share one core with so many busy threads.
+    // Busy threads with which the viewer's decoders share one core.
     int crowd = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last line of defence of a thread: an exception that nobody expected, want of memory above
-// all, costs the piece of work at hand and not the process.
+// The last line of defence of a thread: an unexpected exception, above all lack of memory, ends the
+// current piece of work and not the process.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ void note_fault(std::string_view where, std::string_view what) noexcept;
 // All faults of this process so far.
 std::uint64_t fault_count();
 
-// Runs `work`; false if an exception came out of it, which is noted.
+// Runs `work`. False if it threw an exception, which is counted and logged.
 template <class Work>
 [[nodiscard]] bool contain(std::string_view where, Work&& work) noexcept {
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a log readable, and a disk from being filled, when somebody outside makes the same
-// thing happen again and again. Not thread safe; time is an argument.
+// Limits the lines of a log for events that others can repeat at will: the log stays readable,
+// and the disk does not fill up. Not thread safe; time is an argument.
 #pragma once
 
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes lines on a thread of its own, so that whoever has something to say
-// never waits for a terminal, a pipe or a disk. Not in the web build.
+// Writes lines on a thread of its own, so that the thread that logs never waits
+// for a terminal, a pipe or a disk. Not in the web build.
 #pragma once
 
 #include <atomic>

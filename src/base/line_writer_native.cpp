@@ -29,7 +29,7 @@ void LineWriter::put(std::string line) noexcept {
         waiting_.push_back(std::move(line));
         ++unwritten_;
     } catch (...) {
-        // Without memory for a line there is nobody left to tell.
+        // Without memory for a line the failure cannot be reported either.
         return;
     }
     changed_.notify_all();

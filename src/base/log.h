@@ -62,7 +62,7 @@ inline void error(std::string_view area, std::string_view what,
 // max_field_characters.
 void say(std::string_view sentence);
 
-// Waits until what was logged is written, at most so long. Happens at exit, too.
+// Waits until all logged lines are written, at most `patience`. Also called at exit.
 void flush(Duration patience);
 
 // From now on abort() and std::terminate() wait for the lines, at most half a second.

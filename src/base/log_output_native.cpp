@@ -20,7 +20,7 @@ void write_to_stderr(std::string_view line) {
         if (written < 0 && errno == EINTR)
             continue;
         if (written <= 0)
-            return;  // nobody can be told
+            return;  // there is no place to report it
         line.remove_prefix(std::size_t(written));
     }
 }
@@ -38,8 +38,8 @@ LineWriter& writer() {
 
 LineWriter* aborting_writer = nullptr;
 
-// The writing thread goes on meanwhile, unless it is the one that aborts. Only looks at an
-// atomic number and sleeps, both of which are allowed here.
+// The writing thread goes on meanwhile, unless it is the one that aborts. Only reads an atomic
+// number and sleeps; a signal handler may do both.
 extern "C" void on_abort(int) {
     for (int i = 0; i < exit_patience / 10ms && !aborting_writer->idle(); ++i) {
         constexpr timespec pause{0, 10'000'000};

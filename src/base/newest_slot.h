@@ -32,7 +32,7 @@ public:
         return replaced;
     }
 
-    // Waits at most `timeout` for a value. Empty after close() or in vain.
+    // Waits at most `timeout` for a value. Empty after close(), wake() or the timeout.
     template <class D>
     std::optional<T> take(D timeout) {
         std::unique_lock lock(mutex_);

@@ -4,7 +4,7 @@
 // Free-running cameras drift relative to each other. One of them, the first that runs, is the
 // leader: each of its frames defines a moment. A frame of another camera belongs to the
 // nearest moment, at most half a frame away. A camera that is slightly faster sometimes has
-// two frames in a moment, and the second is passed over; a slower camera sometimes has none.
+// two frames in a moment, and the second is skipped; a slower camera sometimes has none.
 //
 // Cameras that are synchronised by a cable stay together at any phase, because the beat
 // follows one of them and not a clock.

@@ -25,8 +25,8 @@ public:
     virtual void skip() = 0;
     // Reads the next frame's images into `out`, whose memory is reused.
     virtual void read(Frame& out) = 0;
-    // The next frame without a copy, if the recording stores it and nobody else uses it; the
-    // caller may set its times. Null: call read().
+    // The next frame without a copy, if the recording stores it and no earlier caller still holds
+    // it; the caller may set its times. Null: call read().
     virtual std::shared_ptr<Frame> share() { return nullptr; }
     virtual void rewind() = 0;
     // The duration of one round of a loop, so that the cameras of one recording stay in step.

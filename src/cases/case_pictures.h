@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a case to look at without a session: a slice with the outlines of the parts that it
-// cuts, and the parts from the front. Pure functions.
+// Pictures of a case, without a session: a slice with the outlines of the parts that it cuts, and
+// the parts from the front. Pure functions.
 #pragma once
 
 #include "cases/case_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads DICOM images with GDCM. Runs in a sandbox, since the library is large and the files are
-// somebody else's.
+// Reads DICOM images with GDCM. Runs in a sandbox, because the library is large and the files are
+// untrusted.
 #include <gdcmAttribute.h>
 #include <gdcmImageReader.h>
 #include <gdcmStringFilter.h>
@@ -34,7 +34,7 @@ public:
 protected:
     std::streamsize xsgetn(char* out, std::streamsize wanted) override {
         const std::streamsize got = std::streambuf::xsgetn(out, wanted);
-        // At the end of a whole file the library looks for one more tag.
+        // At the end of a whole file the library tries to read one more tag.
         constexpr std::streamsize tag = 4;
         cut_off_ = cut_off_ || (got < wanted && (got > 0 || wanted > tag));
         return got;

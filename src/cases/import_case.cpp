@@ -25,8 +25,8 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// The words of the patient's names and numbers. Parts are named after files, which people name
-// after patients.
+// The words of the patient's names and numbers. Parts are named after files, and files are often
+// named after patients.
 std::vector<std::string> telling_words(const std::vector<ImportedSeries>& all_series) {
     std::vector<std::string> words;
     for (const ImportedSeries& series : all_series)

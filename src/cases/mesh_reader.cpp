@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, OBJ, PLY and GLB with assimp. Runs in a sandbox, since the library is large and the
-// files are somebody else's.
+// Reads STL, OBJ, PLY and GLB with assimp. Runs in a sandbox, because the library is large and the
+// files are untrusted.
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

@@ -85,7 +85,7 @@ void Decoders::note_figures(Worker& worker, std::unique_lock<std::mutex>& lock) 
     });
     lock.lock();
     worker.busy = false;
-    // Counting begins anew: what was counted before is not shown.
+    // reset_figures() was called meanwhile: these figures are from before it.
     if (worker.reset_wanted)
         return;
     worker.figures = std::move(figures);

@@ -523,7 +523,7 @@ void Participant::tell_renderer(const std::string& renderer) {
 }
 
 void Participant::remark(const std::string& text) const {
-    // It may repeat the host's words.
+    // The text may contain text of the host.
     if (options_.remark)
         options_.remark(clean_text(text, max_remark_characters));
 }

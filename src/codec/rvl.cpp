@@ -314,7 +314,7 @@ private:
     }
 
     // Decodes all pixels in one window, without a check for the end of the run. A number
-    // that is not in the table makes the remaining look-ups advance by nothing.
+    // that is not in the table makes the remaining look-ups advance by zero bits.
     bool decode_up_to_13() {
         std::uint64_t window = nibbles_.peek();
         std::uint16_t* to = v_ + at_;

@@ -34,8 +34,8 @@ struct Verification {
 Verification verify(const std::shared_ptr<const record::RecordingFile>& recording,
                     const std::string& file, const capture::Progress& progress);
 
-// How many frames were made between two of a stream and are not there. In another segment the
-// numbers may have begun anew.
+// Number of frames that were made between two frames of a stream and are missing. Frame numbers of
+// another segment may begin at 0 again.
 std::uint64_t frames_between(const record::RecordedFrame& before,
                              const record::RecordedFrame& frame);
 

@@ -14,7 +14,7 @@ Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes = std::
 // Writes a draft beside `path` and renames it, so that readers never see a partial file.
 void write_file(const std::filesystem::path& path, ByteView bytes);
 
-// Throws Error if write_file() could not write there, so that long work is not begun in vain.
+// Throws Error if write_file() could not write there. Call it before long work.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace theatron::files

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recorded empty scene: for each pixel the nearest depth measured while nobody was in
-// the picture. docs/formats/background.md specifies its file.
+// The recorded empty scene: for each pixel the nearest depth measured while no person was
+// in the picture. docs/formats/background.md specifies its file.
 #pragma once
 
 #include "base/bytes.h"

@@ -8,7 +8,7 @@
 
 namespace theatron::filter {
 
-// The Kalman filter's gains are meant for 30 frames a second.
+// The gains of the Kalman filter hold for 30 frames a second.
 inline constexpr Duration nominal_period = std::chrono::microseconds(33'333);
 inline constexpr Duration longest_memory = std::chrono::seconds(1);
 

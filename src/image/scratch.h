@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory that a function needs while it works on an image and that nobody reads
-// afterwards. It belongs to the thread, not to the camera: many cameras that take
-// turns on one core then work in the same memory, which stays in the caches, instead of each
-// fetching its own. Measured in docs/decisions/lanes.md.
+// Working memory of functions on images, which no later call reads. It belongs to
+// the thread, not to the camera: cameras that take turns on one core then use the
+// same memory, which stays in the caches, instead of each fetching its own. Measured
+// in docs/decisions/lanes.md.
 #pragma once
 
 #include <algorithm>

@@ -25,7 +25,7 @@ inline std::string_view to_text(Role role) {
 }
 std::optional<Role> role_from_text(std::string_view text);
 
-// The role that a name such as "Liver capsule" or "aorta_left" speaks of; other if none.
+// The role that a name such as "Liver capsule" or "aorta_left" suggests; other if none.
 Role role_of_name(std::string_view name);
 
 Rgb usual_color(Role role);

@@ -14,12 +14,12 @@
 
 namespace theatron::medical {
 
-// One layer of a field, that of `slice`, into columns * rows values: negative inside.
+// Writes the layer of a field at `slice` into columns * rows values: negative inside.
 using FieldLayer = std::function<void(int slice, std::span<float> out)>;
 
 // The surface where the field changes its sign, interpolated linearly. The field's outermost
-// samples count as outside, whatever they are, so that the surface is closed; it turns outwards
-// and has no normals yet. Stops at `max_triangles` and gives nothing then. Memory: two layers.
+// samples count as outside, whatever their values, so that the surface is closed. Its triangles
+// face outwards; it has no normals yet. Empty beyond `max_triangles`. Memory: two layers.
 Mesh isosurface(const VolumeGrid& grid, const FieldLayer& field,
                 std::size_t max_triangles = max_mesh_triangles);
 

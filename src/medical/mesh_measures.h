@@ -10,7 +10,7 @@ namespace theatron::medical {
 struct MeshShape {
     bool closed = false;    // each edge has one triangle on either side, or several such pairs
     bool manifold = false;  // closed, each edge has two triangles, each vertex one fan of them
-    double volume_mm3 = 0;  // what a closed surface encloses; negative: it is inside out
+    double volume_mm3 = 0;  // inside a closed surface; negative if that is inside out
     double area_mm2 = 0;
 };
 MeshShape shape_of(const Mesh& mesh);

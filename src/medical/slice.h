@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slices through a volume in any plane, and what is written around them: the letters of the
-// patient's directions and the scale.
+// Slices through a volume in any plane, and the marks around them: the letters of the patient's
+// directions and the scale.
 //
 // All functions are pure and safe to call from any thread. Coordinates are LPS, millimetres.
 #pragma once

@@ -43,7 +43,7 @@ struct VolumeGrid {
 // Sizes within the bounds above, finite numbers, steps that span a space.
 bool is_valid(const VolumeGrid& grid);
 
-// Takes patient coordinates to samples: the inverse of VolumeGrid::point_at().
+// Converts patient coordinates to samples: the inverse of VolumeGrid::point_at().
 class SamplesFromPatient {
 public:
     // `grid` must be valid.
@@ -74,14 +74,14 @@ struct Volume {
     VolumeGrid grid;
     // The measured value (for CT in Hounsfield units) is slope * sample + intercept.
     double slope = 1, intercept = 0;
-    Window window;                      // that the images came with
+    Window window;                      // given by the images
     bool inverted = false;              // MONOCHROME1: the highest value is shown as the darkest
     std::vector<std::int16_t> samples;  // grid.size(); columns first, then rows, then slices
 };
 
 inline constexpr std::size_t volume_header_size = 148;
 
-// `volume` must have a valid grid and as many samples as that says.
+// `volume` must have a valid grid and grid.size() samples.
 Bytes encode_volume(const Volume& volume);
 
 // Safe for any bytes: takes no more memory than `bytes` has samples.

@@ -25,7 +25,7 @@ TEST(Acknowledger, TellsOfMediaSoonButNotOfEveryChunk) {
     }
     EXPECT_GE(told, 24);
     EXPECT_LE(told, 26);
-    // Nothing more comes: the rest is told in time, with how long that took.
+    // Nothing more comes: the rest is acknowledged in time, with the time that it waited.
     ASSERT_TRUE(acknowledger.ask_again());
     const TimePoint then = *acknowledger.ask_again();
     EXPECT_LE(then - now, Acknowledger::interval);

@@ -89,8 +89,8 @@ Certificate load_or_make_certificate(const std::filesystem::path& folder) {
     const auto certificate_path = folder / "host.crt", key_path = folder / "host.key";
     const auto certificate = files::read_private_file(certificate_path, Privacy::readable);
     if (!certificate) {
-        // The certificate comes last: no link has ever named a key without one, so that what a
-        // crash left of the first start is made anew.
+        // The certificate is written last. A key without one is left by a crash during the first
+        // start; no link has ever named it, so both are made again.
         const Certificate made = make_certificate();
         files::write_private_file(key_path, made.private_key_pem);
         files::write_private_file(certificate_path, made.certificate_pem);

@@ -30,7 +30,7 @@ Certificate load_or_make_certificate(const std::filesystem::path& folder);
 // 128 random bits as 32 hex digits.
 std::string random_token();
 
-// Compares without telling by its duration where the first difference is.
+// Compares in a time that does not depend on the position of the first difference.
 bool equal_secrets(std::string_view a, std::string_view b);
 
 }  // namespace theatron::net

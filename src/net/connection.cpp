@@ -42,7 +42,7 @@ void configure(WebSocket& socket) {
     socket.read_message_max(wire::max_envelope_size);
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = std::chrono::seconds(10);
-    // Twice in this time a silent peer is pinged; then it is given up.
+    // A silent peer is pinged after half of this time, and the connection ends after all of it.
     timeout.idle_timeout = std::chrono::seconds(30);
     timeout.keep_alive_pings = true;
     socket.set_option(timeout);

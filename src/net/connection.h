@@ -108,7 +108,7 @@ private:
     wire::Unwrapper unwrapper_;
     Acknowledger acknowledger_;
     Outbox outbox_;
-    std::size_t unsent_limit_ = 0;  // as the socket was told
+    std::size_t unsent_limit_ = 0;  // bytes, as set on the socket
     boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_;
     bool acknowledgement_is_timed_ = false;
     Bytes outgoing_;

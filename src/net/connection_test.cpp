@@ -146,11 +146,11 @@ Server::Handler echo_that_can_throw(TestServer*& host) {
     return handler;
 }
 
-// How a client ends that says `word` and waits for it to come back.
-Client::End echo(const Link& link, std::byte word) {
+// The end of a client that sends `content`, waits until it comes back and stops.
+Client::End echo(const Link& link, std::byte content) {
     Client* self = nullptr;
     Client::Handler h = client_handler();
-    h.connected = [&] { self->send_control(Bytes{word}); };
+    h.connected = [&] { self->send_control(Bytes{content}); };
     h.control = [&](ByteView) { self->stop(); };
     Client client(link, h);
     self = &client;

@@ -45,7 +45,7 @@ public:
         std::function<bool(ByteView first_control)> invited;
         std::function<HttpAnswer(const HttpRequest&)> http;
         std::function<void(Visitor)> entered;  // on the thread of `inside`
-        // A stranger did not get in; `why` in a few words.
+        // A connection was refused; `why` is a short phrase.
         std::function<void(const std::string& address, const std::string& why)> turned_away;
     };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t chunk = 16 * 1024;
 
-// A way with a rate, a deep buffer and a delay; whoever sends has always more to send.
+// A path with a rate, a deep buffer and a delay; the sender always has more to send.
 struct Way {
     Flight flight;
     double bytes_per_second = 5e6;

@@ -35,8 +35,8 @@ bool is_hex_digest(std::string_view text) {
            });
 }
 
-// A link as an error message may show it: what follows host and port is secret, and so may be a
-// long word that is no address at all.
+// The part of a link that an error message may show: the text after host and port is secret, and a
+// long word that is no address may be secret too.
 std::string without_secrets(std::string_view text) {
     constexpr std::size_t shown_characters = 80, word_characters = 15;
     std::string_view shown = text.substr(0, text.find('#'));

@@ -31,9 +31,9 @@ public:
         // On the door's thread, at the same time as the others: true if a connection's first
         // control message shows the token. Empty: all connections are invited.
         std::function<bool(ByteView first)> invited;
-        // On the door's thread, too. Empty: the host says what it is.
+        // On the door's thread, too. Empty: a default answer names the host's program.
         std::function<HttpAnswer(const HttpRequest&)> http;
-        // Also on the door's thread: a stranger did not get in; `why` in a few words. May be empty.
+        // Also on the door's thread: a connection was refused; `why` is a short phrase. Optional.
         std::function<void(const std::string& address, const std::string& why)> turned_away;
 
         // A connection has sent its first message. The next call is `control` with that message.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera of a set of clouds on the GPU: its images, what was drawn from them for all views,
-// and how it is to be shown.
+// One camera of a set of clouds on the GPU: its images, the maps that were drawn from them for all
+// views, and the settings of its drawing.
 //
-// Each camera has textures of exactly its own size. Nothing of a camera depends on which others
-// there are, and with the camera goes all that belongs to it.
+// Each camera has textures of exactly its own size. Its state does not depend on other cameras and
+// is destroyed with it.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@
 
 namespace theatron::render {
 
-// Pictures that a pass draws from a camera's images, once for all views. Each remembers of which
-// content it is, 0: nothing was drawn yet.
+// Maps that a pass draws from a camera's images, once for all views. Each stores the number of the
+// content from which it was drawn; 0: not drawn yet.
 
 // By ColorVisibility.
 struct VisibilityMap {
@@ -32,7 +32,7 @@ struct VisibilityMap {
 // By SteadyColors.
 struct SteadyColor {
     std::optional<Texture> pictures[2];  // of the newest frame and of the one before
-    unsigned newest = 0;                 // which of the two is which
+    unsigned newest = 0;                 // index of the newest one
     Size size;
     unsigned colors = 0;
 };
@@ -58,17 +58,17 @@ public:
     // `grid` is of the depth image's size.
     CloudCamera(const Calibration& calibration, std::shared_ptr<GridMesh> grid);
 
-    // For a calibration whose depth lens is the same; else make another camera, and give it
-    // what take_settings takes over.
+    // For a calibration with the same depth lens. For another lens make a new CloudCamera and
+    // call its take_settings().
     void set_calibration(const Calibration& calibration);
     void take_settings(const CloudCamera& before);
 
-    // See CloudSet. The buffer is only for the way to the GPU.
+    // See CloudSet. `staging` holds the images only during the upload to the GPU.
     Status upload(DepthView depth, ColorView color, const Buffer& staging);
 
-    // Uploads what the shaders of cloud.glsl know of the camera for this view.
+    // Uploads the uniform block of cloud.glsl for this view.
     void set_view(const CameraView& view);
-    // Binds that, and the images to their units.
+    // Binds that block, and the images to their units.
     void bind() const;
 
     const Calibration& calibration() const { return calibration_; }
@@ -76,11 +76,11 @@ public:
     Size color_size() const { return color_size_; }  // of the newest picture; 0 x 0: none yet
     GridMesh& grid() const { return *grid_; }
 
-    // How many frames were uploaded: temporal filters take one step for each.
+    // Number of uploaded frames: temporal filters take one step for each.
     unsigned images() const { return images_; }
     unsigned colors() const { return colors_; }  // of them with colour
-    // Other than before whenever the images or what is found in them changed: also by another
-    // colour lens, but not by where the camera stands.
+    // Changes whenever the images or the maps drawn from them change: also with another colour
+    // lens, but not with the camera's place in the room.
     unsigned content() const { return content_; }
 
     double presence = 1;        // see CloudSet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes that draw clouds: one object per way of drawing, which holds its
-// programs, and a draw call over a description of the frame. Nothing of any camera is kept in them,
-// so that all sets of clouds share them.
+// The passes that draw clouds: one object per renderer, which holds its programs, with a
+// draw call that takes a description of the frame. A pass keeps no state of a camera, so that all
+// sets of clouds share it.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@
 
 namespace theatron::render {
 
-// A picture of the size of the target for each camera of a set, to be blended.
+// A layer of the target's size for each camera of a set, for blending.
 struct BlendLayers {
     std::optional<Texture> colors, depths;
     Size size;
     int count = 0;
 };
 
-// A set of clouds as seen from one eye.
+// A set of clouds, drawn for one eye.
 struct CloudFrame {
     const std::vector<CloudCamera*>& cameras;
     const CameraView& view;
@@ -32,10 +32,10 @@ struct CloudFrame {
 class CloudPass {
 public:
     virtual ~CloudPass() = default;
-    // Draws maps of a camera that do not depend on the view and are out of date. The camera is
-    // bound. Changes framebuffer, viewport and tests.
+    // Updates a camera's maps that do not depend on the view, if they are out of date. The camera
+    // must be bound. Changes framebuffer, viewport and tests.
     virtual void prepare(CloudCamera&) {}
-    // Target, depth test and masks are set, every camera's view is; draws over what is there.
+    // Draws over the target's content. Target, depth test, masks and cameras' views must be set.
     virtual void draw(const CloudFrame& frame) = 0;
 };
 
@@ -45,11 +45,11 @@ std::unique_ptr<CloudPass> make_mesh_pass();
 std::unique_ptr<CloudPass> make_blend_pass();
 std::unique_ptr<CloudPass> make_bare_grid_pass();
 
-// Where the block of cloud.glsl is bound.
+// The binding point of the uniform block of cloud.glsl.
 inline constexpr unsigned camera_block_binding = 0;
 
-// A program with cloud.glsl and its companions in it: block and samplers read what
-// CloudCamera::bind and the maps' classes bind (texture_units.h).
+// A program with cloud.glsl and its companions. Its block and samplers use the binding
+// points of CloudCamera::bind and of the maps' classes (texture_units.h).
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
 // Sets the current program's uniform depth_from_w, with which shaders turn distance

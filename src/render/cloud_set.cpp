@@ -104,7 +104,7 @@ struct CloudSet::Parts {
         const Calibration drawn = of_drawn(calibration);
         return {drawn, programs->parts_->grids.of(drawn.depth.size)};
     }
-    // With other images the camera starts anew, but for how it is to be shown.
+    // A camera with other images loses its state, except for the settings of its drawing.
     void replace(Camera& camera) {
         CloudCamera drawn = make_camera(camera.calibration);
         drawn.take_settings(camera.drawn);

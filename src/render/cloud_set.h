@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live clouds: what a set of cameras sees, kept on the GPU and drawn from any side.
+// Live clouds: the images of a set of cameras, kept on the GPU and drawn from any viewpoint.
 //
-// A set are cameras that belong together: those of a room, or those of one person. Its cameras are
-// drawn in one way, and balanced and blended with each other; several sets are drawn one after
-// the other into the same target, whose depth decides what hides what. Memory follows the set's own
-// cameras; programs are shared by the sets that were made with the same CloudPrograms.
+// The cameras of a set belong together: those of a room, or those of one person. They are drawn by
+// one renderer, and balanced and blended with each other. Several sets are drawn one after another
+// into the same target, whose depth test decides which of them is visible. Memory depends on the
+// set's own cameras; sets that were made with the same CloudPrograms share their shaders.
 //
-// Depth and colour stay images: points come into being in the vertex shader, from
-// the depth texture, a table of rays and the calibration. No GL type appears
-// here, so that every other folder may include this file.
+// Depth and colour stay images: the vertex shader computes the points from the
+// depth texture, a table of rays and the calibration. No GL type appears here,
+// so that every other folder may include this file.
 //
 // All functions need the GL context current in which the scene was made, also
 // the destructor.
@@ -29,7 +29,7 @@
 
 namespace theatron::render {
 
-// At most so many cameras are in one set.
+// Largest number of cameras in a set.
 inline constexpr int max_cameras = 16;
 
 // A picture read back. `depth_mm` is the distance along the view's axis in
@@ -39,7 +39,7 @@ struct Picture {
     DepthImage depth_mm;
 };
 
-// The ways to draw, simplest first: "splat" (a round point for each depth pixel, sized by
+// The renderers, simplest first: "splat" (a round point for each depth pixel, sized by
 // the gaps to its neighbours), "disc" (the same, lying in the surface, with its depth),
 // "mesh" (the depth image as a grid, torn where it jumps), "blend" (the meshes of all
 // cameras as one surface).
@@ -75,19 +75,19 @@ public:
     CloudSet(CloudSet&&) noexcept;
     CloudSet& operator=(CloudSet&&) noexcept;
 
-    // Adds a camera or changes its calibration. Changing only where it stands is cheap, and
-    // changes nothing else. A new depth lens costs some tens of milliseconds and the camera's
-    // picture. No other camera's picture changes. Throws Error beyond max_cameras.
+    // Adds a camera or changes its calibration. A change of its place alone is cheap and keeps its
+    // images. A new depth lens takes some tens of milliseconds and drops the camera's images. No
+    // other camera's picture changes. Throws Error beyond max_cameras.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
-    // How much a camera shows, from 0 to 1, so that new ones fade in and stale ones fade
-    // out. In "blend" others take over where they see the same surface, and elsewhere it becomes
-    // transparent; in the other renderers more and more of its pixels are left out. 1 when added.
+    // Sets a camera's opacity, from 0 to 1, so that new ones fade in and stale ones fade out. In
+    // "blend" other cameras take over where they see the same surface, and elsewhere it becomes
+    // transparent; the other renderers leave out more and more of its pixels. 1 when added.
     void set_presence(CameraId camera, double presence);
 
-    // Draws the depth pixels of every `step`-th column and row only, from 1, which is all of them:
-    // for machines that would be too slow otherwise. Colour stays as sharp as it is. True if
-    // that is a change: then clouds are empty until their images are uploaded again.
+    // Draws only the depth pixels of every `step`-th column and row, for machines that are too slow
+    // for all of them (1). Colour keeps its sharpness. True if the step changed: then clouds are
+    // empty until their images are uploaded again.
     bool set_depth_step(int step);
 
     // Sets the part of a camera's cloud that is drawn; all of it when added.
@@ -100,9 +100,9 @@ public:
     // camera; nothing was changed.
     Status upload(CameraId camera, DepthView depth, ColorView color);
 
-    // Draws the clouds of this set over what the target holds, tested against its depth. Color goes
-    // to the first draw buffer, millimetres to the second (an unsigned integer
-    // one), if there is one. Throws Error if there is no such renderer.
+    // Draws the clouds of this set over the target's content, tested against its depth. Colour goes
+    // to the first draw buffer, the distance in millimetres to the second one (unsigned
+    // integers), if there is one. Throws Error if there is no such renderer.
     void draw(const CameraView& view, const DrawTarget& target, std::string_view renderer);
 
     // The clouds alone before a dark background, read back: slow, waits for the GPU.

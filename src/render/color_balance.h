@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras differ in exposure and white balance. Where two of them see the same surface, their
-// colours tell by how much; a common solution gives each camera a gain.
+// Cameras differ in exposure and white balance. Where two of them see the same surface, the ratio
+// of their colours measures the difference; a common solution gives each camera a gain.
 //
 // Works on small copies of a few of the cameras' images, on the CPU, so that it costs some
 // milliseconds now and then.
@@ -18,11 +18,11 @@ namespace theatron::render {
 
 class ColorBalance {
 public:
-    // A camera's newest images; most are passed over. `color` may be empty.
+    // Takes a camera's newest images; skips most of them. `color` may be empty.
     void add(CameraId camera, const Calibration& calibration, DepthView depth, ColorView color);
     void remove(CameraId camera) { cameras_.erase(camera); }
 
-    // Estimates anew if there is enough that is new. True if gains changed.
+    // Estimates the gains again if there are enough new samples. True if gains changed.
     bool update();
 
     // Factors for a camera's sRGB values: x, y, z for red, green, blue. Near 1; they change
@@ -38,14 +38,14 @@ private:
     struct Camera {
         Calibration calibration;
         CameraModel color;  // of `light`
-        DepthImage depth;   // every so many pixels
+        DepthImage depth;   // a subset of columns and rows
         Image<Vec3> light;
         std::vector<Sample> samples;
         unsigned uploads = 0;
         bool estimated = false;
         Vec3 log_gain{0, 0, 0};  // linear light
     };
-    // By how much `b` is brighter than `a` in each channel (logarithms), from how many places.
+    // Logarithm of the brightness of `b` relative to `a` in each channel, and its number of places.
     struct Difference {
         Vec3 log_ratio;
         double places = 0;

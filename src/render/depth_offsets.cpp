@@ -19,7 +19,7 @@ constexpr int largest_copy = 1280;  // columns of a colour picture
 constexpr int sample_step = 2;      // depth pixels
 constexpr double flat_m = 0.004;    // neighbours of a sample are as close to its plane
 constexpr int finest = 2;           // pixels, of texture
-constexpr int searched = 4;         // pixels, of texture that tells where to begin
+constexpr int searched = 4;         // pixels, of texture for the search of the start
 constexpr double search_step_m = 0.0025;
 constexpr double least_texture = 8;      // steps of 255
 constexpr double least_cosine = 0.3;     // at which both cameras must see a surface
@@ -42,8 +42,8 @@ void copy_brightness(ColorView color, int step, Image<std::uint8_t>& out) {
     }
 }
 
-// By how much a place differs from its surroundings, so many pixels to either side: exposure,
-// shading and most gloss do not.
+// Difference between the brightness of a place and that of its surroundings, `around` pixels to
+// either side. Exposure, shading and most gloss hardly change it.
 std::optional<double> texture_at(View<const std::uint8_t> brightness, Vec2 place, int around) {
     const int x = int(std::floor(place.x)), y = int(std::floor(place.y));
     if (x < around || y < around || x + 1 + around >= brightness.size.width ||
@@ -192,8 +192,8 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
                    after = seen_by_a(s.point + along * step);
         if (!texture || !here || !nearer || !further || !before || !after)
             continue;
-        // Slopes in both pictures: where only one has them, they tell nothing, and squares of its
-        // own would count noise as certainty.
+        // The product of the slopes in both pictures, not the square of one: a slope in only one
+        // picture is no evidence, and its square would count noise as certainty.
         const double difference = *texture - *here;
         const double trust =
             1 / (1 + difference * difference / (usual_difference * usual_difference));

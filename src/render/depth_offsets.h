@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth cameras measure some millimetres too far or too near, the same in every frame. That is
-// nothing for a shape, but seen from the side it puts a camera's texture beside that of the next
-// one.
+// Depth cameras measure some millimetres too far or too near, the same in every frame. This hardly
+// changes a shape, but from the side a camera's texture appears displaced against that of the next
+// camera.
 //
-// The colours tell by how much: a camera's points are moved along its rays until they have the
+// The colours show the offset: a camera's points are moved along its rays until they have the
 // texture that other cameras see there. It is the registration of Lucas and Kanade (1981) with one
-// unknown for each camera; where to begin is searched for, since texture repeats. Works on small
+// unknown for each camera; its start is found by a search, because texture repeats. Works on small
 // copies of a few of the cameras' images, on the CPU, in some milliseconds now and then.
 #pragma once
 
@@ -23,20 +23,20 @@ class DepthOffsets {
 public:
     static constexpr double largest_m = 0.015;
 
-    // A camera's newest images; most are passed over. `color` may be empty.
+    // Takes a camera's newest images; skips most of them. `color` may be empty.
     void add(CameraId camera, const Calibration& calibration, DepthView depth, ColorView color);
     void remove(CameraId camera) {
         cameras_.erase(camera);
         std::erase(waiting_, camera);
     }
 
-    // Estimates one camera's offset anew if there is enough that is new, or those of several that
-    // are new themselves. True if it did: call for every picture, so that none waits for all.
+    // Estimates the offset of one camera again if there are enough new images, or those of several
+    // new cameras. True if it did. Call it for every picture, so that none waits for all cameras.
     bool update();
 
-    // How much too far a camera measures, in metres along its axis at a distance of 1 m, and the
-    // same at any other; 0 where nothing tells. At most largest_m to either side. Changes slowly,
-    // except when a camera is first compared with others.
+    // The offset by which a camera measures too far, in metres along its axis, at any distance; 0
+    // without an estimate. At most largest_m in either direction. Changes slowly, except when a
+    // camera is first compared with others.
     double offset_m(CameraId camera) const;
 
 private:
@@ -55,8 +55,8 @@ private:
         int estimates = 0;         // that offset_m is of
         double offset_m = 0;
     };
-    // The normal equation of an offset: what it must still change by, and how sure that is. And how
-    // far from one another the textures are with it, over so many samples.
+    // The normal equation of an offset: error / weight is its correction, weight the certainty.
+    // `cost` is the sum of squared differences of the textures over `samples` samples.
     struct Equation {
         double error = 0, weight = 0;
         double cost = 0, samples = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a picture is drawn to.
+// The target of a drawn picture.
 #pragma once
 
 #include "image/view.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each depth pixel is from the next edge of its surface, for blending: one small
-// picture for each camera.
+// Maps of the distance of depth pixels from the next edge of their surface, for blending: one
+// small picture for each camera.
 #pragma once
 
 #include "render/cloud_camera.h"
@@ -12,8 +12,8 @@ class EdgeMaps {
 public:
     EdgeMaps();
 
-    // Draws the map of the camera that is bound, from refined depth (SurfaceMaps), which must be
-    // bound, too. With `has_before` the map follows slowly what it was for the frame before.
+    // Draws the map of the bound camera from its refined depth (SurfaceMaps), which must be bound,
+    // too. With `has_before` the map changes slowly from that of the previous frame.
     // Changes framebuffer and viewport.
     void draw(EdgeMap& map, Size depth, bool has_before);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth images with fewer pixels: of every n-th column and row, from the first.
+// Depth images with fewer pixels: every n-th column and row, beginning with the first.
 #pragma once
 
 #include "geometry/camera_model.h"
@@ -7,11 +7,11 @@
 
 namespace theatron::render {
 
-// The camera that sees through those pixels' rays.
+// The camera whose pixels have the rays of these pixels.
 CameraModel every_nth(CameraModel camera, int n);
 
-// Where such a pixel has no depth, it gets the first one of the n x n pixels to its lower right, so
-// that holes and gaps at outlines do not become n times as wide. Nothing is averaged.
+// A pixel without depth gets the first depth of the n x n pixels to its lower right, so that holes
+// and gaps at outlines do not become n times as wide. Nothing is averaged.
 DepthImage every_nth(DepthView depth, int n);
 
 }  // namespace theatron::render

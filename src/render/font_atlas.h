@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Letters as distances to their outlines: sharp at any size. Made by a font library natively;
-// a browser can fill the same from a canvas.
+// Letters as distances to their outlines: sharp at any size. Native programs make it with a font
+// library; a browser can fill it from a canvas.
 #pragma once
 
 #include <cstddef>

@@ -93,8 +93,8 @@ using ShaderFiles = std::initializer_list<std::string_view>;
 // A linked program. Uniform blocks and samplers are bound by the caller.
 class Program {
 public:
-    // Throws Error with file, line and the driver's words where a shader does
-    // not compile or the two do not fit.
+    // Throws Error with file, line and the driver's message if a shader does
+    // not compile or the two do not link.
     Program(ShaderFiles vertex, ShaderFiles fragment);
 
     GLuint name() const { return program_.name(); }
@@ -117,13 +117,13 @@ struct ShaderPart {
 };
 GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts);
 
-// A picture, left bound to the active texture unit; what is in it is undefined.
+// A texture, left bound to the active texture unit; its content is undefined.
 Texture make_texture(GLenum format, Size size, GLint filter);
 // None: the unit reads black.
 void bind_texture(int unit, const Texture* texture);
-// An array of equal pictures, left bound to the active texture unit.
+// An array of textures of one size, left bound to the active texture unit.
 Texture make_texture_array(GLenum format, Size size, int layers, GLint filter);
-// Sets how the bound texture is sampled: at its edge the last pixel goes on.
+// Sets the filter of the bound texture, and clamps it at its edges.
 void set_sampling(GLenum target, GLint filter);
 
 }  // namespace theatron::render

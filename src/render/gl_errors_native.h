@@ -12,8 +12,8 @@ public:
     GlErrors(const GlErrors&) = delete;  // the driver keeps this object's address
     GlErrors& operator=(const GlErrors&) = delete;
 
-    // Asks the current context to report here, if it can. This object must
-    // outlive the context.
+    // Registers this object for the current context's debug output, if it has
+    // one. This object must outlive the context.
     void watch();
 
     int count() const { return count_; }

@@ -29,7 +29,7 @@ private:
 // One grid for all cameras of one size.
 class GridMeshes {
 public:
-    // Lives as long as somebody keeps it.
+    // The grid is freed with its last shared_ptr.
     std::shared_ptr<GridMesh> of(Size size);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 4x4 matrices as GL takes them: columns one after the other.
+// 4x4 matrices in GL's order: column by column.
 #pragma once
 
 #include <array>

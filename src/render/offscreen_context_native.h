@@ -13,10 +13,10 @@ enum class GlKind { es, desktop_core };
 
 class OffscreenContext {
 public:
-    // Makes the context and makes it current on this thread. Throws Error, saying
-    // what to install, where there is no EGL that can do it.
+    // Creates the context and makes it current on this thread. Throws Error, saying
+    // what to install, if no EGL can create it.
     explicit OffscreenContext(GlKind kind = GlKind::es);
-    // Nothing of this context may be in use any more.
+    // No object of this context may exist any more.
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
@@ -25,7 +25,7 @@ public:
     void make_current();
     void release();
 
-    // For example "OpenGL ES 3.2" or "4.5 (Core Profile)", as the driver puts it.
+    // The driver's text, for example "OpenGL ES 3.2" or "4.5 (Core Profile)".
     std::string version() const;
     // The driver's name for itself, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string renderer_name() const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How close a drawn picture is to the exact one: the figures of `theatron bench view`.
+// Figures for the difference of a drawn picture from the exact one: `theatron bench view`.
 //
-// Each figure is summed up over pictures: add() one after the other, then ask. All
-// views given to one add() have the same size; a mask is not 0 where a pixel counts.
+// Each figure is summed over pictures: call add() for each, then read the result. All
+// views of one add() have the same size; a mask is not 0 at the pixels that count.
 #pragma once
 
 #include "image/image.h"
@@ -33,8 +33,8 @@ private:
     double sum_ = 0, count_ = 0;
 };
 
-// How far the outline of what is in the mask is from where it belongs, in pixels. An outline is
-// where depth jumps back by more than `jump_mm`; 0 mm, nothing drawn, is endlessly far.
+// Mean distance in pixels of an exact outline in the mask from the next drawn outline. An outline
+// is where depth jumps back by more than `jump_mm`; 0 mm, nothing drawn, counts as infinitely far.
 class OutlineError {
 public:
     static constexpr int jump_mm = 150;
@@ -47,9 +47,9 @@ private:
     double sum_ = 0, count_ = 0;
 };
 
-// The share of the mask where the surface is missing: nothing is drawn, or something that
-// lies more than `jump_mm` behind. Within two pixels of the exact outline it is left to
-// OutlineError.
+// The share of the mask without its surface: nothing is drawn, or something more than `jump_mm`
+// behind. Pixels within two pixels of an exact outline do not count, because OutlineError
+// measures them.
 class Holes {
 public:
     static constexpr int jump_mm = 150;

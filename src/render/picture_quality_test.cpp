@@ -77,7 +77,7 @@ TEST(PictureQuality, WhereTheWallShowsThroughThereIsAHole) {
         drawn.view().row(5)[20 + i] = std::uint16_t(i % 2 ? 2000 : 0);
     Holes holes;
     holes.add(drawn.view(), board(16).view(), on_board.view());
-    // Two columns of the board lie too near to its outline to tell.
+    // Two columns of the board are not counted: they lie too near to its outline.
     EXPECT_NEAR(holes.percent(), 100.0 * 4 / (14 * size.height), 1e-9);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture to draw into and to read back: colour, and metric depth beside it.
+// A target that can be read back: colour, and metric depth beside it.
 #pragma once
 
 #include "render/cloud_set.h"
@@ -15,7 +15,7 @@ public:
     Size size() const { return size_; }
 
     void clear(Rgb background) const;
-    // Waits until everything is drawn.
+    // Reads the picture; waits for the GPU.
     Picture read() const;
 
 private:

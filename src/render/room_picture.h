@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole picture: the lit scene, the clouds in it, and what is translucent before both; for
+// A whole picture: the lit scene, the clouds in it, and translucent objects over both; for
 // one eye or for two.
 //
 // All functions need the GL context current in which the objects were made.
@@ -14,7 +14,7 @@
 
 namespace theatron::render {
 
-// Where one eye's picture goes. The target is cleared already.
+// One eye's view and its target, which the caller has cleared.
 struct EyePicture {
     CameraView view;
     DrawTarget target;
@@ -38,11 +38,11 @@ struct RoomPicture {
 // `passes` may be null where there is no scene. Throws Error if there is no such renderer.
 void draw(const RoomPicture& picture, ScenePasses* passes);
 
-// The left and the right eye of a person whose eyes are so far apart, looking ahead side by side,
-// each through the window that `middle` looks through.
+// The views of the left and the right eye. Both have the orientation and the frustum of `middle`,
+// and their eyes are half of `eye_distance_m` to its left and right.
 std::array<CameraView, 2> stereo_pair(const CameraView& middle, double eye_distance_m);
 
-// The same read back: the eyes' pictures of this size beside each other. Slow, waits for the GPU.
+// Draws and reads back: the eyes' pictures of this size side by side. Slow, waits for the GPU.
 Picture draw_and_read(const SceneFrame* scene, const std::vector<DrawnClouds>& clouds,
                       const std::vector<CameraView>& eyes, Size size, ScenePasses* passes);
 

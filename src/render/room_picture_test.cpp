@@ -90,7 +90,7 @@ protected:
     Picture draw(const std::vector<CameraView>& eyes) {
         return draw_and_read(&scene, {{&*clouds, GetParam()}}, eyes, picture_size, &*passes);
     }
-    // The place that is seen so far to the right, below and away, as tangents and metres.
+    // The room place in a direction (tangents to the right and downwards) and distance (metres).
     static Vec3 seen_at(double right, double below, double away) {
         return calibration().room_from_camera * Vec3{right * away, below * away, away};
     }

@@ -29,7 +29,7 @@ struct MeshData {
 };
 
 MeshData make_box_mesh(Vec3 low, Vec3 high);
-// A rectangle for a texture, in the frame of SceneText: x right, y down, z away from who reads it;
+// A rectangle for a texture, in the frame of SceneText: x right, y down, z away from the reader;
 // the origin is in its middle.
 MeshData make_panel_mesh(double width_m, double height_m);
 MeshData make_sphere_mesh(double radius, int rings);
@@ -44,7 +44,7 @@ public:
 
     struct Buffers;
     const Buffers& buffers() const { return *buffers_; }
-    // For picking; made when first asked for.
+    // For picking; made at the first call.
     const TriangleTree& triangles() const;
 
 private:
@@ -79,11 +79,11 @@ private:
 struct SurfaceLook {
     Vec3 base_color{0.8, 0.8, 0.8};
     double metallic = 0, roughness = 0.6;
-    double opacity = 1;  // below 1: what is behind shows through
-    double grid_m = 0;   // faint lines so far apart in the room, that tell distances; 0: none
-    // Multiplies the colour; its opacity counts where that of the surface is below 1.
+    double opacity = 1;  // below 1: translucent
+    double grid_m = 0;   // distance of faint lines in the room, which show scale; 0: none
+    // Multiplies the colour; its opacity is used only if that of the surface is below 1.
     const SceneTexture* texture = nullptr;
-    // Screens and panels: the texture's colours times base_color as they are, without any light.
+    // For screens and panels: the texture's colours times base_color, without any light.
     bool unlit = false;
 };
 
@@ -94,13 +94,13 @@ struct SceneObject {
     const SceneMesh* mesh = nullptr;
     Pose room_from_object;
     SurfaceLook look;
-    // Floor and walls of the room, whose inside is convex: behind all else, however far that is,
-    // so that they never hide a real floor that was measured a little lower.
+    // Floor and walls of the room, whose inside is convex. They are drawn behind everything else at
+    // any distance, so that they never hide a real floor that was measured a little lower.
     bool backdrop = false;
     ObjectId id = ObjectId::none;  // none: rays pass through it
 };
 
-// One line of text. Its frame: x along the line, y down, z away from who reads it; the origin is at
+// One line of text. Its frame: x along the line, y down, z away from the reader; the origin is at
 // the left end of the base line.
 struct SceneText {
     std::string utf8;
@@ -109,7 +109,7 @@ struct SceneText {
     Rgb color{255, 255, 255};
 };
 
-// The clouds are drawn the same in all of them.
+// Quality of the scene's light and shadows; clouds do not depend on it.
 enum class SceneQuality { low, high };
 
 struct SceneFrame {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a SceneFrame: shadows, lit opaque surfaces, texts, and what is translucent.
+// Draws a SceneFrame: shadows, lit opaque surfaces, texts, and translucent surfaces.
 //
-// A picture with clouds is drawn by room_picture.h, in this order: prepare, and for each eye
+// draw() of room_picture.h draws a picture with clouds in this order: prepare, then for each eye
 // draw_opaque, CloudSet::draw, draw_translucent.
 //
 // All functions need the GL context current in which the object was made.
@@ -15,7 +15,7 @@
 
 namespace theatron::render {
 
-// High, but low where no graphics card draws but the processor. Needs a current context.
+// High; low if the processor draws instead of a graphics card. Needs a current context.
 SceneQuality usual_quality();
 
 class ScenePasses {
@@ -29,8 +29,8 @@ public:
     // Draws the maps that both eyes share: shadows. Changes framebuffer and viewport.
     void prepare(const SceneFrame& frame);
     void draw_opaque(const SceneFrame& frame, const CameraView& view, const DrawTarget& target);
-    // From back to front, each object's inside before its outside: right for objects that
-    // do not pass through each other.
+    // Draws from back to front, each object's inside before its outside. Correct for objects
+    // that do not intersect.
     void draw_translucent(const SceneFrame& frame, const CameraView& view,
                           const DrawTarget& target);
 

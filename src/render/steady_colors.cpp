@@ -28,7 +28,7 @@ void SteadyColors::update(CloudCamera& camera) {
     const Texture& before = *steady.pictures[steady.newest];
     const Texture& after = *steady.pictures[1 - steady.newest];
     steady.newest = 1 - steady.newest;
-    bind_texture(texture_unit::steady_color, nullptr);  // nobody may read what is being drawn
+    bind_texture(texture_unit::steady_color, nullptr);  // a target must not be bound for reading
     bind_texture(texture_unit::steady_before, &before);
     glDisable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

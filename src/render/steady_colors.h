@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras' colour pictures with less noise: what stays as it was follows its noise slowly, what
-// changes is taken as it is.
+// The cameras' colour pictures with less noise: a temporal filter that slows down small changes and
+// takes over large ones at once.
 //
 // Sensor noise and its compression flicker by some steps of 255 even where nothing moves. Only
-// changes of the size of that noise are slowed down, so that nothing moving leaves a trace that
-// could be seen.
+// changes of the size of that noise are slowed down, so that moving objects leave no visible
+// trace.
 #pragma once
 
 #include "render/cloud_camera.h"

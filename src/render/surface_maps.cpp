@@ -47,7 +47,7 @@ void SurfaceMaps::update(CloudCamera& camera) {
         bind_texture(texture_unit::refined_depth, &*map.refined[map.newest]);
         bind_texture(texture_unit::edge_distances, &*map.edges.distances[map.edges.newest]);
     }
-    bind_texture(texture_unit::surfaces, nullptr);  // nobody may read what is being drawn
+    bind_texture(texture_unit::surfaces, nullptr);  // a target must not be bound for reading
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map.map->name(), 0);
     glViewport(0, 0, size.width, size.height);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GL context of this folder's tests. Where there is none the tests fail and
-// say what to install: a renderer that nobody has seen drawing is not tested.
+// say what to install: a renderer that never draws is not tested.
 #pragma once
 
 #include <gtest/gtest.h>

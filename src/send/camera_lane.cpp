@@ -232,7 +232,7 @@ bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
     } else {
         if (!last_ || keys_.empty() || encoders_.empty())
             return false;
-        // It came while nobody watched, or before the filters changed.
+        // The frame came without a receiver, or before the filters changed.
         if (filtered_at_ == TimePoint{})
             filter_frame();
     }

@@ -38,7 +38,7 @@ public:
         std::mutex mutex;
         std::condition_variable changed;
         std::deque<capture::Capture> waiting;
-        int handed_over = 0;  // frames that the lane has, the call for the next one tells
+        int handed_over = 0;  // frames that the lane has; counted when it asks for the next one
         bool last_on_its_way = false;
 
         void give(capture::Capture capture) {
@@ -266,7 +266,7 @@ TEST_F(Lane, AFrameThatCameBeforeAnybodyWatchedIsFiltered) {
     lane->set_filter(filter::parse_chain("range:max_mm=500").settings, nullptr);
     script->give_frame(1000);
     ASSERT_TRUE(script->wait_until_taken(1));
-    lane->wait_idle();  // it has looked at the frame and found nobody
+    lane->wait_idle();  // it has found no receiver for the frame
     lane->set_settings({{SettingId{1}, "trvl"}}, {});
     ASSERT_TRUE(wait_for(1));
     const std::lock_guard lock(mutex);

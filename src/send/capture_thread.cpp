@@ -13,7 +13,7 @@ namespace {
 
 constexpr Duration patience = 100ms;       // for one picture
 constexpr Duration last_patience = 500ms;  // for a thread to end
-// Between two looks. After more the process has stood still, not a driver.
+// Between two calls of look(). After a longer pause the process was stopped, not a driver.
 constexpr Duration longest_pause = 1s;
 
 }  // namespace
@@ -70,7 +70,7 @@ void CaptureThread::run(Shared& shared, capture::WatchedCamera::Turn turn) {
                     shared.sink(std::move(step.frame));
             }
         });
-        // The camera that throws again and again stands still, which is seen and told.
+        // A camera that throws repeatedly gives no frames, so its status becomes stale.
         if (!fine)
             std::this_thread::sleep_for(patience);
     }

@@ -11,7 +11,7 @@ namespace {
 using capture::Trouble;
 using capture::WatchedCamera;
 
-// A driver that keeps whoever enters it, until it is let go.
+// A driver whose calls return only after release.
 class Driver {
 public:
     void enter() {
@@ -61,7 +61,7 @@ TEST(CaptureThread, ADriverHangsOnlyWhileTheProcessRuns) {
     driver.wait_until_entered();
     EXPECT_NE(thread.look().trouble, Trouble::gone);
 
-    // Stopped and continued, or the machine slept: nobody looked meanwhile.
+    // The process was stopped and continued, or the machine slept: no call of look() meanwhile.
     now_us += 10 * to_us(from_us(0) + WatchedCamera::longest_call);
     EXPECT_NE(thread.look().trouble, Trouble::gone);
 

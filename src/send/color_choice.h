@@ -16,8 +16,8 @@ namespace theatron::send {
 // A host's measurements, about one a second. Shares are of all cores together, 0 to 1.
 struct ColorLoad {
     double busy = 0;         // by all processes
-    double h264 = 0;         // what H.264 for everything that is sent takes or would take
-    bool in_use = false;     // somebody gets automatic colour
+    double h264 = 0;         // measured or expected share of H.264 for all colour that is sent
+    bool in_use = false;     // a participant gets automatic colour
     std::uint64_t lost = 0;  // frames that cameras or its encoders left out since the beginning
 };
 
@@ -26,11 +26,11 @@ public:
     static constexpr double most_busy = 0.7;
     // H.264 begins only if this much below `most_busy` would be left.
     static constexpr double margin = 0.05;
-    // H.264 ends after so long above `most_busy`, or at so many frames lost within that time.
+    // H.264 ends after this time above `most_busy`, or at `most_lost` frames lost within it.
     static constexpr Duration patience = 3s;
     static constexpr std::uint64_t most_lost = 3;
-    // Before H.264 is tried again; twice as long after each failure, up to the latter. A try that
-    // held for the latter counts as none that failed.
+    // Time before H.264 is tried again: twice as long after each failure, up to `longest_pause`. A
+    // try that lasts for `longest_pause` resets it to `first_pause`.
     static constexpr Duration first_pause = 30s, longest_pause = 480s;
 
     // `missing`: one sentence if there is no H.264 encoder, otherwise empty.
@@ -53,7 +53,7 @@ private:
     TimePoint last_calm_;  // below most_busy
     TimePoint window_;     // of lost frames
     std::uint64_t lost_at_window_ = 0;
-    TimePoint began_;       // H.264, while somebody gets it
+    TimePoint began_;       // of H.264 that a participant gets
     TimePoint not_before_;  // H.264 is tried again
     Duration pause_ = first_pause;
 };

@@ -86,9 +86,9 @@ public:
 
     virtual ~ColorDecoder() = default;
 
-    // Takes one encoded frame. The status tells what is known at once. A frame
-    // that is no key frame comes right after the one that it refers to; whoever
-    // lost that one does not submit it (Status::missing_reference).
+    // Takes one encoded frame. The status reports errors that are found at once. A
+    // frame that is no key frame must follow the one that it refers to: do not
+    // submit it if that one is lost (Status::missing_reference).
     virtual Status submit(ByteView encoded, FrameNumber frame) = 0;
 
     // The next finished frame, in order of submission, or nothing yet.

@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    // Zeros follow the end; status() tells.
+    // Returns zeros after the end; status() then reports it.
     std::uint32_t next() {
         const std::size_t at = at_++;
         return at < in_.size() ? std::to_integer<std::uint32_t>(in_[at]) : 0;

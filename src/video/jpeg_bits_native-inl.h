@@ -23,7 +23,7 @@ struct Interval {
 };
 
 // Copies the coded bytes up to the next marker without the zeros stuffed after
-// each 0xff, so that reading bits needs to look for neither. Writes up to a vector
+// each 0xff, so that reading bits needs no test for either. Writes up to a vector
 // more.
 HWY_INLINE Interval unstuff(ByteView coded, std::size_t from, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, alignment> d;
@@ -101,8 +101,8 @@ inline constexpr auto places = [] {
     return all;
 }();
 
-// The blocks of a group in coding order: where the coefficients of each go, and
-// what tells them. A block more is read, but not followed.
+// The blocks of a group in coding order: the memory for the coefficients of each, and
+// its component, which has the codes. One more entry is loaded but not used.
 struct Plan {
     static constexpr std::size_t most = group_units * max_unit_blocks + 1;
     std::array<std::int16_t*, most> blocks{};

@@ -100,7 +100,7 @@ HWY_INLINE void code_block(const Block& block, BitWriter& writer) {
     writer = out;
 }
 
-// A block that nobody sees is like the one before.
+// A block outside of the picture gets the DC of the block before, and no AC.
 HWY_INLINE void skip_block(const Block& block, BitWriter& out) {
     out.put(code_of_value(*block.codes, 0, 0));
     out.put(block.codes->end_of_block);
@@ -139,7 +139,7 @@ class TileRows {
 public:
     TileRows(ColorView image) : image_(image) {}
 
-    // `index` tells rows apart that are used at the same time.
+    // `index` is the number of the row among those that are used at the same time.
     HWY_INLINE const std::uint8_t* get(int x, int y, int index) {
         const auto [width, height] = image_.size;
         const Rgb* const row = image_.row(std::min(y, height - 1)) + x;

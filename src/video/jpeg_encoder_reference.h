@@ -89,7 +89,7 @@ private:
             put_symbol(ac, end_of_block);
     }
 
-    // A block of luma that nobody sees is like the one before.
+    // A block of luma outside of the picture gets the DC of the one before, and no AC.
     void skip() {
         put_value(dc_codes_[0], 0, 0);
         put_symbol(ac_codes_[0], end_of_block);

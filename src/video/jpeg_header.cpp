@@ -36,7 +36,7 @@ Result<FrameHeader> read_frame_header(ByteReader in, std::size_t jpeg_bytes) {
         return Status::truncated;
     if (bits != 8 || (frame.components != 1 && frame.components != 3))
         return Status::unsupported;
-    // A height of 0 means "see the DNL marker", which nobody writes.
+    // A height of 0 refers to a DNL marker, which no known encoder writes.
     if (frame.size.width == 0 || frame.size.height == 0)
         return Status::malformed;
     if (!is_valid(frame.size))

@@ -10,7 +10,7 @@ constexpr int look = JpegLookup::look;
 
 // One symbol with its value.
 struct Single {
-    int bits = 0;  // that both take; 0: more than one look has
+    int bits = 0;  // of code and value; 0: more than one look-up has
     int distance = 0;
     int value = 0;
     bool end = false;

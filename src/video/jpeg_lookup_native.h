@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Huffman codes as the fast decoder reads them: one look at the next bits gives up
-// to two symbols, their values, and whether the block ends. Native builds only.
+// Huffman codes as look-up tables of the fast decoder: one look-up of the next bits gives
+// up to two symbols, their values, and whether the block ends. Native builds only.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ public:
         std::int8_t ends;     // -1: the block does, else 0. An end alone puts a 0 one further.
         std::int16_t first_value, second_value;
     };
-    // Where one look does not decide, `second` is `undecided`. Then `bits` are those
+    // If one look-up has too few bits, `second` is `undecided`. Then `bits` are those
     // of the first code, and `first` its symbol, or `bits` are 0 if it has more.
 
     // Sets the codes of one of three components. Does nothing if they are as before.

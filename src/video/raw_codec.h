@@ -8,8 +8,8 @@
 
 namespace theatron::video {
 
-// The finished images of a decoder that answers at once, and the memory for
-// the next ones. Holds a few at most: whoever polls too rarely loses the oldest.
+// The finished images of a decoder that answers at once, and the memory for the
+// next ones. Holds a few at most: a caller that polls too rarely loses the oldest.
 class DecodedQueue {
 public:
     ColorImage take_blank();

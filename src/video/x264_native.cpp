@@ -14,7 +14,7 @@ namespace theatron::video {
 namespace {
 
 constexpr const char* library_name = "libx264";
-// The encoder is told this rate; it matters only where bits are counted per second.
+// Nominal rate of the encoder; it has an effect only with a bit rate.
 constexpr int frames_per_second = 30;
 
 AVPixelFormat pixel_format(AvcLayout layout) {

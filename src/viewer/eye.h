@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewpoint of a person with mouse and keyboard: it starts at a camera's own view and goes
-// where it is steered.
+// The viewpoint of a person with mouse and keyboard. It starts at a camera's own view and moves
+// with the input.
 #pragma once
 
 #include <map>
@@ -20,8 +20,8 @@ struct ViewableCameras {
 // Reads no clock; from one thread. `picture` is the size of the picture in pixels.
 class Eye {
 public:
-    // A camera that was chosen but sends nothing is waited for this long, then another one is
-    // taken.
+    // Time for which the eye waits for the first picture of the chosen camera. Then it starts at
+    // another one.
     static constexpr Duration camera_patience = std::chrono::seconds(2);
 
     explicit Eye(const ViewChoice& home) : home_(home) {}
@@ -32,7 +32,7 @@ public:
     // Needs is_placed(). The eye has the lens of the camera whose view it started from.
     render::CameraView view(Size picture) const;
 
-    // To what this camera sees, which becomes the home view. Throws Error if the camera does not
+    // Moves to this camera's view, which becomes the home view. Throws Error if the camera does not
     // exist or has sent nothing.
     void go_home(const ViewChoice& choice, const ViewableCameras& cameras, Size picture);
 
@@ -41,8 +41,8 @@ public:
     // changed. With `must_exist`, throws Error if there is no camera of the chosen number.
     bool follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now);
 
-    // A turn or a slide begins at this share of the picture's width and height, where a surface is
-    // seen in this distance (metres, along the view's axis): it stays under the mouse.
+    // Begins a turn or a slide. `place` is in shares of the picture's width and height; the surface
+    // there, at `distance_m` along the view's axis, stays under the mouse.
     void grab(Vec2 place, double distance_m, Size picture);
 
     // Moves as in xr/navigation.h; keys count from the last call. True if the view changed.

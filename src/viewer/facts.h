@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts about what a person sees, and their texts for the desktop.
+// Facts about a viewer's picture, and their texts for the desktop.
 #pragma once
 
 #include <functional>
@@ -15,16 +15,16 @@ namespace theatron::viewer {
 struct Facts {
     client::ParticipantFigures received;
     bool has_picture = false;
-    std::optional<double> age_ms;  // of the picture that is shown, now
+    std::optional<double> age_ms;  // current age of the presented picture
     double drawn_per_second = 0;
     xr::DrawingWay way;
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
-    std::string notice;  // of what just happened; empty: nothing
+    std::string notice;  // a recent event; empty: none
     bool help = false;
     bool line = true;  // of facts, at the bottom
 };
 
-// `address` is shown until the host has told its name. `filter_name` turns a filter's spelling into
+// `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into
 // a text for people.
 xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name);

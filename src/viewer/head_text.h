@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// --person and --myself: who is seen by a camera, so that the room behind them or what blocks one's
-// own view is cut off. "1=0.2:1.65:-0.4,yaw=90" is a person seen by camera 1 whose head is 1.65 m
-// above the floor and who looks along -x.
+// --person and --myself: the place of a person in a camera's picture, so that the room behind them,
+// or the viewer's own body, is cut off. "1=0.2:1.65:-0.4,yaw=90" is a person seen by camera 1 whose
+// head is 1.65 m above the floor and turned towards -x.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@
 namespace theatron::viewer {
 namespace {
 
-// How much a camera that stands still is seen, and how long it takes to get there.
+// Presence of a stale camera, and the time of a fade from 1 to 0.
 constexpr double stale_presence = 0.3;
 constexpr double fading_seconds = 0.5;
 

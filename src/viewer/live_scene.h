@@ -16,7 +16,7 @@ namespace theatron::viewer {
 // The virtual room around the clouds: drawn or not, and in which quality.
 struct RoomChoice {
     bool shown = true;
-    std::optional<render::SceneQuality> quality;  // none: as the driver's speed suggests
+    std::optional<render::SceneQuality> quality;  // none: render::usual_quality()
 };
 
 // Use from one thread, with the same GL context current.
@@ -29,11 +29,11 @@ public:
     // Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
-    // See render::CloudSet; what the cameras show stays.
+    // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
     void set_depth_step(int step);
 
-    // Lets cameras that stand still fade, and others come back. True while it changes
-    // what is seen.
+    // Fades stale cameras out to a low presence, and others back in. True while the picture
+    // changes by that.
     bool fade(const client::Participant& participant, TimePoint now);
 
     bool has_picture() const { return !newest_.empty(); }

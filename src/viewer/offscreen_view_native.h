@@ -17,7 +17,7 @@ public:
     explicit OffscreenView(RoomChoice room = {}, std::vector<SeenPerson> people = {})
         : scene_(room, std::move(people)) {}
 
-    // Takes over what is new: cameras and frames. Throws as LiveScene does.
+    // Takes over new cameras and frames. Throws as LiveScene does.
     void take(client::Participant& participant) { (void)scene_.take(participant); }
 
     bool has_picture() const { return scene_.has_picture(); }
@@ -27,10 +27,10 @@ public:
         ViewChoice view;
         Size size;
         std::string renderer;
-        // If given, the picture is twice as wide: what the left and the right eye see.
+        // If given, the picture is twice as wide: the left and the right eye's views side by side.
         std::optional<double> eye_distance_m;
     };
-    // Both throw Error if that camera gave nothing, or if the driver reported an error.
+    // Both throw Error if that camera has sent nothing, or if the driver reported an error.
     ColorImage picture(const Wish& wish) { return render(wish, true).color; }
     DepthImage distances(const Wish& wish) { return render(wish, false).depth_mm; }  // of clouds
 

@@ -18,7 +18,7 @@ inline constexpr const char* automatic = "auto";
 std::vector<std::string> renderer_choices();
 // Throws Error that names the choices if this is none of them.
 void check_renderer_choice(const std::string& name);
-// The renderer that a choice means for so many cameras, where time does not matter.
+// The renderer of a choice for this number of cameras, if drawing time does not matter.
 std::string renderer_for(const std::string& choice, std::size_t cameras);
 
 // Applies the host's command if it names an existing renderer. Otherwise nothing changes, and the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewpoint as it is named on the command line: camera:N,yaw=…,pitch=…
+// A viewpoint of the command line: camera:N,yaw=…,pitch=…
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct ViewChoice {
                                Size picture) const;
 };
 
-// Throws Error saying what is wrong.
+// Throws Error with one sentence if the text is wrong.
 ViewChoice parse_view(const std::string& text);
 
 }  // namespace theatron::viewer

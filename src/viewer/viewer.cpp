@@ -122,7 +122,7 @@ void Viewer::follow_host(TimePoint now) {
     choose_pace();
 }
 
-// Begins anew where there are other ways to draw than before.
+// Restarts the choice of a drawing mode if the list of modes has changed.
 void Viewer::choose_pace() {
     auto ways = choice_.renderer() == automatic
                     ? xr::automatic_ways(scene_.calibrations().size(), options_.scale)

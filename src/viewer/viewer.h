@@ -29,11 +29,11 @@ public:
         RoomChoice room;
         std::vector<SeenPerson> people;
         std::string renderer = automatic;
-        double scale = 0;  // of the target's pixels to draw; 0: as there is time for
-        std::string depth_codec, color_codec;  // that the participant asked for
+        double scale = 0;  // of the target's pixels to draw; 0: chosen by drawing time
+        std::string depth_codec, color_codec;  // that the participant requested
     };
 
-    // `participant` outlives the viewer.
+    // `participant` must outlive the viewer.
     Viewer(Options options, client::Participant& participant);
 
     // Keys that concern the scene, and steering. `grabbed_m` is the distance of the surface at
@@ -41,30 +41,30 @@ public:
     void on_input(const xr::WindowInput& input, std::optional<double> grabbed_m, Size picture,
                   TimePoint now);
 
-    // Takes over what is new in the session. `picture` is the size of the target in pixels. True
-    // if the scene is to be drawn again. Throws Error if the host refused to let the person in, or
-    // if the view that was chosen cannot be had.
+    // Takes over the session's changes. `picture` is the size of the target in pixels. True if the
+    // scene must be drawn again. Throws Error if the host refused this participant, or if the
+    // camera of the chosen view does not exist.
     bool step(Size picture, TimePoint now);
 
     // Needs facts().has_picture. Draws into a cleared target that has way().scale of `picture` on
-    // each side. A renderer that the driver cannot do is replaced by the one before; Error if there
-    // is none.
+    // each side. If the driver cannot run a renderer, the previous one is used again; Error if
+    // there is none.
     void draw(Size picture, const render::DrawTarget& target, TimePoint now);
     const xr::DrawingWay& way() const { return pace_.way(); }
 
     // The picture that was drawn since `begin` is on screen at `end`.
     void on_presented(TimePoint begin, TimePoint end);
 
-    // For a person, as of `now`.
+    // Facts for the user, at `now`.
     Facts facts(TimePoint now);
-    // A line for a person, shown for some seconds.
+    // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
     // True while a fading camera changes the picture by itself.
     bool is_fading() const { return fading_; }
     // The first moment that a picture could be drawn; TimePoint{} before.
     TimePoint first_picture_at() const { return first_picture_at_; }
 
-    // Pictures that were presented, and how old their frames were.
+    // Number of presented pictures, and the ages of their frames.
     std::uint64_t pictures() const { return pictures_; }
     const SampleWindow& ages_ms() const { return all_ages_ms_; }
 

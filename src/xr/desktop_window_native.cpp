@@ -33,7 +33,7 @@ struct Library {
         // The window manager stays in charge, and may compose other windows over ours.
         SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
         // Only desktops: a bare graphics card, which SDL would also draw on, may belong to a
-        // screen that nobody here sees. Wayland's library complains aloud without that folder.
+        // screen elsewhere. Without that folder Wayland's library prints warnings.
         const bool wayland = std::getenv("XDG_RUNTIME_DIR") || std::getenv("WAYLAND_DISPLAY");
         SDL_SetHint(SDL_HINT_VIDEODRIVER, wayland ? "x11,wayland" : "x11");
         if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)

@@ -31,10 +31,10 @@ public:
     // The input since the last call.
     WindowInput poll();
 
-    // False while there is nobody to see it, for example minimised.
+    // False while the window cannot be seen, for example minimised.
     bool is_visible() const;
     Size pixels() const;
-    // How large a text of normal size is on this screen, in pixels.
+    // Height of a text of normal size on this screen, in pixels.
     double text_pixels() const;
     // The shortest time between two pictures that the screen can show.
     Duration picture_time() const;
@@ -43,7 +43,7 @@ public:
     void toggle_full_screen();
     bool is_full_screen() const;
 
-    // Shows what was drawn. Waits for the screen where the driver does so.
+    // Presents the drawn picture. Waits for the screen if the driver does so.
     void present();
 
     // Errors that the GL driver reported, and the text of the first.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws what Dear ImGui has put together, with OpenGL ES 3, into the window or onto a panel.
+// Draws the draw data of Dear ImGui with OpenGL ES 3, into the window or onto a panel.
 #pragma once
 
 #include <imgui.h>
@@ -14,16 +14,16 @@ public:
     // Throws Error where the driver does not accept the shaders.
     ImGuiPass();
 
-    // After the fonts of the current ImGui context were built.
+    // Call it after the fonts of the current ImGui context were built.
     void upload_fonts();
-    // Into the window's framebuffer.
+    // Draws into the window's framebuffer.
     void draw(const ImDrawData& data);
-    // Into a texture, over the whole of which ImGui's display is spread, on a background of this
-    // colour: a panel that stands in the room.
+    // Draws over the whole of a texture, on a background of this colour: for a panel that stands
+    // in the room.
     void draw(const ImDrawData& data, render::SceneTexture& panel, Rgb background);
 
 private:
-    // How ImGui's display becomes a picture in a framebuffer.
+    // The target of ImGui's display.
     struct Picture {
         unsigned framebuffer = 0;
         Size size;

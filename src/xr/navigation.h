@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moving through the room with mouse and keyboard: where the eye goes for what a
-// person did. The same for a window and for a browser.
+// Moving through the room with mouse and keyboard: the viewpoint that follows from a
+// person's input. The same for a window and for a browser.
 //
 // All functions are pure.
 #pragma once
@@ -18,8 +18,8 @@ struct Viewpoint {
     bool operator==(const Viewpoint&) const = default;
 };
 
-// The viewpoint that turns around what is seen at `place`, given in the picture one metre before
-// the eye (x right, y down, metres), in the distance `along_m` along the view's axis.
+// The same viewpoint with another pivot: the point at `place` in the plane one metre before the eye
+// (x right, y down, metres), moved along its ray to `along_m` metres along the view's axis.
 Viewpoint around(const Viewpoint& from, Vec2 place, double along_m);
 
 // A person's input since the last call. Mouse movements are in heights of the window,
@@ -35,11 +35,11 @@ struct Steering {
     bool moves() const;
 };
 
-// The viewpoint after that. Turning carries the eye around the pivot, and the
+// The viewpoint after this input. Turning carries the eye around the pivot, and the
 // scene follows the mouse; it stops before the picture would be upside down. Sliding keeps
 // the pivot under the mouse. Flying takes the pivot along.
 // `view_height` is the height of the picture one metre before the eye, in metres;
-// `elapsed` is how long the keys were held.
+// `elapsed` is the time for which the keys were down.
 Viewpoint steered(const Viewpoint& from, const Steering& steering, double view_height,
                   Duration elapsed);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texts over the picture: a line of facts at the bottom, a message in the
-// middle, what was just chosen, and the help.
+// middle, notices, and the help.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
     std::string message, detail;
-    std::string warning;  // at the top, as long as it holds
-    std::string notice;   // below it, for what just happened
+    std::string warning;  // at the top, while its cause lasts
+    std::string notice;   // below it, for a recent event
     bool help = false;
 
     bool operator==(const OverlayContent&) const = default;

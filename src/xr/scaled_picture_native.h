@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of the scene that a window shows, drawn with as many pixels as there
-// is time for. It stays when only the texts over it change.
+// The picture of the scene in a window, drawn with a part of the window's pixels on a
+// slow machine. It is kept when only the texts over it change.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,13 @@ public:
     // window's pixels on each side.
     render::DrawTarget begin(Size window, double scale);
 
-    // Copies it into the whole window. Before the first begin() that is the
+    // Copies it into the whole window. Before the first begin() it shows the
     // background alone.
     void show(Size window) const;
 
-    // How far before the eye, along the view's axis, the surface is that was drawn at
-    // this share of the width and height from the top left corner. Nothing where
-    // there is none. Waits for the GPU: for a click, not for every picture.
+    // Distance in metres, along the view's axis, of the surface that was drawn at this
+    // share of the width and height from the top left corner. Empty if there is none.
+    // Waits for the GPU: for a click, not for every picture.
     std::optional<double> distance_at(Vec2 place) const;
 
 private:

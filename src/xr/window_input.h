@@ -19,7 +19,7 @@ enum class Action {
     next_renderer,
     next_depth_codec,
     next_color_codec,
-    own_view,     // back to what the camera itself sees
+    own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };
 
@@ -29,16 +29,16 @@ struct KeyPress {
 };
 
 struct WindowInput {
-    bool close = false;   // the window's own button, or the system wants us to end
+    bool close = false;   // the window's own button, or the system asks the program to end
     bool redraw = false;  // the window was uncovered or has another size
     std::vector<KeyPress> keys;
-    // Where a turn or a slide began, if one did: shares of the window's width and
+    // The place where a turn or a slide began, if one did: shares of the window's width and
     // height from its top left corner.
     std::optional<Vec2> grabbed;
     Steering steering;
 };
 
-// The keys as a person is told about them.
+// The keys as the help shows them.
 struct KeyHelp {
     const char* keys;
     const char* meaning;

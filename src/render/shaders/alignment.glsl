@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a camera is worth for this view. Needs cloud.glsl.
+// The weight of a camera for this view. Needs cloud.glsl.
 
-// The camera that looks from where the viewer looks has the
+// A camera that sees the point from the viewer's direction has the
 // right colours.
 float alignment(vec3 point) {
     vec3 from_viewer = point - camera.viewer.xyz;

@@ -52,8 +52,8 @@ float lit_share(vec3 normal) {
 #endif
 }
 
-// Faint lines on a surface, as far apart as the look says; they vanish where they would be
-// finer than the picture's pixels.
+// Faint lines on a surface, look.w metres apart; they vanish where they would be finer than the
+// picture's pixels.
 float line_share(vec3 n) {
     if (look.w == 0.0)
         return 0.0;
