@@ -112,6 +112,9 @@ void run(const Flags& flags) {
     for (const record::CameraContent& camera : recording->cameras())
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
     bool damaged = !recording->intact();
+    for (const record::Segment& segment : recording->segments())
+        if (const std::string end = record::end_of(segment); !end.empty())
+            std::cerr << segment.file << ": " << end << std::endl;
 
     for (const std::string& folder : {flags.ply, flags.png})
         if (!folder.empty())

@@ -132,6 +132,9 @@ Json describe_segments(const record::RecordingFile& recording) {
                         {"end_seconds", to_seconds(segment.end)},
                         {"pictures", segment.frames},
                         {"closed", segment.closed},
+                        {"missing_end_seconds",
+                         segment.missing_end ? Json(to_seconds(*segment.missing_end)) : Json()},
+                        {"recovered", segment.recovered},
                         {"head_damaged", segment.head_damaged},
                         {"damaged_places", segment.damaged_places},
                         {"damaged_bytes", segment.damaged_bytes},
@@ -231,8 +234,11 @@ void print_segments(const record::RecordingFile& recording) {
                   begin.c_str());
         else if (!begin.empty())
             print("recorded at %s\n", begin.c_str());
-        if (!segment.closed)
-            print("  it was cut short, and opens up to the last whole part\n");
+        if (const std::string end = record::end_of(segment); !end.empty())
+            print("  %s\n", end.c_str());
+        if (!segment.recovered.empty())
+            print("  recovered from a recording of which this was said: %s\n",
+                  segment.recovered.c_str());
         if (segment.head_damaged)
             print("  its beginning is damaged, and read from a copy\n");
         if (segment.damaged_places > 0)
@@ -295,7 +301,8 @@ void run(const std::string& file, bool as_json, bool verified) {
     const std::shared_ptr<const record::RecordingFile> recording =
         record::RecordingFile::open(file);
     Json json = describe(file, *recording);
-    const bool sound = !verified || add_verification(recording, file, json);
+    const bool undamaged = !verified || add_verification(recording, file, json);
+    const bool sound = undamaged && (!verified || recording->complete());
     if (as_json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
     else {
@@ -317,7 +324,9 @@ void run(const std::string& file, bool as_json, bool verified) {
         }
         if (verified)
             print("%s\n", sound ? "every picture was decoded, and nothing is damaged"
-                                : "parts are damaged; 'theatron recover' saves the others");
+                          : undamaged
+                              ? "every picture that is there was decoded, and an end is missing"
+                              : "parts are damaged; 'theatron recover' saves the others");
     }
     if (!sound)
         throw CLI::RuntimeError(damaged_exit_code);
@@ -336,7 +345,7 @@ void add_inspect_command(CLI::App& app) {
     command->footer(
         "A recording that goes on in further files (operation.002.mkv ...) is one: name the "
         "first.\n"
-        "With --verify the exit code is 3 if anything is damaged.\n"
+        "With --verify the exit code is 3 if anything is damaged, or an end is missing.\n"
         "\nExamples:\n"
         "  theatron inspect operation.mkv\n"
         "  theatron inspect operation.mkv --json\n"

@@ -221,6 +221,12 @@ void run(const Flags& flags) {
     };
     FileWatch watch(file);
     bool deleted = false;
+    auto say_cut = [&, said = std::uint64_t(0)](const record::Recorder::Figures& f) mutable {
+        if (f.cut_bytes > said)
+            say("Another program has cut " + std::to_string(f.cut_bytes - said) +
+                " bytes off the recording's file; the recording goes on behind them.");
+        said = f.cut_bytes;
+    };
     std::optional<record::RecordSource::End> end;
     TimePoint begin{}, next_look{};
     double cpu_before = 0;
@@ -245,6 +251,7 @@ void run(const Flags& flags) {
         if (now < next_look)
             continue;
         next_look = now + 500ms;
+        say_cut(recorder->figures());
         if (const auto gone = watch.gone(recorder->figures().segments); !gone.empty()) {
             say("'" + gone.string() +
                 "' was deleted or renamed; the recording goes on in a new file beside it.");
@@ -261,8 +268,9 @@ void run(const Flags& flags) {
     }
     const bool has_rest =
         !intake.recorder() || end || !intake.problem().empty() || fetch_rest(*source, say);
+    const double missing_end = has_rest ? 0 : to_seconds(behind(*source));
     if (!has_rest)
-        say("The last " + std::to_string(int(to_seconds(behind(*source)) + 0.5)) +
+        say("The last " + std::to_string(int(missing_end + 0.5)) +
             " s before the end did not come from the host.");
     const double wall = to_seconds(steady_now() - begin), cpu = cpu_seconds() - cpu_before;
     Missing missing;
@@ -280,13 +288,14 @@ void run(const Flags& flags) {
         say(end->remark);
 
     const record::Recorder::Figures f = recorder->figures();
+    say_cut(f);
     for (std::uint32_t segment = 1; segment <= f.segments; ++segment)
         if (const auto path = record::segment_path(file, segment); !std::filesystem::exists(path)) {
             say("'" + path.string() + "' was deleted or renamed while the recording went on.");
             deleted = true;
         }
-    const bool complete =
-        has_rest && !missing.any() && !deleted && !(end && end->fault) && f.problem.empty();
+    const bool complete = has_rest && !missing.any() && !deleted && f.cut_bytes == 0 &&
+                          !(end && end->fault) && f.problem.empty();
     if (flags.json)
         std::cout << nlohmann::json{{"file", file},
                                     {"segments", f.segments},
@@ -295,6 +304,8 @@ void run(const Flags& flags) {
                                     {"pictures", f.frames},
                                     {"dropped", missing.dropped},
                                     {"lost", missing.lost},
+                                    {"cut_bytes", f.cut_bytes},
+                                    {"missing_end_seconds", missing_end},
                                     {"complete", complete},
                                     {"cameras", std::move(cameras)},
                                     {"cpu_cores", cpu / wall},

@@ -270,6 +270,9 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
                      {{"file", file},
                       {"damaged_pictures", opened->refused()},
                       {"missing_segments", opened->missing_segments()}});
+    for (const record::Segment& segment : opened->segments())
+        if (const std::string end = record::end_of(segment); !end.empty())
+            log::warning("capture", end, {{"file", segment.file.empty() ? file : segment.file}});
     auto frames = std::make_unique<RecordedFrames>(opened, std::size_t(camera), file);
     if (frames->frames() == 0)
         throw Error("'" + file + "' holds no frame of camera " + std::to_string(camera) + ".");

@@ -2,6 +2,7 @@
 // The head of a recording's file: see matroska_reader.h.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -87,6 +88,34 @@ Status read_attachment(Window& window, const Element& entry, FoundAttachment& at
     });
 }
 
+// Nothing where it is no time: it is only a remark, which nothing checks.
+Status read_duration(Window& window, const Element& element, std::int64_t& duration_us) {
+    constexpr double credible_us = 1e15;
+    std::uint64_t bits = 0;
+    if (element.size() != sizeof(bits))
+        return Status::ok;
+    const Status status = read_unsigned(window, element, bits);
+    const auto value = std::bit_cast<double>(bits);
+    duration_us = value > 0 && value <= credible_us ? std::int64_t(value) : 0;
+    return status;
+}
+
+Status read_tag(Window& window, const Element& tag, FoundHead& head) {
+    return for_each_child(window, tag, [&](const Element& simple) {
+        if (simple.id != ids::simple_tag)
+            return Status::ok;
+        std::string name, value;
+        const Status status = for_each_child(window, simple, [&](const Element& e) {
+            if (e.id == ids::tag_name)
+                return read_text(window, e, name);
+            return e.id == ids::tag_string ? read_text(window, e, value) : Status::ok;
+        });
+        if (name == recovered_tag)
+            head.recovered = value;
+        return status;
+    });
+}
+
 Status read_info(Window& window, const Element& info, FoundHead& head) {
     return for_each_child(window, info, [&](const Element& e) {
         std::uint64_t value = 0;
@@ -95,6 +124,8 @@ Status read_info(Window& window, const Element& info, FoundHead& head) {
             head.date_ns = std::int64_t(value);
             return status;
         }
+        if (e.id == ids::duration)
+            return read_duration(window, e, head.duration_us);
         if (e.id != ids::timestamp_scale)
             return Status::ok;
         const Status status = read_unsigned(window, e, value);
@@ -119,6 +150,10 @@ Status read_part(Window& window, const Element& part, FoundHead& head) {
                     return Status::ok;
                 head.attachments.emplace_back();
                 return read_attachment(window, e, head.attachments.back());
+            });
+        case ids::tags:
+            return for_each_child(window, part, [&](const Element& e) {
+                return e.id == ids::tag ? read_tag(window, e, head) : Status::ok;
             });
         default:
             return Status::ok;
@@ -240,6 +275,7 @@ PlainHead read_plain(ByteSource& source) {
         found.status = segment ? Status::malformed : segment.error();
         return found;
     }
+    found.head.segment_end = segment->size_known ? segment->end : 0;
     found.head.closed = segment->size_known && segment->end <= file_end;
     const std::uint64_t end = std::min(segment->end, file_end);
     found.head.clusters_at = segment->begin;
@@ -309,6 +345,8 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
         damaged || copy->tracks != plain.head.tracks || copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
     copy->closed = plain.head.closed;
+    copy->segment_end = plain.head.segment_end;
+    copy->duration_us = plain.head.duration_us;
     copy->clusters_at = plain_is_whole ? plain.head.clusters_at : 0;
     return *copy;
 }

@@ -242,12 +242,13 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
     bool is_own_head = head.clusters_at == 0;
     // Nothing before this is looked at again, so the time is proportional to the size.
     std::uint64_t understood = head.clusters_at;
+    bool has_index = false, has_end = false;
     for (std::uint64_t at = head.clusters_at; at < end;) {
         const Result<Element> element = read_element(window, at, end);
         const bool whole = element && element->size_known;
         const bool is_head = whole && element->id == ids::ebml && begins_file(window, at);
         if (whole && element->id == ids::cluster) {
-            is_own_head = false;
+            is_own_head = has_index = has_end = false;
             understood = read_cluster(window, *element, visit);
             at = element->end;
             if (understood == element->end)
@@ -255,10 +256,14 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
         } else if (whole && is_beside_clusters(element->id)) {
             // Its size may be what is damaged: `understood` stays until a cluster follows.
             at = element->end;
+            has_end = has_index && element->id == ids::void_element;
+            has_index = has_index || element->id == ids::cues;
+            found.has_end = has_end && at == end;
             if (at == end)
                 return found;
             continue;
         } else if (is_head && !is_own_head) {
+            found.has_end = has_end;
             found.next_file_at = at;
             return found;
         } else {

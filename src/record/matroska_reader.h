@@ -46,6 +46,11 @@ struct FoundHead {
     std::int64_t date_ns = 0;  // since 2001 in UTC, of time 0; 0: not said
     // A copy of the head or what players read of it is damaged; nothing of it is missing.
     bool damaged = false;
+    std::string recovered;  // the tag of this name: what was missing where this was recovered from
+    // As the file's beginning says, whose copies do not: the time of the last block that was
+    // certainly on the disk (0: not known), and where the segment ends (0: it was never closed).
+    std::int64_t duration_us = 0;
+    std::uint64_t segment_end = 0;
     bool closed = false;            // the segment has a size, and ends within the file
     std::uint64_t clusters_at = 0;  // where to look for them
 };
@@ -76,6 +81,7 @@ struct FoundClusters {
     std::uint64_t damaged_places = 0;  // passed over: each up to the next intact cluster
     std::uint64_t damaged_bytes = 0;   // in them
     std::uint64_t cut_bytes = 0;       // after the last whole cluster of a file that was not closed
+    bool has_end = false;              // the file ends as one of version 2 that was closed
     // Where another Matroska file stands behind this one's; reading ends there.
     std::optional<std::uint64_t> next_file_at;
 };

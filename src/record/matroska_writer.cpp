@@ -117,6 +117,9 @@ std::string MatroskaWriter::problem(int error) const {
 
 // All or nothing.
 std::string MatroskaWriter::append(const Bytes& bytes) {
+    // Once written to, a file that was cut is as long as before, with zeros where it was cut.
+    if (struct stat found{}; fstat(file_, &found) == 0 && std::uint64_t(found.st_size) < end_)
+        cut_bytes_ += end_ - std::uint64_t(found.st_size);
     if (const int error = write_at(file_, bytes, end_); error != 0) {
         failed_ = true;
         // If even that fails, the reader still stops at the last whole cluster.
@@ -171,10 +174,20 @@ void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
 
 std::string MatroskaWriter::sync() {
     // Some file systems know of no such thing.
-    if (fdatasync(file_) == 0 || errno == EINVAL || errno == ENOSYS)
+    int error = fdatasync(file_) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
+    if (error == 0)
+        error = write_duration();
+    if (error == 0)
         return "";
     failed_ = true;
-    return problem(errno);
+    return problem(error);
+}
+
+// It has its room in the file, on a full disk too. Returns 0 or errno.
+int MatroskaWriter::write_duration() {
+    Bytes info;
+    render_info(info_, duration_us_, info);
+    return write_at(file_, info, places_["info"]);
 }
 
 Bytes MatroskaWriter::render_cues() const {
@@ -210,11 +223,9 @@ std::string MatroskaWriter::finish() {
     render_seek_head(places_, segment_, seek_head);
     assert(seek_head.size() + void_head_size <= seek_head_space);
     render_void(seek_head_space - seek_head.size(), seek_head);
-    Bytes info;
-    render_info(info_, duration_us_, info);
     int error = write_at(file_, seek_head, segment_);
     if (error == 0)
-        error = write_at(file_, info, places_["info"]);
+        error = write_duration();
     if (error == 0)
         error = write_at(file_, render_segment_size(end_ - segment_), places_["segment_size"]);
     if (error == 0 && fsync(file_) != 0 && errno != EINVAL)

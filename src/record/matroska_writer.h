@@ -38,7 +38,8 @@ public:
     // full disk; the file is then cut back to what was whole before, and takes no more blocks.
     std::string write(std::vector<Block> blocks);
 
-    // Waits until the disk has what was written. Returns one sentence if it cannot.
+    // Waits until the disk has what was written, and then notes in the file how much that is, so
+    // that a cut can be noticed. Returns one sentence if it cannot.
     std::string sync();
 
     // Writes the index, the duration and the size. After a full disk, as much of that as there is
@@ -46,18 +47,22 @@ public:
     std::string finish();
 
     std::uint64_t bytes() const { return end_; }
+    // Bytes that another program has cut off the file meanwhile, as of the last write.
+    std::uint64_t cut_bytes() const { return cut_bytes_; }
 
 private:
     Bytes render_cues() const;
     void append_cluster(std::span<const Block> blocks, Bytes& out);
     std::string append(const Bytes& bytes);
+    int write_duration();
     std::string problem(int error) const;
 
     std::filesystem::path path_;
     MatroskaInfo info_;
     int file_ = -1;
     bool failed_ = false;
-    std::uint64_t end_ = 0;                        // of the file
+    std::uint64_t end_ = 0;  // of the file
+    std::uint64_t cut_bytes_ = 0;
     std::uint64_t segment_ = 0;                    // where the segment's content begins
     std::map<std::string, std::uint64_t> places_;  // of the parts that finish() fills in or names
     std::int64_t duration_us_ = 0;

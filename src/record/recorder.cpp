@@ -175,6 +175,7 @@ void Recorder::run() {
     const std::string at_end = writer_->finish();
     const std::lock_guard lock(mutex_);
     figures_.bytes = bytes_before_ + writer_->bytes();
+    figures_.cut_bytes = cut_before_ + writer_->cut_bytes();
     figures_.problem = problem.empty() ? at_end : problem;
     waiting_.clear();
     waiting_bytes_ = unseen_bytes_ = 0;
@@ -225,6 +226,7 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     waiting_bytes_ -= bytes;
     oldest_.reset();
     figures_.bytes = bytes_before_ + writer_->bytes();
+    figures_.cut_bytes = cut_before_ + writer_->cut_bytes();
     if (problem.empty()) {
         figures_.frames += messages.size();
         figures_.duration = duration_before_ + writer_->duration();
@@ -255,6 +257,7 @@ std::string Recorder::begin_next() {
         auto writer = std::make_unique<SegmentWriter>(file, *next.cameras, info_);
         duration_before_ += writer_->duration();
         bytes_before_ += writer_->bytes();
+        cut_before_ += writer_->cut_bytes();
         writer_ = std::move(writer);
     } catch (const Error& problem) {
         return std::string(problem.what()) + " The recording ends here; what came before is kept.";

@@ -53,6 +53,7 @@ public:
         std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
         std::size_t waiting_bytes = 0;                 // came, and are not written yet
         Duration late{};                               // how long the oldest of them waits
+        std::uint64_t cut_bytes = 0;                   // that another program cut off its files
         std::uint32_t segments = 1;
         std::string problem;  // why it has ended by itself, one sentence; empty if it has not
     };
@@ -110,7 +111,7 @@ private:
     std::unique_ptr<SegmentWriter> writer_;
     std::optional<Waiting> next_;  // the segment that begins with the next message
     Duration duration_before_{};   // of the segments before this one
-    std::uint64_t bytes_before_ = 0;
+    std::uint64_t bytes_before_ = 0, cut_before_ = 0;
 
     mutable std::mutex mutex_;  // guards all below
     std::condition_variable changed_;

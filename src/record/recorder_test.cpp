@@ -185,5 +185,26 @@ TEST(Recording, WhereNoFileCanBeIsOneSentence) {
     }
 }
 
+TEST(Recorder, NoticesThatItsFileIsCutAndGoesOn) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "a.mkv";
+    const auto messages = generated(1, 60, 500);
+    const std::size_t half = messages.size() / 2;
+    Recorder recorder(path, cameras(1), session_begin);
+    for (std::size_t i = 0; i < half; ++i)
+        ASSERT_EQ(add(recorder, messages[i]), Recorder::Added::taken);
+    wait_until_written(recorder, half);
+    EXPECT_EQ(recorder.figures().cut_bytes, 0u);
+    const auto size = fs::file_size(path);
+    fs::resize_file(path, size / 2);
+    for (std::size_t i = half; i < messages.size(); ++i)
+        ASSERT_EQ(add(recorder, messages[i]), Recorder::Added::taken);
+    recorder.finish();
+    EXPECT_EQ(recorder.figures().cut_bytes, size - size / 2);
+    const auto recording = RecordingFile::open(path);
+    EXPECT_GE(frames_in(*recording), messages.size() - half);
+    EXPECT_EQ(recording->segments()[0].damaged_places, 1u);
+}
+
 }  // namespace
 }  // namespace theatron::record

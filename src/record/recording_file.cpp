@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -22,6 +23,8 @@ constexpr double usual_frames_per_second = 30;
 constexpr std::size_t max_name = 4096;                       // characters
 constexpr std::int64_t max_time_us = std::int64_t(1) << 44;  // of a frame in its segment
 constexpr std::uint64_t max_side_gap = (1 << 14) - 1;
+// What a recorder has not got to the disk yet, usually.
+constexpr Duration usual_unsynced = std::chrono::seconds(1);
 constexpr std::uint64_t max_file_bytes = std::uint64_t(1) << 48;
 // Matroska counts from 2001.
 constexpr UtcTime matroska_epoch{std::chrono::sys_days(std::chrono::year(2001) / 1 / 1)};
@@ -93,6 +96,35 @@ void note_filters(StreamContent& stream, const std::string& note) {
 
 }  // namespace
 
+std::string end_of(const Segment& segment) {
+    if (segment.closed)
+        return "";
+    const std::string begin = "it ends without its end: ";
+    if (!segment.missing_end)
+        return begin + "nobody knows how much is missing";
+    if (*segment.missing_end <= Duration(0))
+        return begin + "only its index is missing";
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.1f s may be missing",
+                  std::ceil(to_seconds(*segment.missing_end) * 10) / 10);
+    return begin + text;
+}
+
+std::string losses_of(const Segment& segment) {
+    std::string losses = segment.recovered;
+    const auto add = [&](const std::string& more) {
+        losses += (losses.empty() || more.empty() ? "" : "; ") + more;
+    };
+    add(end_of(segment));
+    if (segment.damaged_places > 0)
+        add(std::to_string(segment.damaged_places) +
+            (segment.damaged_places == 1 ? " damaged place" : " damaged places"));
+    if (segment.refused > 0)
+        add(std::to_string(segment.refused) +
+            (segment.refused == 1 ? " damaged picture" : " damaged pictures"));
+    return losses;
+}
+
 void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain) {
     const FoundHead& head = member.head;
     const std::optional<SegmentInfo>& info = member.info;
@@ -147,6 +179,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         // A file has blocks of its own tracks only, those that this reader does not know included.
         if (!is_listed(block.track)) {
             ++refused_;
+            ++segment.refused;
             return;
         }
         if (block.track < 1 || block.track > max_camera_track)
@@ -166,6 +199,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             frames_ >= max_frames) {
             ++stream.damaged;
             ++refused_;
+            ++segment.refused;
             return;
         }
         ++frames_;
@@ -201,6 +235,13 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         member.source = std::make_shared<PartSource>(member.source, 0, end);
     }
     segment.bytes = end + segment.foreign.bytes;
+    segment.closed = found.has_end || (head.segment_end > 0 && head.segment_end <= end);
+    if (!segment.closed && head.duration_us > 0) {
+        const Duration until = any ? segment.end : Duration(0);
+        segment.missing_end = std::max(Duration(head.duration_us) - until, Duration(0)) +
+                              (head.segment_end == 0 ? usual_unsynced : Duration(0));
+    }
+    segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));
     sources_.push_back(std::move(member.source));
     leave_out_repeated(index);

@@ -9,6 +9,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,9 +93,13 @@ struct Segment {
     Duration origin{};         // on the same scale: where its own time 0 is
     TimePoint first_captured;  // session time of the first frame in the file
     std::uint64_t frames = 0;
-    bool closed = false;        // false: never closed, or cut off
+    bool closed = false;  // false: never closed, or cut off
+    // Unless closed: how much is missing at its end, at most; nothing if that is not known.
+    std::optional<Duration> missing_end;
+    std::string recovered;      // what was missing where it was recovered from, as losses_of() says
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;
+    std::uint64_t refused = 0;      // frames whose header is damaged or does not fit its stream
     std::uint64_t repeated = 0;     // frames that stand in it once more; these are left out
     SegmentChain::Foreign foreign;  // what stands behind it in its file, left out
 
@@ -104,6 +109,11 @@ struct Segment {
     }
     bool complete() const { return closed && intact(); }
 };
+
+// As in "it ends without its end: 2.5 s may be missing"; empty if it was closed.
+std::string end_of(const Segment& segment);
+// What is missing or damaged in it as far as its index shows, one line; empty if nothing is.
+std::string losses_of(const Segment& segment);
 
 class RecordingFile {
 public:

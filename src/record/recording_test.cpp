@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "record/crc32c.h"
 #include "record/matroska_reader.h"
+#include "record/segment_writer.h"
 #include "record/test_recordings.h"
 
 namespace theatron::record {
@@ -171,6 +172,63 @@ TEST(Recording, CutOffAnywhereOpensUpToTheLastWholeCluster) {
     EXPECT_EQ(before, messages.size());
     EXPECT_GE(counts.size(), 5u) << "there are too few clusters";
     EXPECT_GT(opened, whole.size() / 2);
+}
+
+TEST(Recording, WhoseEndIsCutSaysHowMuchMayBeMissing) {
+    const testing::TemporaryFolder folder;
+    record_all(folder.path() / "whole.mkv", 1, generated(1, 300, 200));
+    Bytes bytes = bytes_of(folder.path() / "whole.mkv");
+    const auto opened = [&] {
+        return std::move(*RecordingFile::read(std::make_unique<MemorySource>(bytes)));
+    };
+    const Duration whole = opened()->duration();
+    EXPECT_EQ(end_of(opened()->segments()[0]), "");
+    bytes.resize(bytes.size() - 100);  // the last copy of the head
+    EXPECT_EQ(end_of(opened()->segments()[0]),
+              "it ends without its end: only its index is missing");
+    bytes.resize(bytes.size() / 2);
+    const auto half = opened();
+    EXPECT_FALSE(half->complete());
+    EXPECT_EQ(half->segments()[0].missing_end, whole - half->duration());
+    EXPECT_GT(whole - half->duration(), 3s);
+    EXPECT_NE(end_of(half->segments()[0]).find(" s may be missing"), std::string::npos);
+}
+
+// The size that the file claims is in no checksum.
+TEST(Recording, WithADamagedSizeIsStillSeenToBeClosed) {
+    const testing::TemporaryFolder folder;
+    record_all(folder.path() / "whole.mkv", 1, generated(1, 30, 200));
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+    const ByteView id = as_bytes(std::string_view("\x18\x53\x80\x67"));
+    const auto segment = std::search(whole.begin(), whole.end(), id.begin(), id.end());
+    for (std::ptrdiff_t bit = 0; bit < 12 * 8; ++bit) {
+        Bytes damaged = whole;
+        damaged[std::size_t(segment - whole.begin() + bit / 8)] ^= std::byte(1 << bit % 8);
+        const auto recording = RecordingFile::read(std::make_unique<MemorySource>(damaged));
+        ASSERT_TRUE(recording) << bit;
+        EXPECT_TRUE((*recording)->segments()[0].closed) << bit;
+        EXPECT_EQ(frames_in(**recording),
+                  frames_in(*RecordingFile::open(folder.path() / "whole.mkv")));
+    }
+}
+
+// Its recorder was killed, and then its end was cut.
+TEST(Recording, ThatWasNeverClosedKnowsWhatWasOnTheDisk) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "a.mkv";
+    const auto messages = generated(1, 300, 200);
+    SegmentWriter writer(path, cameras(1), {.clock = session_begin});
+    for (const Message& m : messages)
+        ASSERT_EQ(
+            writer.write(std::vector{RecordedMessage{m.header, m.bytes, "", m.header.captured}}),
+            "");
+    ASSERT_EQ(writer.sync(), "");
+    const auto killed = RecordingFile::open(path);
+    EXPECT_FALSE(killed->segments()[0].closed);
+    EXPECT_EQ(end_of(killed->segments()[0]), "it ends without its end: 1.0 s may be missing");
+    fs::resize_file(path, fs::file_size(path) / 2);
+    const auto cut = RecordingFile::open(path);
+    EXPECT_EQ(cut->segments()[0].missing_end, killed->duration() - cut->duration() + 1s);
 }
 
 TEST(Recording, DamagedAnywhereNeverBreaksTheReader) {

@@ -176,7 +176,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             info.recording = new_uid;
             info.clock.session = segment.first_captured;
         }
-        SegmentWriter writer(file, cameras_in(recording, s), info);
+        SegmentWriter writer(file, cameras_in(recording, s), info, true, losses_of(segment));
         std::vector<RecordedMessage> messages;
         std::size_t waiting = 0;
         std::uint64_t frames = 0;

@@ -237,6 +237,23 @@ TEST(Recover, SavesOnceWhatStandsTwiceInAFileOfVersion1) {
     expect_playable(*whole);
 }
 
+TEST(Recover, LeavesAWordOfWhatWasMissing) {
+    Bytes one = recording_of(with_keys(120, 500));
+    one.resize(one.size() / 2);
+    const testing::TemporaryFolder folder;
+    const auto whole = recovered(one, folder.path());
+    const Segment cut = RecordingFile::open(folder.path() / "broken.mkv")->segments()[0];
+    EXPECT_EQ(whole->segments()[0].recovered, end_of(cut));
+    EXPECT_EQ(end_of(whole->segments()[0]), "");
+    // It survives damage, and another recovery.
+    Bytes bytes = bytes_of(folder.path() / "whole.mkv");
+    bytes[1] ^= std::byte{1};
+    bytes[bytes.size() / 2] ^= std::byte{1};
+    fs::remove(folder.path() / "whole.mkv");
+    const auto again = recovered(bytes, folder.path());
+    EXPECT_EQ(again->segments()[0].recovered.find(end_of(cut)), 0u);
+}
+
 // Where the copies of the head stand.
 std::vector<std::uint64_t> copies_in(const Bytes& bytes) {
     std::vector<std::uint64_t> places;

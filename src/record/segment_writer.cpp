@@ -13,7 +13,8 @@ namespace {
 constexpr std::int64_t far_us = std::int64_t(1) << 60;
 
 MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
-                                 const SegmentInfo& info, bool replace) {
+                                 const SegmentInfo& info, bool replace,
+                                 const std::string& recovered) {
     MatroskaWriter::Layout layout;
     layout.replace = replace;
     layout.side_name = side_name;
@@ -53,6 +54,8 @@ MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
     }
     layout.attachments.push_back(
         {segment_info_name, segment_info_mime_type, encode_segment_info(info)});
+    if (!recovered.empty())
+        layout.tags.push_back({recovered_tag, recovered});
     return layout;
 }
 
@@ -70,8 +73,8 @@ std::int64_t block_time_us(TimePoint captured, TimePoint arrived, TimePoint begi
 
 SegmentWriter::SegmentWriter(const std::filesystem::path& path,
                              const std::vector<RecordedCamera>& cameras, const SegmentInfo& info,
-                             bool replace)
-    : begin_(info.clock.session), writer_(path, layout_of(cameras, info, replace)) {}
+                             bool replace, const std::string& recovered)
+    : begin_(info.clock.session), writer_(path, layout_of(cameras, info, replace, recovered)) {}
 
 std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
     std::vector<Block> blocks;

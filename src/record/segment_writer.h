@@ -37,9 +37,10 @@ inline constexpr std::int64_t max_block_us = std::int64_t(1) << 52;
 
 class SegmentWriter {
 public:
-    // Creates the file, in place of one that is there. Throws Error.
+    // Creates the file, in place of one that is there. `recovered`: what was missing where this is
+    // recovered from; empty: nothing, or it is not. Throws Error.
     SegmentWriter(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-                  const SegmentInfo& info, bool replace = true);
+                  const SegmentInfo& info, bool replace = true, const std::string& recovered = {});
 
     // Each returns one sentence if it failed. After that, only finish() makes sense.
     std::string write(std::span<const RecordedMessage> messages);
@@ -47,6 +48,7 @@ public:
     std::string finish() { return writer_.finish(); }
 
     std::uint64_t bytes() const { return writer_.bytes(); }
+    std::uint64_t cut_bytes() const { return writer_.cut_bytes(); }
     // From the first block to the last.
     Duration duration() const { return Duration(last_us_ - first_us_); }
 

@@ -233,6 +233,15 @@ class RecordFaults(unittest.TestCase):
             self.ends(recorder, INCOMPLETE)
         self.assertGreater(second.stat().st_size, 3000)
 
+    def test_a_file_that_is_cut_meanwhile_is_noticed(self):
+        with self.recorder("--camera", self.camera, self.file) as recorder:
+            self.begun(recorder, more_than=30_000)
+            os.truncate(self.file, 10_000)
+            self.says(recorder, "Another program has cut")
+            figures = self.ends(recorder, INCOMPLETE)
+        self.assertGreaterEqual(figures["cut_bytes"], 20_000)
+        self.assertEqual(run("inspect", self.file, "--verify")[0], INCOMPLETE)
+
     def test_other_participants_never_end_or_change_a_recording(self):
         with host(self.state, self.camera) as h:
             link = h.greeting["link"]

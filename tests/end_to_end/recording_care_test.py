@@ -84,6 +84,22 @@ class RecordingCare(unittest.TestCase):
         camera = json.loads(run("inspect", path, "--verify", "--json")[1])["cameras"][0]
         self.assertEqual(sum(m["color"]["damaged"] for m in camera["minutes"]), 1)
 
+    def test_a_recording_whose_end_was_cut_says_so_wherever_it_is_used(self):
+        path, _ = self.record("a.mkv", "--depth-codec", "rvl")
+        content = path.read_bytes()
+        path.write_bytes(content[:len(content) // 2])
+        code, out, _ = run("inspect", path, "--verify")
+        self.assertEqual(code, 3)
+        self.assertIn("it ends without its end: 0.", out)
+        self.assertIn(" s may be missing", out)
+        self.assertGreater(json.loads(run("inspect", path, "--json")[1])["segments"][0]["missing_end_seconds"], 0)
+        code, _, errors = run("record", "--camera", f"recording:{path}", self.folder / "b.mkv")
+        self.assertIn("it ends without its end", errors)
+        self.assertIn("it ends without its end", run("export", path, "--png", self.folder / "png")[2])
+        code, _, errors = run("recover", path)
+        self.assertIn("recovered from a recording of which this was said: it ends without its end",
+                      run("inspect", self.folder / "a.recovered.mkv", "--verify")[1])
+
     def test_an_export_never_mixes_with_an_earlier_one(self):
         path, _ = self.record("a.mkv")
         folder, points = self.folder / "png", self.folder / "points"
