@@ -40,6 +40,7 @@ struct Flags {
     std::string summary;
     std::string places;
     double seconds = 0;
+    double link_hours = 0;
     bool json = false;
 };
 
@@ -114,6 +115,7 @@ void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     flags.options.places = flags.places;
+    flags.options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
     if (!flags.summary.empty())
@@ -124,12 +126,15 @@ void run(Flags& flags) {
 
     if (flags.json) {
         std::cout << files::json_text({{"link", host.link()},
+                                       {"publish_link", host.publish_link()},
                                        {"port", host.port()},
                                        {"cameras", host.camera_names()}})
                   << std::endl;
     } else {
         std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
-                  << "for example: theatron join '" << host.link() << "'\n"
+                  << "for example: theatron join '" << host.link() << "'\n\n"
+                  << "With this one participants can send cameras, too:\n\n  "
+                  << host.publish_link() << "\n\n"
                   << "Ctrl-C ends the session.\n"
                   << std::flush;
     }
@@ -215,9 +220,14 @@ void add_host_command(CLI::App& app) {
         ->add_option("--token-file", flags->token_file,
                      "The same from a file that only you may read, or /dev/stdin")
         ->excludes(token);
+    command
+        ->add_option("--link-hours", flags->link_hours,
+                     "The links let nobody in after so many hours; participants who are in stay. "
+                     "0: they always do")
+        ->check(CLI::Range(0.0, 1000.0));
     command->add_option(
         "--state", flags->state,
-        "Folder for the host's key, certificate and token (default: ~/.local/state/theatron)");
+        "Folder for the host's key, certificate and tokens (default: ~/.local/state/theatron)");
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->add_option("--summary", flags->summary,
                         "Write what went on as JSON to this file at the end");

@@ -9,21 +9,27 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
+#include "base/camera_names.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "cli/progress.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant.h"
+#include "client/person_id.h"
 #include "commands.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/png_file.h"
+#include "files/state_folder.h"
 #include "input_lines.h"
 #include "link_argument.h"
 #include "participant_json.h"
+#include "publish/camera_publisher.h"
 #include "session/renderer_choice.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -64,6 +70,7 @@ struct Flags {
     std::string view = "camera:0";
     std::string room = "on", quality = "auto";
     std::vector<std::string> people, myself;
+    std::vector<std::string> cameras;  // that are sent
     bool stereo = false;
     double seconds = 0;
     double warmup = 0;
@@ -179,24 +186,42 @@ void choose_delivery(client::Participant& participant, bool latency, double valu
     participant.choose_delivery(goal);
 }
 
-// Lines on standard input change what is sent: "depth rvl", "latency 200". False
+// Of one camera, by number from 0 or name, or of all.
+void choose_codec(client::Participant& participant, bool depth, const std::string& codec,
+                  const std::string& camera) {
+    const std::string none;
+    if (camera.empty())
+        return participant.choose_codecs(depth ? codec : none, depth ? none : codec);
+    std::uint64_t generation = 0;
+    const auto cameras = participant.cameras(generation);
+    std::vector<std::string> names;
+    for (const auto& known : cameras)
+        names.push_back(known.description.name);
+    try {
+        participant.choose_codecs(cameras[find_camera(camera, names)].description.id,
+                                  depth ? codec : none, depth ? none : codec);
+    } catch (const Error& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+    }
+}
+
+// Lines on standard input change what is sent: "depth rvl", "depth rvl 2", "latency 200". False
 // after "quit".
 bool obey(client::Participant& participant, const std::string& line) {
     std::istringstream words(line);
-    std::string what, value;
-    words >> what >> value;
+    std::string what, value, camera;
+    words >> what >> value >> camera;
     if (what == "quit")
         return false;
-    if (what == "depth" && !value.empty())
-        participant.choose_codecs(value, "");
-    else if (what == "color" && !value.empty())
-        participant.choose_codecs("", value);
+    if ((what == "depth" || what == "color") && !value.empty())
+        choose_codec(participant, what == "depth", value, camera);
     else if (double number = 0; (what == "latency" || what == "ceiling") &&
                                 std::sscanf(value.c_str(), "%lf", &number) == 1 && number >= 0)
         choose_delivery(participant, what == "latency", number);
     else if (!what.empty())
         std::fprintf(stderr,
-                     "Say 'depth CODEC', 'color CODEC', 'latency MS', 'ceiling MBIT' or 'quit'.\n");
+                     "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
+                     "MBIT' or 'quit'.\n");
     return true;
 }
 
@@ -219,11 +244,18 @@ void run(const Flags& flags) {
     options.depth_codec = depth.setting.text;
     options.color_codec = checked_color(flags.color_codec);
     options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
+    options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
+
+    std::unique_ptr<publish::CameraPublisher> publisher;
+    if (!flags.cameras.empty()) {
+        publisher = std::make_unique<publish::CameraPublisher>(flags.cameras, cli::show_progress());
+        options.publishing = publisher->events();
+    }
 
     if (flags.window()) {
         viewer::check_renderer_choice(flags.renderer);
-        ViewerWindow window{options, {}, parse_size(flags.size), flags.seconds};
+        ViewerWindow window{options, publisher.get(), {}, parse_size(flags.size), flags.seconds};
         window.viewer.view = viewer::parse_view(flags.view);
         window.viewer.room = parse_room(flags);
         window.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
@@ -242,6 +274,9 @@ void run(const Flags& flags) {
 
     cli::catch_stop_signals();
     client::Participant participant(options);
+    std::optional<publish::Publishing> publishing;
+    if (publisher)
+        publishing.emplace(*publisher, participant);
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
@@ -320,6 +355,7 @@ void add_join_command(CLI::App& app) {
         "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
         "--json\n"
         "  theatron join LINK --target-latency 250 --max-mbit 15\n"
+        "  theatron join LINK --publish k4a:0\n"
         "  theatron join LINK --person 1=0.2:1.65:-0.4,reach=1 --myself 0=0:1.7:0.5,yaw=180");
     command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
         ->required();
@@ -329,6 +365,11 @@ void add_join_command(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")
         ->capture_default_str();
+    command
+        ->add_option("--publish", flags->cameras,
+                     "A camera of yours that the others see, spelt as for theatron host --camera; "
+                     "needs the host's link for those who may. Repeat for more")
+        ->allow_extra_args(false);
     command->add_option("--offscreen", flags->offscreen,
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,

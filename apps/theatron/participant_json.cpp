@@ -48,7 +48,9 @@ std::string codecs_of_last(const client::ParticipantFigures& figures) {
 
 nlohmann::json camera_json(const client::CameraFigures& figures) {
     const auto& [camera, depth, color] = figures;
-    return {{"name", camera.description.name},
+    return {{"id", int(camera.description.id)},
+            {"publisher", int(camera.description.publisher)},
+            {"name", camera.description.name},
             {"state", wire::text_of(camera.state.condition)},
             {"problem", camera.state.problem},
             {"filter", camera.state.filter},

@@ -85,6 +85,9 @@ void show(ViewerWindow options) {
     options.viewer.depth_codec = options.join.depth_codec;
     options.viewer.color_codec = options.join.color_codec;
     client::Participant participant(std::move(options.join));
+    std::optional<publish::Publishing> publishing;
+    if (options.publisher)
+        publishing.emplace(*options.publisher, participant);
     viewer::Viewer viewer(std::move(options.viewer), participant);
 
     xr::OverlayContent texts;

@@ -125,17 +125,26 @@ void Decoders::queue(Worker& worker, Work work) {
     worker.changed.notify_all();
 }
 
-std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
-    ++generation_;
+void Decoders::note_sizes(const std::vector<wire::Camera>& cameras) {
     max_sizes_.clear();
     for (const wire::Camera& camera : cameras)
         for (const StreamId stream : {camera.depth_stream, camera.color_stream})
             max_sizes_[stream] = receive::max_media_size(camera, stream);
+}
+
+std::vector<wire::Camera> Decoders::cameras_of(const Worker& worker,
+                                               const std::vector<wire::Camera>& cameras) {
+    std::vector<wire::Camera> own;
+    for (const wire::Camera& camera : cameras)
+        if (&worker_of(camera.depth_stream) == &worker)
+            own.push_back(camera);
+    return own;
+}
+
+std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
+    ++generation_;
+    note_sizes(cameras);
     for (const auto& worker : workers_) {
-        Cameras own{{}, generation_};
-        for (const wire::Camera& camera : cameras)
-            if (&worker_of(camera.depth_stream) == worker.get())
-                own.cameras.push_back(camera);
         std::deque<Work> left_out;
         {
             const std::lock_guard lock(worker->mutex);
@@ -146,9 +155,17 @@ std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
         for (const Work& work : left_out)
             if (const auto* message = std::get_if<Message>(&work); message && !message->is_taken)
                 events_.taken(message->connection, message->bytes.size());
-        queue(*worker, std::move(own));
+        // None stays as it was: numbers of settings may begin anew.
+        queue(*worker, Cameras{{}, generation_});
+        queue(*worker, Cameras{cameras_of(*worker, cameras), generation_});
     }
     return generation_;
+}
+
+void Decoders::change_cameras(const std::vector<wire::Camera>& cameras) {
+    note_sizes(cameras);
+    for (const auto& worker : workers_)
+        queue(*worker, Cameras{cameras_of(*worker, cameras), generation_});
 }
 
 void Decoders::set_settings(const std::vector<wire::StreamSetting>& settings) {

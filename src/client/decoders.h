@@ -37,6 +37,8 @@ public:
     // As in Receiver, in the order of the calls; messages that still wait are dropped.
     // Returns the generation, a number that is new each time.
     std::uint64_t set_cameras(const std::vector<wire::Camera>& cameras);
+    // Some cameras came or left: what waits for the others, and their decoders, stay.
+    void change_cameras(const std::vector<wire::Camera>& cameras);
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
     // Moves the message away and leaves other memory for the next. True if a thread decodes it at
@@ -101,6 +103,10 @@ private:
     void decode(Worker& worker, const Message& message);
     static void keep_memory(Worker& worker, Bytes memory);
     void queue(Worker& worker, Work work);
+    // Notes the sizes of messages, and returns the cameras of one worker.
+    void note_sizes(const std::vector<wire::Camera>& cameras);
+    std::vector<wire::Camera> cameras_of(const Worker& worker,
+                                         const std::vector<wire::Camera>& cameras);
     Worker& worker_of(StreamId stream) {
         return *workers_[std::size_t(camera_of(stream)) % workers_.size()];
     }

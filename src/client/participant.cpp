@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -22,6 +23,29 @@ constexpr Duration first_wait = std::chrono::milliseconds(200);
 constexpr Duration longest_wait = std::chrono::seconds(2);
 // People whose poses are kept; a session has fewer.
 constexpr std::size_t max_poses = 256;
+// Frames that wait for the participant's thread; one more is dropped.
+constexpr std::size_t max_media_waiting = 64;
+
+std::vector<wire::Feature> features_of(const Participant::Options& options) {
+    return options.publishing.published ? std::vector{wire::Feature::publish}
+                                        : std::vector<wire::Feature>();
+}
+
+// The session's cameras, with the states that `before` knows.
+std::vector<Participant::Camera> described_cameras(const session::ViewerSession& session,
+                                                   const std::vector<Participant::Camera>& before) {
+    std::vector<Participant::Camera> cameras;
+    for (const wire::Camera& camera : session.cameras()) {
+        const auto calibration = decode_calibration(camera.calibration);
+        const auto known = std::find_if(before.begin(), before.end(), [&](const auto& c) {
+            return c.description.id == camera.id;
+        });
+        cameras.push_back(
+            {camera, calibration.value(),
+             known == before.end() ? wire::CameraState{camera.id, {}, "", ""} : known->state});
+    }
+    return cameras;
+}
 
 }  // namespace
 
@@ -49,12 +73,16 @@ struct Participant::Shared {
     std::string renderer;
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
+    std::vector<std::pair<CameraId, wire::ChooseCodecs>> camera_wishes;
+    std::vector<wire::OfferedCamera> offers;
+    std::size_t media_waiting = 0;                    // for the participant's thread
+    std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
 };
 
 Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
-                options_.delivery, options_.records}),
+                options_.delivery, options_.records, features_of(options_), options_.person}),
       shared_(std::make_unique<Shared>()),
       decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
@@ -163,6 +191,7 @@ void Participant::run() {
 
         std::unique_lock lock(shared_->mutex);
         shared_->client = nullptr;
+        shared_->media_waiting = 0;
         if (shared_->stopping)
             return;
         const bool refused = end.final || !session_.refusal().empty();
@@ -178,6 +207,9 @@ void Participant::run() {
         shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
         shared_->status.problem = why;
         lock.unlock();
+        numbers_.clear();
+        if (options_.publishing.published)
+            options_.publishing.published({});
         announce();
         if (ended && !refused)
             remark(why);
@@ -196,6 +228,7 @@ net::Client::Handler Participant::handler() {
     net::Client::Handler h;
     h.connected = [this] {
         pings_ = 0;
+        numbers_.clear();
         next_ping_ = next_report_ = steady_now();
         const Bytes hello = session_.begin();
         shared_->client->send_control(hello);
@@ -274,36 +307,12 @@ void Participant::request_key(StreamId stream, SettingId setting) {
 void Participant::on_control(ByteView message) {
     using Change = session::ViewerSession::Change;
     switch (session_.on_control(message)) {
-        case Change::welcomed: {
-            const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
-            std::vector<Camera> cameras;
-            for (const wire::Camera& camera : session_.cameras()) {
-                const auto calibration = decode_calibration(camera.calibration);
-                cameras.push_back({camera, calibration.value(), {camera.id, {}, ""}});
-            }
-            for (const std::string& problem : session_.left_out())
-                remark(problem);
-            std::unique_lock lock(shared_->mutex);
-            shared_->cameras = std::move(cameras);
-            ++shared_->generation;
-            shared_->decoder_generation = generation;
-            shared_->newest.clear();
-            shared_->settings.clear();
-            shared_->status.phase = Phase::joined;
-            shared_->status.problem.clear();
-            shared_->status.host_name = session_.welcome().host_name;
-            shared_->status.delivery = {};
-            shared_->renderer_word = wire::SetRenderer{};
-            const bool again = ++shared_->status.joins > 1;
-            lock.unlock();
-            ping(steady_now());
-            announce();
-            if (again)
-                remark("Connected again.");
-            if (options_.described)
-                options_.described();
+        case Change::welcomed:
+            on_welcome();
             break;
-        }
+        case Change::cameras:
+            on_cameras();
+            break;
         case Change::settings:
             if (!session_.note().empty())
                 remark(session_.note());
@@ -332,6 +341,8 @@ void Participant::on_control(ByteView message) {
                 status.clock_error = shared_->clock.error_bound();
                 is_new = shared_->clock.known() && !std::exchange(status.clock_known, true);
             }
+            if (is_new)
+                offer_cameras();
             if (is_new && options_.described)
                 options_.described();
             break;
@@ -353,11 +364,79 @@ void Participant::on_control(ByteView message) {
             announce();
             break;
         }
+        case Change::published:
+            on_published();
+            break;
+        case Change::encode:
+            if (options_.publishing.encode)
+                options_.publishing.encode(session_.encode().settings);
+            break;
+        case Change::encode_key:
+            if (options_.publishing.encode_key)
+                options_.publishing.encode_key(session_.encode_key().stream,
+                                               session_.encode_key().setting);
+            break;
         case Change::refused:
         case Change::goodbye:
         case Change::nothing:
             break;
     }
+}
+
+// A connection of its own: numbers of settings begin anew.
+void Participant::on_welcome() {
+    const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
+    std::unique_lock lock(shared_->mutex);
+    shared_->cameras = described_cameras(session_, {});
+    ++shared_->generation;
+    shared_->decoder_generation = generation;
+    shared_->newest.clear();
+    shared_->settings.clear();
+    shared_->status.phase = Phase::joined;
+    shared_->status.problem.clear();
+    shared_->status.host_name = session_.welcome().host_name;
+    shared_->status.delivery = {};
+    shared_->renderer_word = wire::SetRenderer{};
+    const bool again = ++shared_->status.joins > 1;
+    lock.unlock();
+    for (const std::string& problem : session_.left_out())
+        remark(problem);
+    ping(steady_now());
+    offer_cameras();
+    announce();
+    if (again)
+        remark("Connected again.");
+    if (options_.described)
+        options_.described();
+}
+
+void Participant::on_cameras() {
+    std::vector<std::string> news = session_.left_out();
+    decoders_->change_cameras(session_.cameras());
+    {
+        const std::lock_guard lock(shared_->mutex);
+        std::vector<Camera> cameras = described_cameras(session_, shared_->cameras);
+        const auto without = [](const std::vector<Camera>& all, CameraId id) {
+            return std::none_of(all.begin(), all.end(),
+                                [&](const Camera& c) { return c.description.id == id; });
+        };
+        for (const Camera& camera : cameras)
+            if (without(shared_->cameras, camera.description.id))
+                news.push_back("Camera " + camera.description.name + " has joined.");
+        for (const Camera& camera : shared_->cameras)
+            if (without(cameras, camera.description.id))
+                news.push_back("Camera " + camera.description.name + " has left.");
+        shared_->cameras = std::move(cameras);
+        shared_->settings = session_.settings();
+        ++shared_->generation;
+        std::erase_if(shared_->newest,
+                      [&](const auto& entry) { return without(shared_->cameras, entry.first); });
+    }
+    for (const std::string& text : news)
+        remark(text);
+    announce();
+    if (options_.described)
+        options_.described();
 }
 
 void Participant::on_camera_states() {
@@ -409,6 +488,7 @@ void Participant::on_tick() {
 
     std::string depth_wish, color_wish;
     std::optional<wire::ChooseDelivery> delivery_wish;
+    std::vector<std::pair<CameraId, wire::ChooseCodecs>> camera_wishes;
     bool reset_wanted;
     {
         const std::lock_guard lock(shared_->mutex);
@@ -416,6 +496,7 @@ void Participant::on_tick() {
         depth_wish = std::exchange(shared_->depth_wish, "");
         color_wish = std::exchange(shared_->color_wish, "");
         delivery_wish = std::exchange(shared_->delivery_wish, std::nullopt);
+        camera_wishes = std::exchange(shared_->camera_wishes, {});
     }
     if (reset_wanted) {
         decoders_->reset_figures();
@@ -424,6 +505,11 @@ void Participant::on_tick() {
     if (!depth_wish.empty() || !color_wish.empty())
         client.send_control(session_.choose(depth_wish, color_wish));
 
+    for (const auto& [camera, wish] : camera_wishes)
+        client.send_control(
+            session::ViewerSession::choose(camera, wish.depth_codec, wish.color_codec));
+
+    on_encode_keys();
     if (delivery_wish)
         client.send_control(session_.choose_delivery(*delivery_wish));
 
@@ -498,6 +584,104 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
         shared_->depth_wish = depth;
     if (!color.empty())
         shared_->color_wish = color;
+}
+
+void Participant::choose_codecs(CameraId camera, const std::string& depth,
+                                const std::string& color) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->camera_wishes.push_back({camera, {depth, color, {}}});
+}
+
+// Publishing.
+
+void Participant::publish(std::vector<wire::OfferedCamera> cameras) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->offers = std::move(cameras);
+    if (shared_->client)
+        shared_->client->post([this] { offer_cameras(); });
+}
+
+// Frames have session times, so the clock comes first.
+void Participant::offer_cameras() {
+    wire::Publish offer;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!session_.joined() || !shared_->status.clock_known)
+            return;
+        offer.cameras = shared_->offers;
+    }
+    if (!numbers_.empty())
+        shared_->client->send_control(wire::encode(wire::Unpublish{std::exchange(numbers_, {})}));
+    if (!offer.cameras.empty() && !session_.may_publish())
+        remark("This link lets nobody send cameras; ask for the host's link for publishers.");
+    else if (!offer.cameras.empty())
+        shared_->client->send_control(wire::encode(offer));
+}
+
+void Participant::on_published() {
+    const wire::Published& answer = session_.published();
+    if (!answer.problem.empty())
+        remark(answer.problem);
+    numbers_ = answer.cameras;
+    if (options_.publishing.published)
+        options_.publishing.published(numbers_);
+}
+
+void Participant::send_media(const wire::MediaHeader& header,
+                             std::shared_ptr<const Bytes> message) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client)
+        return;
+    if (shared_->media_waiting == max_media_waiting) {
+        shared_->broken.insert({header.stream, header.setting});
+        return;
+    }
+    ++shared_->media_waiting;
+    shared_->client->post([this, header, message = std::move(message)]() mutable {
+        push_media(header, std::move(message));
+    });
+}
+
+void Participant::push_media(const wire::MediaHeader& header,
+                             std::shared_ptr<const Bytes> message) {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        --shared_->media_waiting;
+    }
+    // Of a camera of a connection before, or one that has left.
+    if (std::find(numbers_.begin(), numbers_.end(), camera_of(header.stream)) == numbers_.end())
+        return;
+    // An outbox keeps one chain of frames for each stream; here each setting of a stream is one,
+    // and its number is unique in the session.
+    const auto chain = StreamId(std::uint16_t(header.setting));
+    const auto pushed = shared_->client->send_media({std::move(message),
+                                                     chain,
+                                                     header.setting,
+                                                     header.frame,
+                                                     header.reference,
+                                                     header.temporal_layer,
+                                                     header.key,
+                                                     {}});
+    if (pushed.needs_key)
+        missing_keys_.request({header.stream, header.setting});
+}
+
+void Participant::on_encode_keys() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        for (const auto& [stream, setting] : std::exchange(shared_->broken, {}))
+            missing_keys_.request({stream, setting});
+    }
+    for (const auto& key : missing_keys_.take(steady_now()))
+        if (options_.publishing.encode_key)
+            options_.publishing.encode_key(key.stream, key.setting);
+}
+
+void Participant::tell_camera(const wire::CameraState& state) {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->client)
+        shared_->client->post(
+            [this, state] { shared_->client->send_control(wire::encode(wire::ToHost(state))); });
 }
 
 void Participant::announce() const {

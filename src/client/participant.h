@@ -15,6 +15,7 @@
 #include "client/decoders.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
+#include "session/key_requests.h"
 #include "session/viewer_session.h"
 #include "wire/person_pose.h"
 
@@ -24,6 +25,17 @@ class Participant {
 public:
     static constexpr std::size_t max_remark_characters = 300;
 
+    // What a participant that sends cameras is told, from its own thread.
+    struct Publishing {
+        // The numbers of the cameras of publish(), in their order. With each connection they are
+        // others; none: the connection is lost, or the host took none.
+        std::function<void(const std::vector<CameraId>&)> published;
+        // How to encode these cameras from now on, exactly so.
+        std::function<void(const std::vector<wire::StreamSetting>&)> encode;
+        // The next frame of this stream in this setting is to be a key frame.
+        std::function<void(StreamId, SettingId)> encode_key;
+    };
+
     struct Options {
         net::Link link;
         std::string name = "guest";
@@ -31,6 +43,7 @@ public:
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
         bool records = false;  // as in wire::Join
+        Bytes person;          // likewise; see client/person_id.h
         // Messages for the user: reconnecting, refused, a camera ended. Called
         // from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;
@@ -46,6 +59,7 @@ public:
         // Called when a frame can be taken or the connection has changed, from the
         // participant's thread or a decoding thread.
         std::function<void()> news;
+        Publishing publishing;  // needed for publish()
     };
 
     // Begins to connect at once, on a thread of its own. Throws Error if name, token and
@@ -74,7 +88,7 @@ public:
         Calibration calibration;
         wire::CameraState state;
     };
-    // All cameras of the host. `generation` grows whenever they changed.
+    // All cameras of the session. `generation` grows whenever some came, left or changed.
     std::vector<Camera> cameras(std::uint64_t& generation) const;
 
     // How the host sends each stream to this participant.
@@ -98,6 +112,20 @@ public:
 
     // Requests other codecs; an empty text keeps the codec.
     void choose_codecs(const std::string& depth, const std::string& color);
+
+    // The same for one camera, until codecs are chosen for all.
+    void choose_codecs(CameraId camera, const std::string& depth, const std::string& color);
+
+    // From any thread: offers these cameras to the session, again after each loss of the
+    // connection; an empty list withdraws them. Options::publishing is told the numbers that the
+    // host gives them.
+    void publish(std::vector<wire::OfferedCamera> cameras);
+    // From any thread: sends a frame of such a camera, encoded as the host asked, with the camera's
+    // stream in its header and session times (now()). `message` is header and payload. A frame that
+    // cannot be sent in time is dropped, and a key frame is requested.
+    void send_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
+    // From any thread: reports the condition of such a camera.
+    void tell_camera(const wire::CameraState& state);
 
     // The host's newest renderer command since the last call, if any. Each join also gives one,
     // with an empty renderer: commands of an earlier connection no longer apply.
@@ -125,6 +153,12 @@ private:
     void tell_taken();
     void on_state(const wire::State& state);
     void tell_pose();
+    void offer_cameras();
+    void on_published();
+    void on_encode_keys();
+    void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
+    void on_welcome();
+    void on_cameras();
     void on_camera_states();
     void on_tick();
     void ping(TimePoint local);
@@ -137,6 +171,8 @@ private:
     session::ViewerSession session_;
     TimePoint next_ping_, next_report_;
     int pings_ = 0;
+    std::vector<CameraId> numbers_;      // of the cameras that it sends
+    session::KeyRequests missing_keys_;  // of its own streams, where frames could not be sent
 
     struct Shared;
     std::unique_ptr<Shared> shared_;

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "client/participant.h"
+#include "client/person_id.h"
+#include "files/state_folder.h"
 #include "session/request_budget.h"
 
 namespace theatron::client {
@@ -44,6 +48,7 @@ public:
         options.color_codec = codecs.color;
         options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
         options.records = true;
+        options.person = load_or_make_person_id(files::state_folder());
         options.remark = [](const std::string& text) {
             std::fprintf(stderr, "%s\n", text.c_str());
         };
@@ -120,9 +125,40 @@ private:
     }
 
     struct Early {
-        wire::MediaHeader header;
+        StreamId stream{};         // in the session
+        wire::MediaHeader header;  // as it is recorded
         std::shared_ptr<const Bytes> message;
     };
+
+    // A recording numbers its cameras from 0, a session goes on counting as cameras come and
+    // leave. The number that a camera has in the recording; none if it has none.
+    std::optional<CameraId> recorded_as(CameraId camera) const {
+        const auto found = numbers_.find(camera);
+        return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+    }
+    // Cameras that left give their numbers back, which are given again last.
+    void number_cameras(const std::vector<Participant::Camera>& cameras) {
+        std::erase_if(numbers_, [&](const auto& entry) {
+            return std::none_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
+                return camera.description.id == entry.first;
+            });
+        });
+        std::set<CameraId> used;
+        for (const auto& [camera, number] : numbers_)
+            used.insert(number);
+        for (const Participant::Camera& camera : cameras) {
+            if (numbers_.contains(camera.description.id))
+                continue;
+            for (std::size_t i = 0; i < wire::max_cameras; ++i) {
+                const auto number = CameraId((next_number_ + i) % wire::max_cameras);
+                if (!used.insert(number).second)
+                    continue;
+                numbers_[camera.description.id] = number;
+                next_number_ = std::size_t(number) + 1;
+                break;
+            }
+        }
+    }
 
     // On the participant's thread, before the media that it is about.
     void on_described() {
@@ -136,6 +172,8 @@ private:
             early_.clear();
             early_bytes_ = 0;
         }
+        std::uint64_t generation = 0;
+        number_cameras(participant_->cameras(generation));
         std::vector<record::RecordedCamera> cameras;
         std::map<StreamId, SettingId> settings;
         if (describe(cameras, settings)) {
@@ -147,7 +185,7 @@ private:
         if (!clock_known_)
             return;
         for (Early& early : std::exchange(early_, {}))
-            record(early.header, std::move(early.message));
+            record(early.stream, early.header, std::move(early.message));
         early_bytes_ = 0;
     }
 
@@ -158,29 +196,32 @@ private:
         const auto sent = participant_->settings();
         for (const Participant::Camera& camera : participant_->cameras(generation)) {
             const wire::Camera& d = camera.description;
-            const auto codec_of = [&](StreamId id) -> std::string {
+            const auto number = recorded_as(d.id);
+            if (!number)
+                continue;
+            const auto codec_of = [&](StreamId id, StreamId recorded) -> std::string {
                 const auto found = std::find_if(sent.begin(), sent.end(),
                                                 [&](const auto& s) { return s.stream == id; });
                 if (found == sent.end())
                     return "";
-                settings[id] = found->setting;
+                settings[recorded] = found->setting;
                 return found->codec;
             };
             const Size depth = camera.calibration.depth.size, color = camera.calibration.color.size;
             record::RecordedCamera r;
-            r.id = camera_of(d.depth_stream);
+            r.id = *number;
             r.name = d.name;
             r.frames_per_second = d.frames_per_second;
             r.calibration = d.calibration;
-            r.depth = {codec_of(d.depth_stream), depth.width, depth.height};
+            r.depth = {codec_of(d.depth_stream, depth_stream(*number)), depth.width, depth.height};
             if (d.has_color)
-                r.color =
-                    record::RecordedStream{codec_of(d.color_stream), color.width, color.height};
+                r.color = record::RecordedStream{codec_of(d.color_stream, color_stream(*number)),
+                                                 color.width, color.height};
             if (r.depth.codec.empty() || (r.color && r.color->codec.empty()))
                 return false;
             cameras.push_back(std::move(r));
         }
-        return !cameras.empty();
+        return true;
     }
 
     // The host says on another way than the pictures' which filters run: to within the
@@ -188,14 +229,18 @@ private:
     void note_states() {
         std::uint64_t generation = 0;
         const auto cameras = participant_->cameras(generation);
+        std::vector<CameraId> ended;
         {
             const std::lock_guard lock(mutex_);
-            for (const Participant::Camera& camera : cameras)
+            for (const Participant::Camera& camera : cameras) {
                 filters_[camera.description.depth_stream] = camera.state.filter;
+                const auto number = recorded_as(camera.description.id);
+                if (number && camera.state.condition == wire::CameraCondition::ended)
+                    ended.push_back(*number);
+            }
         }
-        for (const Participant::Camera& camera : cameras)
-            if (camera.state.condition == wire::CameraCondition::ended)
-                intake_.on_end(camera_of(camera.description.depth_stream));
+        for (const CameraId camera : ended)
+            intake_.on_end(camera);
     }
 
     // The filters of a frame whose header says that it was filtered.
@@ -204,23 +249,28 @@ private:
         return filters.empty() ? "unnamed" : filters;
     }
 
-    void on_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+    void on_media(wire::MediaHeader header, std::shared_ptr<Bytes> message) {
         const std::lock_guard lock(mutex_);
-        if (stopped_)
+        const auto number = recorded_as(camera_of(header.stream));
+        if (stopped_ || !number)
             return;
+        const StreamId stream = header.stream;
+        header.stream = is_depth(stream) ? depth_stream(*number) : color_stream(*number);
+        wire::write_media_header(header, message->data());
         if (clock_known_)
-            return record(header, std::move(message));
+            return record(stream, header, std::move(message));
         early_bytes_ += message->size();
         // A message that is left out shows as a gap in the frames' numbers.
         if (early_bytes_ <= max_early_bytes)
-            early_.push_back({header, std::move(message)});
+            early_.push_back({stream, header, std::move(message)});
     }
 
     // The mutex is held; on the participant's thread.
-    void record(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
-        const std::string filters = header.filtered == TimePoint{} ? "" : filters_of(header.stream);
+    void record(StreamId stream, const wire::MediaHeader& header,
+                std::shared_ptr<const Bytes> message) {
+        const std::string filters = header.filtered == TimePoint{} ? "" : filters_of(stream);
         if (intake_.take(header, std::move(message), filters, now()))
-            participant_->request_key(header.stream, header.setting);
+            participant_->request_key(stream, header.setting);
     }
 
     const TimePoint created_;
@@ -237,6 +287,8 @@ private:
     bool clock_known_ = false;
     std::vector<Early> early_;  // came before the clock was known
     std::size_t early_bytes_ = 0;
+    std::map<CameraId, CameraId> numbers_;  // in the recording, by that in the session
+    std::size_t next_number_ = 0;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
 
     // Last: its thread uses all of the above.

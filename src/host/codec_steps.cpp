@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/codec_steps.h"
 
-#include <map>
-#include <memory>
-
 #include "base/options.h"
 #include "video/avc_setting.h"
 #include "video/color_codec.h"
@@ -104,21 +101,10 @@ session::CodecSteps codec_steps(std::shared_ptr<const send::AutoColor> auto_is_h
                    : std::string(*auto_is_h264 ? send::auto_h264 : send::auto_jpeg);
     };
     CodecSteps steps;
-    // Asked for every frame.
-    const auto known = std::make_shared<std::map<std::string, CodecSteps::Layered>>();
-    steps.layered = [known](const std::string& depth) {
-        auto found = known->find(depth);
-        if (found == known->end()) {
-            // The texts come from participants: there may be many.
-            if (known->size() >= 64)
-                known->clear();
-            found = known->emplace(depth, layered(depth)).first;
-        }
-        return found->second;
-    };
+    steps.layered = layered;
     steps.coarser = [now](const std::string& color) { return coarser(now(color)); };
-    steps.color_is_chain = [now](const std::string& color) {
-        return Options::parse(now(color)).kind() == "h264";
+    steps.refers = [](std::uint8_t codec) {
+        return codec == std::uint8_t(video::ColorCodecId::h264);
     };
     steps.lossy_outside_region = lossy_outside_region;
     return steps;

@@ -89,27 +89,38 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
-    config.token = options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
+    const std::string token =
+        options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
+    const std::string publish_token = load_or_make_token(state, "publish.token");
+    std::optional<TimePoint> expires;
+    if (options.link_lifetime > Duration(0))
+        expires = steady_now() + options.link_lifetime;
+    config.admission.tokens = {{token, session::Role::viewer, expires},
+                               {publish_token, session::Role::publisher, expires}};
+    join_tokens = {token, publish_token};
     // Monitoring systems need not be able to join.
-    http_tokens = {config.token, load_or_make_token(state, "metrics.token")};
+    http_tokens = {token, load_or_make_token(state, "metrics.token")};
+    config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     config.check_depth = check_depth;
     config.check_color = check_color;
-    config.equal_secrets = net::equal_secrets;
-    config.steps = codec_steps(color_watch.is_h264());
+    config.admission.equal_secrets = net::equal_secrets;
+    config.streams.codecs = codec_steps(color_watch.is_h264());
     const session::ViewerSession::Wishes usual;
-    config.usual_depth = check_depth(usual.depth_codec).codec;
-    config.usual_color = check_color(usual.color_codec).codec;
+    config.streams.usual = {check_depth(usual.depth_codec).codec,
+                            check_color(usual.color_codec).codec};
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        config.cameras.push_back(describe(CameraId(i), cameras[i]->info()));
+        config.cameras.push_back(describe(int(i), cameras[i]->info()));
 
-    link = {options.link_host, 0, config.token, certificate.fingerprint};
+    link = {options.link_host, 0, token, certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
     server = std::make_unique<net::Server>(options.listen, certificate, handler());
     link.port = server->port();
     const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
     if (link.host.empty())
         link.host = everywhere ? outside_address() : options.listen.address;
+    publish_link = link;
+    publish_link.token = publish_token;
 
     // The lanes never change once the server's thread runs.
     start_lanes(options.cameras, std::move(cameras));
@@ -121,15 +132,12 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     });
 }
 
-wire::Camera Host::Impl::describe(CameraId id, const capture::CameraInfo& info) const {
+wire::Camera Host::Impl::describe(int number, const capture::CameraInfo& info) const {
     Calibration calibration = info.calibration;
     if (!calibration.registered)
-        calibration.room_from_camera.translation.x += int(id) * unregistered_distance_m;
+        calibration.room_from_camera.translation.x += number * unregistered_distance_m;
     wire::Camera camera;
-    camera.id = id;
     camera.name = info.name;
-    camera.depth_stream = depth_stream(id);
-    camera.color_stream = color_stream(id);
     camera.has_color = calibration.color.size != Size{};
     camera.frames_per_second = info.frames_per_second;
     camera.calibration = encode_calibration(calibration);
@@ -178,6 +186,10 @@ Host::~Host() = default;
 
 std::string Host::link() const {
     return net::format_link(impl_->link);
+}
+
+std::string Host::publish_link() const {
+    return net::format_link(impl_->publish_link);
 }
 
 std::uint16_t Host::port() const {

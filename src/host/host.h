@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/time.h"
 #include "codec/strata_region.h"
 #include "host/host_figures.h"
 #include "net/link.h"
@@ -24,6 +25,7 @@ struct HostOptions {
     std::string name = "operating room";
     std::string link_host;        // what the link says; empty: found out
     std::string token;            // empty: kept in the state folder
+    Duration link_lifetime{};     // the links let nobody in after it; 0: they always do
     std::filesystem::path state;  // keys and token; empty: the user's state folder
 };
 
@@ -35,6 +37,8 @@ public:
     ~Host();
 
     std::string link() const;
+    // The same for participants who may send cameras, too.
+    std::string publish_link() const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
     // Those whose place in the room nobody knows. They stand side by side, 12 m apart.

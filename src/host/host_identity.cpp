@@ -7,27 +7,18 @@
 #include <netinet/in.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 
 #include "base/error.h"
 #include "files/private_file.h"
+#include "files/state_folder.h"
 #include "net/certificate.h"
 
 namespace theatron::host {
 
 std::filesystem::path default_state_folder() {
-    const auto folder_in = [](const char* variable) {
-        const char* set = std::getenv(variable);
-        const std::filesystem::path folder = set ? set : "";
-        return folder.is_absolute() ? folder : std::filesystem::path();
-    };
-    if (const auto state = folder_in("XDG_STATE_HOME"); !state.empty())
-        return state / "theatron";
-    if (const auto home = folder_in("HOME"); !home.empty())
-        return home / ".local/state/theatron";
-    // A folder that everybody may write to, such as /tmp, is none: another user could put keys
-    // there.
+    if (auto folder = files::state_folder(); !folder.empty())
+        return folder;
     throw Error(
         "Neither XDG_STATE_HOME nor HOME names a folder for the host's key and tokens; name one "
         "with --state.");

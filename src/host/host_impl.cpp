@@ -14,6 +14,14 @@ namespace {
 // For participants who do not take the word that the session is over.
 constexpr Duration goodbye_patience = std::chrono::seconds(1);
 
+std::string hex_text(ByteView bytes) {
+    std::string text;
+    for (const std::byte b : bytes)
+        for (const int shift : {4, 0})
+            text += "0123456789abcdef"[std::to_integer<int>(b) >> shift & 15];
+    return text;
+}
+
 net::PeerId peer_of(ParticipantId participant) {
     return net::PeerId(std::uint32_t(participant));
 }
@@ -44,6 +52,11 @@ net::Server::Handler Host::Impl::handler() {
     h.control_lost = [this](net::PeerId peer) {
         session->resynchronise(ParticipantId(std::uint32_t(peer)));
         carry_out();
+    };
+    h.media = [this](net::PeerId peer, Bytes& message) {
+        forward(peer, std::make_shared<Bytes>(std::move(message)));
+        message = {};
+        return true;
     };
     h.closed = [this](net::PeerId peer, const std::string& why) {
         const std::string address = addresses[peer];
@@ -116,6 +129,7 @@ void Host::Impl::carry_out(const session::action::Joined& a) {
                   {{"id", int(a.participant)},
                    {"address", address},
                    log::outside("name", a.name),
+                   {"person", hex_text(a.person)},
                    {"left_out", *left_out}});
 }
 
@@ -125,8 +139,23 @@ void Host::Impl::carry_out(const session::action::RequestKey& a) {
         lanes[camera]->request_key(a.key.stream, a.key.setting);
 }
 
-void Host::Impl::carry_out(const session::action::ChangeSettings&) {
-    change_settings();
+void Host::Impl::carry_out(const session::action::ChangeSettings& a) {
+    const auto convert = [](const std::vector<session::ActiveSetting>& settings) {
+        std::vector<send::LaneSetting> result;
+        for (const auto& s : settings)
+            result.push_back({s.id, s.codec});
+        return result;
+    };
+    const auto camera = std::size_t(a.camera);
+    if (camera >= lanes.size())
+        return;
+    lanes[camera]->set_settings(convert(session->depth_settings(a.camera)),
+                                convert(session->color_settings(a.camera)));
+    hold_lane(camera);
+}
+
+void Host::Impl::carry_out(const session::action::TakeMedia& a) {
+    server->take_media(peer_of(a.participant), a.max_message);
 }
 
 void Host::Impl::carry_out(const session::action::KeepEverything& a) {
@@ -170,22 +199,10 @@ void Host::Impl::say_goodbye() {
     goodbye_changed.wait_for(lock, goodbye_patience, [this] { return all_left; });
 }
 
-void Host::Impl::change_settings() {
-    const auto convert = [](const std::vector<session::ActiveSetting>& settings) {
-        std::vector<send::LaneSetting> result;
-        for (const auto& s : settings)
-            result.push_back({s.id, s.codec});
-        return result;
-    };
-    for (const auto& lane : lanes)
-        lane->set_settings(convert(session->depth_settings()), convert(session->color_settings()));
-    hold_lanes();
-}
-
 // While every receiver of a camera still waits for its last frame, the next is not even
 // begun: dropped after encoding, it would be missing as a reference.
 void Host::Impl::hold_lane(std::size_t camera) {
-    const bool hold = session->all_wait([&](ParticipantId id) {
+    const bool hold = session->all_wait(CameraId(camera), [&](ParticipantId id) {
         const net::PeerId peer{std::uint32_t(id)};
         return server->is_behind(peer, depth_stream(CameraId(camera))) ||
                server->is_behind(peer, color_stream(CameraId(camera)));
@@ -213,7 +230,10 @@ void Host::Impl::release_lanes() {
 bool Host::Impl::is_invited(ByteView first) const {
     const auto message = wire::decode_to_host(first);
     const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
-    return join && net::equal_secrets(join->token, http_tokens.front());
+    bool shown = false;
+    for (const std::string& token : join_tokens)
+        shown = (join && net::equal_secrets(join->token, token)) || shown;
+    return shown;
 }
 
 void Host::Impl::take_media(send::EncodedMedia encoded) {
@@ -268,15 +288,15 @@ void Host::Impl::distribute_media() {
 
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     const wire::MediaHeader& header = encoded.header;
-    net::Media message{encoded.message,  header.stream,         header.setting, header.frame,
-                       header.reference, header.temporal_layer, header.key,     {}};
-    for (const ParticipantId receiver :
-         session->on_media(header, encoded.message->size(), steady_now())) {
-        const auto pushed = server->send_media(net::PeerId(std::uint32_t(receiver)), message);
-        dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
-        if (pushed.needs_key)
-            session->on_broken_stream(header.stream, header.setting);
-    }
+    send_media({encoded.message,
+                header.stream,
+                header.setting,
+                header.frame,
+                header.reference,
+                header.temporal_layer,
+                header.key,
+                {}},
+               session->on_media(header, encoded.message->size(), steady_now()));
     hold_lane(std::size_t(camera_of(header.stream)));
 }
 
@@ -321,6 +341,31 @@ void Host::Impl::send_poses_to(ParticipantId receiver,
         server->send_states(net::PeerId(std::uint32_t(receiver)), states);
 }
 
+void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> message) {
+    const auto receivers =
+        session->on_media_from(ParticipantId(std::uint32_t(publisher)), *message, steady_now());
+    if (const auto header = wire::parse_media_header(*message))
+        send_media({std::move(message),
+                    header->stream,
+                    header->setting,
+                    header->frame,
+                    header->reference,
+                    header->temporal_layer,
+                    header->key,
+                    {}},
+                   receivers);
+    carry_out();
+}
+
+void Host::Impl::send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers) {
+    for (const ParticipantId receiver : receivers) {
+        const auto pushed = server->send_media(peer_of(receiver), encoded);
+        dropped_slow[camera_of(encoded.stream)] += std::uint64_t(pushed.dropped);
+        if (pushed.needs_key)
+            session->on_broken_stream(encoded.stream, encoded.setting);
+    }
+}
+
 void Host::Impl::measure_links() {
     for (const auto& [id, participant] : session->participants()) {
         const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
@@ -332,9 +377,8 @@ void Host::Impl::note_participants() {
     std::vector<HostFigures::Participant> list;
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
-            list.push_back({id, participant.name, participant.delivery.step().what,
-                            participant.report, participant.renderer,
-                            participant.budget.refused()});
+            list.push_back({id, participant.name, session->step_of(id), participant.report,
+                            participant.renderer, participant.budget.refused()});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {

@@ -24,7 +24,7 @@ namespace theatron::host {
 struct Host::Impl {
     std::atomic<std::size_t>& participants;
     net::Certificate certificate;
-    net::Link link;
+    net::Link link, publish_link;
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
     capture::CameraPlaces places;  // does not change once lanes run
@@ -52,7 +52,7 @@ struct Host::Impl {
     std::vector<HostFigures::Participant> participant_figures;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
     std::string name;
-    std::vector<std::string> http_tokens;
+    std::vector<std::string> join_tokens, http_tokens;
     const TimePoint begun = steady_now();
 
     std::atomic<std::uint64_t> turned_away = 0;  // strangers
@@ -75,7 +75,8 @@ struct Host::Impl {
     }
 
     void open(const HostOptions& options, const capture::Progress& progress);
-    wire::Camera describe(CameraId id, const capture::CameraInfo& info) const;
+    // `number` is how many cameras the host opened before this one.
+    wire::Camera describe(int number, const capture::CameraInfo& info) const;
     net::Server::Handler handler();
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);
@@ -87,17 +88,20 @@ struct Host::Impl {
     void carry_out(const session::action::End& a);
     void carry_out(const session::action::Joined& a);
     void carry_out(const session::action::RequestKey& a);
-    void carry_out(const session::action::ChangeSettings&);
+    void carry_out(const session::action::ChangeSettings& a);
+    void carry_out(const session::action::TakeMedia& a);
     void carry_out(const session::action::KeepEverything& a);
     void carry_out(const session::action::SetCeiling& a);
     void carry_out(const session::action::Stepped& a);
     void carry_out(const session::action::Drawing& a);
-    void change_settings();
     void hold_lane(std::size_t camera);
     void hold_lanes();
     void release_lanes();
     void distribute_media();
     void distribute(const send::EncodedMedia& media);
+    // A participant has sent a media message.
+    void forward(net::PeerId publisher, std::shared_ptr<const Bytes> message);
+    void send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers);
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);
     void wait_for_poses();

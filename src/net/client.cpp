@@ -164,6 +164,11 @@ void Client::taken(std::size_t bytes) {
         impl_->connection->taken(bytes);
 }
 
+Outbox::Pushed Client::send_media(Media media) {
+    return impl_->connection ? impl_->connection->send_media(std::move(media))
+                             : Outbox::Pushed{1, true};
+}
+
 void Client::send_control(ByteView control) {
     if (impl_->connection)
         impl_->connection->send_control(control);

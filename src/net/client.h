@@ -10,6 +10,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "net/link.h"
+#include "net/outbox.h"
 #include "wire/envelope.h"
 
 namespace theatron::net {
@@ -48,6 +49,7 @@ public:
     void send_states(std::span<const wire::State> states);
     // A media message of this size that waited has been taken.
     void taken(std::size_t bytes);
+    Outbox::Pushed send_media(Media media);
 
 private:
     struct Impl;

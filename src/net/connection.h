@@ -70,6 +70,9 @@ public:
     // A media message of this size that waited has been taken: see Events::media.
     void taken(std::size_t bytes);
 
+    // Media is taken from now on; see Unwrapper.
+    void take_media(std::size_t max_message) { unwrapper_.take_media(max_message); }
+
     // See Outbox.
     void set_ceiling(double bytes_per_second);
     void keep_everything() { outbox_.keep_everything(); }

@@ -91,6 +91,8 @@ void Server::Impl::enter(Door::Visitor visitor) {
         events.frame_left = [this, peer] { handler.frame_left(peer); };
     if (handler.control_lost)
         events.control_lost = [this, peer] { handler.control_lost(peer); };
+    if (handler.media)
+        events.media = [this, peer](Bytes& message) { return handler.media(peer, message); };
     events.closed = [this, peer](const std::string& why) {
         peers.erase(peer);
         std::erase(uninvited, peer);
@@ -171,6 +173,11 @@ Outbox::Pushed Server::send_media(PeerId peer, Media media) {
         return {};
     const auto connection = found->second;
     return connection->send_media(std::move(media));
+}
+
+void Server::take_media(PeerId peer, std::size_t max_message) {
+    if (const auto found = impl_->peers.find(peer); found != impl_->peers.end())
+        found->second->take_media(max_message);
 }
 
 void Server::send_states(PeerId peer, std::span<const wire::State> states) {

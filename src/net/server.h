@@ -45,6 +45,9 @@ public:
         // A peer did not read, and control for it was dropped: send it the session's state again.
         // Empty: its connection ends.
         std::function<void(PeerId)> control_lost;
+        // A media message of a peer from which it is taken (take_media), as in Connection::Events.
+        // May be empty.
+        std::function<bool(PeerId, Bytes&)> media;
         std::function<void(PeerId, const std::string& why)> closed;
         std::function<TimePoint()> now;  // session time
         std::function<void()> tick;      // ten times a second
@@ -71,6 +74,8 @@ public:
     Outbox::Pushed send_media(PeerId peer, Media media);
     // Calls Handler::alarm at this time instead of the time that was set before.
     void set_alarm(TimePoint when);
+    // Media of this peer is taken from now on; without this it ends the peer's connection.
+    void take_media(PeerId peer, std::size_t max_message);
     // See Outbox. Figures of a peer that is gone are empty.
     void set_ceiling(PeerId peer, double bytes_per_second);
     void keep_everything(PeerId peer);

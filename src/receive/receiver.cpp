@@ -31,12 +31,19 @@ std::size_t max_media_size(const wire::Camera& camera, StreamId stream) {
 }
 
 void Receiver::set_cameras(const std::vector<wire::Camera>& cameras) {
-    streams_.clear();
-    cameras_.clear();
+    const auto stays = [&](CameraId id) {
+        return std::any_of(cameras.begin(), cameras.end(), [&](const wire::Camera& camera) {
+            return camera.id == id && camera.calibration == cameras_.at(id).calibration &&
+                   camera.has_color == cameras_.at(id).has_color;
+        });
+    };
+    std::erase_if(streams_, [&](const auto& entry) { return !stays(entry.second.camera); });
+    std::erase_if(cameras_, [&](const auto& entry) { return !stays(entry.first); });
     for (const wire::Camera& camera : cameras) {
         const auto calibration = decode_calibration(camera.calibration);
-        if (!calibration)
+        if (!calibration || cameras_.contains(camera.id))
             continue;
+        cameras_[camera.id].calibration = camera.calibration;
         cameras_[camera.id].has_color = camera.has_color;
         Stream& depth = streams_[camera.depth_stream];
         depth.camera = camera.id;

@@ -78,8 +78,9 @@ public:
 
     explicit Receiver(Events events) : events_(std::move(events)) {}
 
-    // Sets the cameras that the host announced. Streams of other cameras are forgotten. A camera
-    // whose calibration cannot be read (Status of decode_calibration) gets no pictures.
+    // Sets the cameras that the host announced. A camera that was there before with the same
+    // calibration keeps its decoders; streams of other cameras are forgotten. A camera whose
+    // calibration cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
     // Throws Error if a codec is one that this build does not know.
     void set_settings(const std::vector<wire::StreamSetting>& settings);
@@ -129,6 +130,7 @@ private:
     };
     // Images that wait for the other one of the same moment.
     struct CameraState {
+        Bytes calibration;
         std::shared_ptr<CameraFrame> depth;  // newest, not yet handed on
         std::shared_ptr<const ColorImage> color;
         FrameNumber color_number = 0;

@@ -13,7 +13,7 @@ constexpr double max_frames_per_second = 1000;
 
 // What is wrong with one camera by itself, for a person; empty: nothing.
 std::string problem_of(const wire::Camera& camera, const Result<Calibration>& calibration) {
-    if (std::size_t(camera.id) >= wire::max_cameras)
+    if (int(camera.id) > max_camera_number)
         return "has the number " + std::to_string(int(camera.id)) + ", beyond all that there are";
     if (camera.depth_stream != depth_stream(camera.id) ||
         (camera.has_color && camera.color_stream != color_stream(camera.id)))
@@ -64,6 +64,8 @@ AnnouncedCameras judge_cameras(std::vector<wire::Camera> announced) {
     for (wire::Camera& camera : announced) {
         const auto calibration = decode_calibration(camera.calibration);
         std::string problem = problem_of(camera, calibration);
+        if (problem.empty() && result.accepted.size() == wire::max_cameras)
+            problem = "is one more than there can be";
         if (problem.empty() && !known.insert(camera.id).second)
             problem = "has a number that another one has";
         if (problem.empty() && !room.take(*calibration))
@@ -71,7 +73,7 @@ AnnouncedCameras judge_cameras(std::vector<wire::Camera> announced) {
         if (problem.empty())
             result.accepted.push_back(std::move(camera));
         else
-            result.left_out.push_back("The host's camera " + camera.name + " " + problem +
+            result.left_out.push_back("The camera " + camera.name + " " + problem +
                                       "; it is left out.");
     }
     return result;

@@ -23,9 +23,13 @@ struct AnnouncedCameras {
     std::vector<std::string> left_out;  // one sentence for the user about each other one
 };
 
-// Leaves out cameras whose number is 63 or more or given twice, whose streams are not theirs
-// (depth_stream(), color_stream()), whose frame rate is no rate, whose calibration is refused by
-// decode_calibration(), and those that exceed what is said above. Order is kept.
+// Streams have 16-bit numbers, and a camera has two of them.
+inline constexpr int max_camera_number = 0x7fff;
+
+// Leaves out cameras beyond wire::max_cameras, those whose number is beyond all or given twice,
+// whose streams are not theirs (depth_stream(), color_stream()), whose frame rate is no rate, whose
+// calibration is refused by decode_calibration(), and those that exceed what is said above. Order
+// is kept.
 AnnouncedCameras judge_cameras(std::vector<wire::Camera> announced);
 
 }  // namespace theatron::session

@@ -45,10 +45,15 @@ TEST(AnnouncedCameras, OrdinaryOnesAreAccepted) {
 }
 
 TEST(AnnouncedCameras, NumbersAreInRangeAndDiffer) {
-    EXPECT_EQ(accepted({camera(int(wire::max_cameras))}), 0u);
+    EXPECT_EQ(accepted({camera(max_camera_number)}), 1u);
+    EXPECT_EQ(accepted({camera(max_camera_number + 1)}), 0u);
+    std::vector<wire::Camera> many;
+    for (int i = 0; i <= int(wire::max_cameras); ++i)
+        many.push_back(camera(1000 + i));
+    EXPECT_EQ(accepted(many), wire::max_cameras);
     EXPECT_EQ(accepted({camera(5), camera(5)}), 1u);
     EXPECT_EQ(judge_cameras({camera(5), camera(5)}).left_out.front(),
-              "The host's camera camera 5 has a number that another one has; it is left out.");
+              "The camera camera 5 has a number that another one has; it is left out.");
 }
 
 TEST(AnnouncedCameras, StreamsAreTheirOwn) {
@@ -102,16 +107,44 @@ TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
     EXPECT_EQ(viewer.left_out().size(), 1u);
 
     for (int id = 0; id < 4000; ++id)
-        (void)viewer.on_control(wire::encode(
-            wire::CameraState{CameraId(id), wire::CameraCondition::failed, "gone", ""}));
+        (void)viewer.on_control(wire::encode(wire::ToParticipant(
+            wire::CameraState{CameraId(id), wire::CameraCondition::failed, "gone", ""})));
     EXPECT_EQ(viewer.camera_states().size(), 2u);
     EXPECT_EQ(viewer.camera_states().at(CameraId{4}).problem, "gone");
 }
 
+TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
+    ViewerSession viewer({});
+    (void)viewer.on_control(wire::encode(wire::CamerasAdded{{camera(7)}}));
+    EXPECT_TRUE(viewer.cameras().empty()) << "it has not joined";
+    (void)viewer.on_control(wire::encode(wire::Welcome{2, {}, "host", {camera(0), camera(1)}}));
+    (void)viewer.on_control(wire::encode(wire::Settings{
+        {{StreamId{0}, SettingId{1}, "raw"}, {StreamId{2}, SettingId{2}, "rvl"}}, ""}));
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::CamerasAdded{{camera(900), camera(1)}})),
+              ViewerSession::Change::cameras);
+    ASSERT_EQ(viewer.cameras().size(), 3u);
+    EXPECT_EQ(viewer.left_out().size(), 1u) << "one has a number that is taken";
+    (void)viewer.on_control(
+        wire::encode(wire::Settings{{{depth_stream(CameraId{900}), SettingId{3}, "lz4"},
+                                     {depth_stream(CameraId{33}), SettingId{4}, "lz4"}},
+                                    ""}));
+    EXPECT_EQ(viewer.settings().size(), 3u) << "nothing is kept of a camera that is not there";
+    wire::Camera foreign = camera(901);
+    foreign.session = wire::SessionId{1};
+    (void)viewer.on_control(wire::encode(wire::CamerasAdded{{foreign}}));
+    EXPECT_EQ(viewer.cameras().size(), 3u) << "it is of another session";
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::CamerasRemoved{{CameraId{0}}})),
+              ViewerSession::Change::cameras);
+    ASSERT_EQ(viewer.cameras().size(), 2u);
+    EXPECT_EQ(viewer.cameras()[0].id, CameraId{1});
+    ASSERT_EQ(viewer.settings().size(), 2u);
+    EXPECT_EQ(viewer.settings()[0].codec, "rvl") << "as it was";
+}
+
 TEST(ViewerSession, KeepsNoStateOfCamerasBeforeTheyAreAnnounced) {
     ViewerSession viewer({});
-    EXPECT_EQ(viewer.on_control(wire::encode(wire::CameraState{CameraId{0}, {}, "", ""})),
-              ViewerSession::Change::nothing);
+    const wire::ToParticipant state = wire::CameraState{CameraId{0}, {}, "", ""};
+    EXPECT_EQ(viewer.on_control(wire::encode(state)), ViewerSession::Change::nothing);
     EXPECT_TRUE(viewer.camera_states().empty());
 }
 

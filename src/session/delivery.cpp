@@ -26,74 +26,106 @@ int layer_by_number(FrameNumber frame) {
     return frame % 4 == 0 ? 0 : frame % 2 == 0 ? 1 : 2;
 }
 
-void Delivery::set_wish(const std::string& depth, const std::string& color,
-                        const CodecSteps& codecs, bool region_is_drawn) {
+void Delivery::set_codecs(const CodecSteps& codecs, bool region_is_drawn) {
     codecs_ = codecs;
-    ladder_ = make_ladder(depth, color, codecs, region_is_drawn);
-    policy_.limit(int(ladder_.size()));
+    region_is_drawn_ = region_is_drawn;
+    set_wish(wish_.first, wish_.second);
 }
 
-const LadderStep* Delivery::step_with_color(const std::string& codec) const {
-    const auto found = std::find_if(ladder_.begin(), ladder_.end(),
-                                    [&](const LadderStep& s) { return s.color_codec == codec; });
-    return found == ladder_.end() ? nullptr : &*found;
+void Delivery::set_wish(const std::string& depth, const std::string& color) {
+    wish_ = {depth, color};
+    layers_are_needed_ = policy_.step() > 0;
+    ladders_.clear();
+    (void)ladder(depth, color);
+    policy_.limit(steps());
 }
 
-bool Delivery::is_lossy(const std::string& depth_codec) const {
-    return ladder_.back().lossy_outside_region && ladder_.back().depth_codec == depth_codec;
+const Ladder& Delivery::ladder(const std::string& depth, const std::string& color) {
+    const auto [found, is_new] = ladders_.try_emplace({depth, color});
+    if (is_new) {
+        found->second = make_ladder(depth, color, codecs_, region_is_drawn_);
+        keep_layers(found->second);
+    }
+    return found->second;
+}
+
+// Temporal layers stay once they are needed: going back would cost a key frame.
+void Delivery::keep_layers(Ladder& ladder) const {
+    if (layers_are_needed_ && ladder.size() > 1)
+        ladder[0].depth_codec = ladder[1].depth_codec;
+}
+
+int Delivery::steps() const {
+    std::size_t most = 1;
+    for (const auto& [wish, ladder] : ladders_)
+        most = std::max(most, ladder.size());
+    return int(most);
+}
+
+const LadderStep& Delivery::step_of(const Ladder& ladder) const {
+    return ladder[std::min(std::size_t(policy_.step()), ladder.size() - 1)];
 }
 
 // From what is measured of the encodings that it is given now.
-std::vector<StepNeed> Delivery::needs(const Given& given, StreamRates& rates, TimePoint now) const {
+void Delivery::add_needs(std::vector<StepNeed>& needs, const Given& given, const Ladder& ladder,
+                         double frames_per_second, StreamRates& rates, TimePoint now) const {
     const int all = served_layers - 1;
-    const CodecSteps::Layered layered =
-        codecs_.layered ? codecs_.layered(given.depth.codec) : CodecSteps::Layered{};
-    const bool by_layer =
-        layered.independent || (layered.layered && layered.codec == given.depth.codec);
-    const double depth = rates.bytes_per_second(given.depth.id, all, now);
-    const double exact = is_lossy(given.depth.codec) ? 1 / lossy_size : 1;
-    const LadderStep* now_colored = step_with_color(given.color.codec);
-    const double whole_color = rates.bytes_per_second(given.color.id, all, now) /
-                               (now_colored ? now_colored->color_size : 1);
-    const bool chain = codecs_.color_is_chain && codecs_.color_is_chain(given.color.codec);
-
-    std::vector<StepNeed> result;
-    for (const LadderStep& step : ladder_) {
+    const bool by_layer = given.depth->traits.independent || given.depth->traits.layered;
+    const double depth = rates.bytes_per_second(given.depth->id, all, now);
+    const bool is_lossy =
+        ladder.back().lossy_outside_region && ladder.back().depth_codec == given.depth->codec;
+    const double exact = is_lossy ? 1 / lossy_size : 1;
+    double whole_color = 0;
+    bool chain = false;
+    if (given.color) {
+        const auto colored = std::find_if(ladder.begin(), ladder.end(), [&](const LadderStep& s) {
+            return s.color_codec == given.color->codec;
+        });
+        whole_color = rates.bytes_per_second(given.color->id, all, now) /
+                      (colored == ladder.end() ? 1 : colored->color_size);
+        chain = given.color->traits.chain;
+    }
+    for (std::size_t i = 0; i < needs.size(); ++i) {
+        const LadderStep& step = ladder[std::min(i, ladder.size() - 1)];
         const double depth_share =
-            (by_layer ? rates.bytes_per_second(given.depth.id, step.highest_layer, now)
+            (by_layer ? rates.bytes_per_second(given.depth->id, step.highest_layer, now)
                       : depth * step.frames) *
             exact * (step.lossy_outside_region ? lossy_size : 1);
         const double color_frames = chain ? 1 : step.frames;
         const double color_share = whole_color * step.color_size * color_frames;
-        StepNeed need;
-        need.bytes_per_second = depth_share + color_share;
-        need.bytes_at_once =
-            (depth_share / step.frames + color_share / color_frames) / given.frames_per_second;
-        result.push_back(need);
+        needs[i].bytes_per_second += depth_share + color_share;
+        needs[i].bytes_at_once +=
+            (depth_share / step.frames + color_share / color_frames) / frames_per_second;
     }
-    return result;
 }
 
-bool Delivery::update(const LinkMeasure& link, const Given& given, StreamRates& rates,
-                      Duration made_in, TimePoint now) {
+bool Delivery::update(const LinkMeasure& link, std::span<const Given> given,
+                      double frames_per_second, StreamRates& rates, Duration made_in,
+                      TimePoint now) {
     SendingGoal goal;
     if (goal_.target_latency_ms > 0)
         goal.latency =
             std::max(std::chrono::milliseconds(goal_.target_latency_ms) - made_in, Duration(1));
     goal.max_bytes_per_second = double(goal_.max_kbit_per_s) * 125;
-    const std::vector<StepNeed> need = needs(given, rates, now);
-    if (!policy_.update(link, need, goal, now))
+    for (const Given& camera : given)
+        (void)ladder(camera.depth_wish, camera.color_wish);
+    std::vector<StepNeed> needs;
+    needs.resize(std::size_t(steps()));
+    for (const Given& camera : given)
+        add_needs(needs, camera, ladder(camera.depth_wish, camera.color_wish), frames_per_second,
+                  rates, now);
+    if (!policy_.update(link, needs, goal, now))
         return false;
-    // Temporal layers stay once they are needed: going back would cost a key frame.
-    if (policy_.step() > 0)
-        ladder_[0].depth_codec = ladder_[1].depth_codec;
+    if (policy_.step() > 0 && !std::exchange(layers_are_needed_, true))
+        for (auto& [wish, ladder] : ladders_)
+            keep_layers(ladder);
     return true;
 }
 
-wire::Delivery Delivery::message(Duration delay) const {
+wire::Delivery Delivery::message(Duration delay) {
     wire::Delivery message;
     message.level = std::uint8_t(policy_.step());
-    message.levels = std::uint8_t(ladder_.size());
+    message.levels = std::uint8_t(steps());
     message.what = step().what;
     switch (policy_.reason()) {
         case SendingReason::none:
@@ -117,8 +149,7 @@ wire::Delivery Delivery::message(Duration delay) const {
     return message;
 }
 
-bool Delivery::lets_through(StreamId stream, int layer) {
-    const int highest = step().highest_layer;
+bool Delivery::lets_through(StreamId stream, int layer, int highest) {
     int& open = open_[stream];
     if (layer == 0 || highest < open)
         open = highest;

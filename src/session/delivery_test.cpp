@@ -11,20 +11,21 @@ std::string reason_with_ceiling_of(std::uint32_t kbit_per_second) {
     Delivery delivery;
     CodecSteps codecs;
     codecs.layered = [](const std::string& codec) { return CodecSteps::Layered{codec, true}; };
-    delivery.set_wish("rvl", "", codecs, false);
+    delivery.set_codecs(codecs, false);
+    delivery.set_wish("rvl", "");
     wire::ChooseDelivery goal;
     goal.target_latency_ms = 150;
     goal.max_kbit_per_s = kbit_per_second;
     delivery.set_goal(goal);
-    const ActiveSetting depth{SettingId(1), "rvl"}, color{SettingId(2), ""};
+    const ActiveSetting depth{SettingId(1), "rvl", depth_traits("rvl", codecs)};
     StreamRates rates;
     TimePoint now{std::chrono::seconds(10)};
     for (int frame = 0; frame < 60; ++frame, now += std::chrono::milliseconds(33))
-        rates.add(StreamId(0), depth.id, layer_by_number(FrameNumber(frame)), 2'000'000 / 8 / 30,
-                  now);
+        rates.add(depth.id, layer_by_number(FrameNumber(frame)), 2'000'000 / 8 / 30, now);
     LinkMeasure link;
     link.bytes_per_second = 1e7;
-    delivery.update(link, {depth, color}, rates, Duration(0), now);
+    const Delivery::Given given{&depth, nullptr, "rvl", ""};
+    delivery.update(link, {&given, 1}, 30, rates, Duration(0), now);
     return delivery.message(Duration(0)).reason;
 }
 

@@ -29,17 +29,25 @@ struct End {
     ParticipantId participant{};
     wire::Goodbye message;
 };
+// Take media from the participant from now on, at most `max_message` bytes in one message.
+struct TakeMedia {
+    ParticipantId participant{};
+    std::size_t max_message = 0;
+};
 // The participant is in; for the log.
 struct Joined {
     ParticipantId participant{};
     std::string name;
+    Bytes person;  // as in wire::Join
 };
-// Have a key frame encoded.
+// Have a key frame of one of the host's own cameras encoded.
 struct RequestKey {
     KeyRequests::Key key;
 };
-// Encode exactly HostSession's depth_settings() and color_settings().
-struct ChangeSettings {};
+// Encode this camera of the host exactly in HostSession's depth_settings() and color_settings().
+struct ChangeSettings {
+    CameraId camera{};
+};
 // The participant records: send all of its frames in order, however late.
 struct KeepEverything {
     ParticipantId participant{};
@@ -62,8 +70,9 @@ struct Drawing {
 
 }  // namespace action
 
-using Action = std::variant<action::Send, action::Close, action::End, action::Joined,
-                            action::RequestKey, action::ChangeSettings, action::KeepEverything,
-                            action::SetCeiling, action::Stepped, action::Drawing>;
+using Action =
+    std::variant<action::Send, action::Close, action::End, action::Joined, action::TakeMedia,
+                 action::RequestKey, action::ChangeSettings, action::KeepEverything,
+                 action::SetCeiling, action::Stepped, action::Drawing>;
 
 }  // namespace theatron::session

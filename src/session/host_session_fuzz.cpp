@@ -27,7 +27,7 @@ session::CodecSteps steps() {
         return std::vector<session::CodecSteps::Coarser>{{"half " + color, 0.5},
                                                          {"tenth " + color, 0.1}};
     };
-    steps.color_is_chain = [](const std::string& color) { return color.starts_with('c'); };
+    steps.refers = [](std::uint8_t codec) { return codec % 2 == 1; };
     steps.lossy_outside_region = [](const std::string& depth) { return "lossy " + depth; };
     return steps;
 }
@@ -53,14 +53,13 @@ HostSession::Config config() {
         return HostSession::CheckedCodec{text.substr(0, 20), problem};
     };
     HostSession::Config config;
-    config.token = "secret";
+    config.admission.tokens = {{"secret", session::Role::publisher, {}}};
+    config.admission.equal_secrets = [](std::string_view a, std::string_view b) { return a == b; };
     config.name = "room";
     config.cameras = {camera(0), camera(1)};
     config.check_depth = config.check_color = check;
-    config.equal_secrets = [](std::string_view a, std::string_view b) { return a == b; };
-    config.steps = steps();
-    config.usual_depth = "strata";
-    config.usual_color = "jpeg";
+    config.streams.codecs = steps();
+    config.streams.usual = {"strata", "jpeg"};
     return config;
 }
 
@@ -73,22 +72,28 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
+    wishes.features = {wire::Feature::publish};
     return session::ViewerSession(wishes).begin();
 }
 
 void check(const HostSession& host) {
     std::set<SettingId> numbers;
-    for (const auto* settings : {&host.depth_settings(), &host.color_settings()}) {
-        if (settings->size() > session::SettingTable::max_active + 1)
-            std::abort();
-        for (const session::ActiveSetting& setting : *settings)
-            if (setting.id == SettingId{} || !numbers.insert(setting.id).second)
+    const std::vector<wire::Camera> cameras = host.streams().cameras();
+    if (cameras.size() > wire::max_cameras)
+        std::abort();
+    for (const wire::Camera& camera : cameras)
+        for (const bool depth : {true, false}) {
+            const auto& settings = host.streams().settings(camera.id, depth);
+            if (settings.size() > session::SettingTable::max_active + 1)
                 std::abort();
-    }
-    for (const auto& [id, participant] : host.participants())
-        if (participant.joined && (!numbers.contains(participant.depth_setting) ||
-                                   !numbers.contains(participant.color_setting)))
-            std::abort();
+            for (const session::ActiveSetting& setting : settings)
+                if (setting.id == SettingId{} || !numbers.insert(setting.id).second)
+                    std::abort();
+            for (const auto& [id, told] : host.streams().find(camera.id)->receivers)
+                if (id == camera.publisher ||
+                    !host.streams().find(camera.id)->table(depth).find(told.of(depth)))
+                    std::abort();
+        }
 }
 
 }  // namespace
@@ -105,7 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto choice = in.get<std::uint8_t>();
         const ParticipantId id{1 + choice % participants};
         const SettingId setting{std::uint16_t(choice / 8)};
-        switch (what % 12) {
+        switch (what % 15) {
             case 0:
                 if (!host.participants().contains(id))
                     host.on_connected(id, now);
@@ -141,6 +146,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             case 8:
                 host.on_broken_stream(StreamId(choice % 4), setting);
                 break;
+            case 10: {
+                wire::Camera offered = camera(0);
+                wire::Publish offer;
+                for (int i = 0; i < choice % 4; ++i)
+                    offer.cameras.push_back({"own", choice % 8 < 4, 30, offered.calibration});
+                host.on_control(id, wire::encode(offer), now);
+                break;
+            }
+            case 11:
+                host.on_control(id, wire::encode(wire::Unpublish{{CameraId(choice / 8)}}), now);
+                break;
+            case 12: {
+                wire::MediaHeader header;
+                header.frame = header.reference = ++frame;
+                header.key = true;
+                header.stream = StreamId(choice / 4);
+                header.setting = setting;
+                header.captured = now;
+                Bytes message(wire::media_header_size);
+                wire::write_media_header(header, message.data());
+                (void)host.on_media_from(id, message, now);
+                break;
+            }
             case 9:
                 host.on_camera({CameraId(choice % 2), wire::CameraCondition(choice % 4), "", ""});
                 break;

@@ -5,14 +5,21 @@
 
 namespace theatron::session {
 
-std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
-                                    const CodecSteps& codecs, bool region_is_drawn) {
+CodecTraits depth_traits(const std::string& codec, const CodecSteps& codecs) {
+    if (!codecs.layered)
+        return {};
+    const CodecSteps::Layered layered = codecs.layered(codec);
+    return {layered.independent, layered.layered && layered.codec == codec, false};
+}
+
+Ladder make_ladder(const std::string& depth, const std::string& color, const CodecSteps& codecs,
+                   bool region_is_drawn) {
     LadderStep step;
     step.highest_layer = served_layers - 1;
     step.depth_codec = depth;
     step.color_codec = color;
     step.what = "everything";
-    std::vector<LadderStep> ladder{step};
+    Ladder ladder{step};
 
     const CodecSteps::Layered layered =
         codecs.layered ? codecs.layered(depth) : CodecSteps::Layered{};

@@ -4,6 +4,7 @@
 // region of interest. Depth inside the region is the same on every step.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,13 +26,26 @@ struct CodecSteps {
     };
     std::function<std::vector<Coarser>(const std::string& color)> coarser;
 
-    // True if its frames refer to each other, so that none can be left out. Null: false.
-    std::function<bool(const std::string& color)> color_is_chain;
+    // True if colour frames of this codec, as their headers name it, refer to each other, so that
+    // none can be left out. Null: false.
+    std::function<bool(std::uint8_t codec)> refers;
 
     // The codec with bounded loss outside the region of interest; empty if it has
     // none. Null: no codec has.
     std::function<std::string(const std::string& depth)> lossy_outside_region;
 };
+
+// What sending needs to know of one encoding. All but `chain` is read from its text, once.
+struct CodecTraits {
+    // No frame refers to another: any may be left out, by its number.
+    bool independent = false;
+    // Any upper temporal layer may be left out.
+    bool layered = false;
+    // Colour whose frames refer to each other: none may be left out. As the newest frame says,
+    // since a setting may leave the codec to the publisher.
+    bool chain = false;
+};
+CodecTraits depth_traits(const std::string& codec, const CodecSteps& codecs);
 
 struct LadderStep {
     int highest_layer = 0;
@@ -42,9 +56,11 @@ struct LadderStep {
     std::string what;  // for people
 };
 
+using Ladder = std::vector<LadderStep>;
+
 // All steps, the first is what was asked for. Loss is a step only where a region
 // is drawn: without one the whole image stays exact.
-std::vector<LadderStep> make_ladder(const std::string& depth, const std::string& color,
-                                    const CodecSteps& codecs, bool region_is_drawn);
+Ladder make_ladder(const std::string& depth, const std::string& color, const CodecSteps& codecs,
+                   bool region_is_drawn);
 
 }  // namespace theatron::session

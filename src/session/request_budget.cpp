@@ -30,6 +30,18 @@ bool TokenBucket::take(TimePoint now) {
     return true;
 }
 
+void TokenBucket::set_limit(double per_second, double most) {
+    tokens_ = std::min(most, tokens_ + std::max(most - most_, 0.0));
+    per_second_ = per_second;
+    most_ = most;
+}
+
+void RequestBudget::set_streams(std::size_t streams) {
+    const double times = double(std::max(streams, std::size_t(1)));
+    const Limit limit = limits[std::size_t(Kind::key)];
+    bucket(Kind::key).set_limit(limit.per_second * times, limit.at_once * times);
+}
+
 RequestBudget::RequestBudget(std::size_t streams)
     : buckets_(full_buckets(double(std::max(streams, std::size_t(1))),
                             std::make_index_sequence<kinds>())) {}

@@ -21,6 +21,8 @@ public:
 
     // Takes a token if there is a whole one. Time that runs backwards adds none.
     bool take(TimePoint now);
+    // Another limit from now on. What the bucket holds more is there at once.
+    void set_limit(double per_second, double most);
 
 private:
     double per_second_, most_, tokens_;
@@ -36,9 +38,11 @@ public:
         key,       // a key frame
         ping,
         report,
-        other,  // what the host does not know or does not expect
+        publish,  // cameras that come or leave
+        state,    // how a camera is
+        other,    // what the host does not know or does not expect
     };
-    static constexpr std::size_t kinds = 6;
+    static constexpr std::size_t kinds = 8;
 
     struct Limit {
         double per_second = 0;
@@ -47,12 +51,14 @@ public:
     // Of key requests these are for each stream; a viewer repeats one after 700 ms, a recorder asks
     // for one every 1.5 s.
     static constexpr std::array<Limit, kinds> limits{
-        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {5, 20}}};
+        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {2, 20}, {20, 80}, {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 
-    // `streams`: how many the host has.
+    // `streams`: how many there are in the session.
     explicit RequestBudget(std::size_t streams);
+    // Streams have come or gone.
+    void set_streams(std::size_t streams);
 
     enum class Answer : std::uint8_t { granted, too_often, flood };
     // A request has come.

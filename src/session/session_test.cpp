@@ -124,8 +124,17 @@ protected:
         camera.depth_stream = depth_stream(CameraId{0});
         camera.color_stream = color_stream(CameraId{0});
         camera.has_color = true;
-        return {"secret", "OR",  {camera},
-                check,    check, [](std::string_view a, std::string_view b) { return a == b; }};
+        HostSession::Config config;
+        config.admission.tokens = {{"secret", Role::viewer, {}},
+                                   {"publish", Role::publisher, {}},
+                                   {"short", Role::viewer, from_us(5'000'000)}};
+        config.admission.equal_secrets = [](std::string_view a, std::string_view b) {
+            return a == b;
+        };
+        config.name = "OR";
+        config.cameras = {camera};
+        config.check_depth = config.check_color = check;
+        return config;
     }
 
     void join(ParticipantId id, const std::string& depth = "trvl",
@@ -217,7 +226,7 @@ TEST_F(Host, NothingIsDoneForWhoHasNotJoined) {
     say(alice, wire::ChooseCodecs{"rvl", ""});
     EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
     session.on_connected(bob, now);
-    now += HostSession::join_deadline + 1s;
+    now += Admission::join_deadline + 1s;
     session.on_tick(now);
     EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
 }
@@ -325,7 +334,7 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
 }
 
 TEST_F(Host, RefusesMoreRecordersThanItKeepsPicturesFor) {
-    for (int i = 0; i < HostSession::max_recorders; ++i)
+    for (int i = 0; i < Admission::max_recorders; ++i)
         join_to_record(ParticipantId(10 + i), "trvl");
     session.take_actions();
     join_to_record(alice, "trvl");
@@ -394,7 +403,7 @@ TEST_F(Host, LogsHowSomebodyDrawsWhenThatChanges) {
 TEST_F(Host, FramesWaitOnlyWhileAllAreBehindWhoDoNotAdapt) {
     std::set<ParticipantId> behind;
     const auto all_wait = [&] {
-        return session.all_wait([&](ParticipantId id) { return behind.contains(id); });
+        return session.all_wait(CameraId{0}, [&](ParticipantId id) { return behind.contains(id); });
     };
     EXPECT_FALSE(all_wait()) << "nobody is there";
     session.on_connected(dave, now);

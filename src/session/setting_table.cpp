@@ -14,13 +14,20 @@ std::string_view kind_of(std::string_view codec) {
 
 }  // namespace
 
+SettingTable::~SettingTable() {
+    for (const ActiveSetting& setting : active_)
+        numbers_.give_back(setting.id);
+}
+
 void SettingTable::wish(ParticipantId participant, std::string codec) {
     entries_[participant] = {std::move(codec), ""};
     update();
 }
 
 void SettingTable::stopgap(ParticipantId participant, std::string codec) {
-    Entry& entry = entries_[participant];
+    const auto found = entries_.find(participant);
+    assert(found != entries_.end());
+    Entry& entry = found->second;
     entry.stopgap = codec == entry.wish ? "" : std::move(codec);
     update();
 }
@@ -42,9 +49,21 @@ void SettingTable::set_slow(SettingId setting, bool is_slow) {
     update();
 }
 
+void SettingTable::note_chain(SettingId setting, bool chain) {
+    for (ActiveSetting& active : active_)
+        if (active.id == setting)
+            active.traits.chain = chain;
+}
+
 const ActiveSetting* SettingTable::find(const std::string& codec) const {
     const auto found = std::find_if(active_.begin(), active_.end(),
                                     [&](const ActiveSetting& s) { return s.codec == codec; });
+    return found == active_.end() ? nullptr : &*found;
+}
+
+const ActiveSetting* SettingTable::find(SettingId setting) const {
+    const auto found = std::find_if(active_.begin(), active_.end(),
+                                    [&](const ActiveSetting& s) { return s.id == setting; });
     return found == active_.end() ? nullptr : &*found;
 }
 
@@ -59,7 +78,7 @@ bool SettingTable::has_place(const std::string& codec) const {
 }
 
 void SettingTable::add(const std::string& codec) {
-    active_.push_back({numbers_.take(), codec});
+    active_.push_back({numbers_.take(), codec, traits_ ? traits_(codec) : CodecTraits{}});
 }
 
 void SettingTable::remove(Active::iterator setting) {

@@ -6,6 +6,7 @@
 // take places that no wish needs.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "session/ladder.h"
 #include "session/setting_numbers.h"
 
 namespace theatron::session {
@@ -20,18 +22,25 @@ namespace theatron::session {
 struct ActiveSetting {
     SettingId id{};
     std::string codec;
-    bool operator==(const ActiveSetting&) const = default;
+    CodecTraits traits;  // of `codec`
+    bool operator==(const ActiveSetting& other) const {
+        return id == other.id && codec == other.codec;
+    }
 };
 
-// One table for depth, one for colour. Pure and deterministic.
+// One table for depth and one for colour of each camera. Pure and deterministic.
 class SettingTable {
 public:
     static constexpr std::size_t max_active = 3;  // besides the usual one
 
     // `usual` is the codec that has a place of its own, in its one spelling; empty: none has.
-    // `numbers`, common to depth and colour, outlives the table.
-    explicit SettingTable(SettingNumbers& numbers, std::string usual = "")
-        : numbers_(numbers), usual_(std::move(usual)) {}
+    // `numbers`, common to all tables of a session, outlives the table. `traits` reads a codec's
+    // text, once for each setting that becomes active; empty: none has any.
+    using ReadTraits = std::function<CodecTraits(const std::string&)>;
+    explicit SettingTable(SettingNumbers& numbers, std::string usual = "", ReadTraits traits = {})
+        : numbers_(numbers), usual_(std::move(usual)), traits_(std::move(traits)) {}
+    SettingTable(SettingTable&&) = delete;
+    ~SettingTable();
 
     // `codec` must be in its one spelling, since equal texts share an encoder.
     void wish(ParticipantId participant, std::string codec);
@@ -43,14 +52,20 @@ public:
     // Whether encoding cannot keep up with the cameras: such a setting stands in for no other.
     void set_slow(SettingId setting, bool is_slow);
 
+    // See CodecTraits; nothing if the setting is not active.
+    void note_chain(SettingId setting, bool chain);
+
     // In the order in which they became active.
     const std::vector<ActiveSetting>& active() const { return active_; }
+    // Null if it is not active.
+    const ActiveSetting* find(SettingId setting) const;
 
     // What the participant gets: its wish, or where too many others are in use
     // the nearest (the same codec with other parameters, else the usual one, else the oldest).
     // The participant must have a wish.
     const ActiveSetting& given(ParticipantId participant) const;
     const std::string& wished(ParticipantId participant) const;
+    bool has_wish(ParticipantId participant) const { return entries_.contains(participant); }
 
 private:
     struct Entry {
@@ -71,6 +86,7 @@ private:
 
     SettingNumbers& numbers_;
     const std::string usual_;
+    const ReadTraits traits_;
     std::map<ParticipantId, Entry> entries_;
     Active active_;
     std::set<SettingId> slow_;

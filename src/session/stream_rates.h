@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is encoded of each setting, in bytes a second, by temporal layer: what a
-// receiver's share of it would take.
+// What is encoded in each setting, in bytes a second, by temporal layer. A setting belongs to one
+// stream.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "base/ids.h"
 #include "base/statistics.h"
@@ -18,37 +17,34 @@ inline constexpr int served_layers = 3;
 
 class StreamRates {
 public:
-    void add(StreamId stream, SettingId setting, int layer, std::size_t bytes, TimePoint now) {
-        const auto [found, fresh] = rates_.try_emplace({setting, stream});
+    void add(SettingId setting, int layer, std::size_t bytes, TimePoint now) {
+        const auto [found, fresh] = rates_.try_emplace(setting);
         if (fresh)
             found->second.began = now;
         found->second.by_layer[std::size_t(layer)].add(now, double(bytes));
     }
 
-    // Of all streams of the setting together, layers 0 to `highest`.
+    // Of layers 0 to `highest`.
     double bytes_per_second(SettingId setting, int highest, TimePoint now) {
+        const auto found = rates_.find(setting);
+        if (found == rates_.end())
+            return 0;
+        // Young rates have not seen a whole second; the first frame is no rate yet.
+        const double seen = std::clamp(to_seconds(now - found->second.began), 0.2, 1.0);
         double sum = 0;
-        for (auto& [key, rate] : rates_) {
-            if (key.first != setting)
-                continue;
-            // Young rates have not seen a whole second; the first frame is no rate yet.
-            const double seen = std::clamp(to_seconds(now - rate.began), 0.2, 1.0);
-            for (int layer = 0; layer <= highest; ++layer)
-                sum += rate.by_layer[std::size_t(layer)].per_second(now) / seen;
-        }
+        for (int layer = 0; layer <= highest; ++layer)
+            sum += found->second.by_layer[std::size_t(layer)].per_second(now) / seen;
         return sum;
     }
 
-    void forget(SettingId setting) {
-        std::erase_if(rates_, [&](const auto& entry) { return entry.first.first == setting; });
-    }
+    void forget(SettingId setting) { rates_.erase(setting); }
 
 private:
     struct Rate {
         std::array<RateWindow, served_layers> by_layer;
         TimePoint began;
     };
-    std::map<std::pair<SettingId, StreamId>, Rate> rates_;
+    std::map<SettingId, Rate> rates_;
 };
 
 }  // namespace theatron::session

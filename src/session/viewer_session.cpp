@@ -2,6 +2,8 @@
 #include "session/viewer_session.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "session/announced_cameras.h"
 
@@ -23,6 +25,8 @@ Bytes ViewerSession::begin() {
     join.target_latency_ms = wishes_.delivery.target_latency_ms;
     join.max_kbit_per_s = wishes_.delivery.max_kbit_per_s;
     join.records = wishes_.records;
+    join.features = wishes_.features;
+    join.person = wishes_.person;
     return wire::encode(join);
 }
 
@@ -31,11 +35,11 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (!message)
         return Change::nothing;
     if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
-        AnnouncedCameras judged = judge_cameras(std::move(welcome->cameras));
+        std::vector<wire::Camera> cameras = std::exchange(welcome->cameras, {});
         welcome_ = std::move(*welcome);
-        welcome_.cameras = std::move(judged.accepted);
-        left_out_ = std::move(judged.left_out);
         camera_states_.clear();
+        settings_.clear();
+        add_cameras(std::move(cameras));
         joined_ = true;
         return Change::welcomed;
     }
@@ -44,8 +48,7 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         return Change::refused;
     }
     if (auto* settings = std::get_if<wire::Settings>(&*message)) {
-        if (!settings->settings.empty())
-            settings_ = std::move(settings->settings);
+        take_settings(std::move(settings->settings));
         note_ = std::move(settings->note);
         return Change::settings;
     }
@@ -57,6 +60,30 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
             return Change::nothing;
         camera_states_[state->camera] = std::move(*state);
         return Change::camera;
+    }
+    if (auto* added = std::get_if<wire::CamerasAdded>(&*message)) {
+        if (!joined_)
+            return Change::nothing;
+        add_cameras(std::move(added->cameras));
+        return Change::cameras;
+    }
+    if (const auto* removed = std::get_if<wire::CamerasRemoved>(&*message)) {
+        if (!joined_)
+            return Change::nothing;
+        remove_cameras(removed->cameras);
+        return Change::cameras;
+    }
+    if (auto* published = std::get_if<wire::Published>(&*message)) {
+        published_ = std::move(*published);
+        return Change::published;
+    }
+    if (auto* encode = std::get_if<wire::Encode>(&*message)) {
+        encode_ = std::move(*encode);
+        return Change::encode;
+    }
+    if (const auto* key = std::get_if<wire::EncodeKey>(&*message)) {
+        encode_key_ = *key;
+        return Change::encode_key;
     }
     if (auto* pong = std::get_if<wire::Pong>(&*message)) {
         pong_ = *pong;
@@ -83,6 +110,55 @@ Bytes ViewerSession::choose(const std::string& depth_codec, const std::string& c
     if (!color_codec.empty())
         wishes_.color_codec = color_codec;
     return wire::encode(wire::ChooseCodecs{depth_codec, color_codec});
+}
+
+Bytes ViewerSession::choose(CameraId camera, const std::string& depth_codec,
+                            const std::string& color_codec) {
+    return wire::encode(wire::ChooseCodecs{depth_codec, color_codec, {camera}});
+}
+
+bool ViewerSession::may_publish() const {
+    return std::find(welcome_.features.begin(), welcome_.features.end(), wire::Feature::publish) !=
+           welcome_.features.end();
+}
+
+// Of cameras that were left out nothing is kept.
+void ViewerSession::take_settings(std::vector<wire::StreamSetting> settings) {
+    for (wire::StreamSetting& setting : settings) {
+        const bool known =
+            std::any_of(cameras().begin(), cameras().end(), [&](const wire::Camera& c) {
+                return c.depth_stream == setting.stream || c.color_stream == setting.stream;
+            });
+        const auto found =
+            std::find_if(settings_.begin(), settings_.end(),
+                         [&](const wire::StreamSetting& s) { return s.stream == setting.stream; });
+        if (found != settings_.end())
+            *found = std::move(setting);
+        else if (known)
+            settings_.push_back(std::move(setting));
+    }
+}
+
+// Those that are there stay, since they come first. A camera of another session is none of this.
+void ViewerSession::add_cameras(std::vector<wire::Camera> cameras) {
+    std::erase_if(cameras, [&](const wire::Camera& c) { return c.session != welcome_.session; });
+    std::vector<wire::Camera> all = std::exchange(welcome_.cameras, {});
+    all.insert(all.end(), std::make_move_iterator(cameras.begin()),
+               std::make_move_iterator(cameras.end()));
+    AnnouncedCameras judged = judge_cameras(std::move(all));
+    welcome_.cameras = std::move(judged.accepted);
+    left_out_ = std::move(judged.left_out);
+}
+
+void ViewerSession::remove_cameras(const std::vector<CameraId>& cameras) {
+    const auto is_gone = [&](CameraId camera) {
+        return std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
+    };
+    left_out_.clear();
+    std::erase_if(welcome_.cameras, [&](const wire::Camera& c) { return is_gone(c.id); });
+    std::erase_if(camera_states_, [&](const auto& entry) { return is_gone(entry.first); });
+    std::erase_if(settings_,
+                  [&](const wire::StreamSetting& s) { return is_gone(camera_of(s.stream)); });
 }
 
 Bytes ViewerSession::choose_delivery(const wire::ChooseDelivery& goal) {

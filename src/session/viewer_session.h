@@ -21,7 +21,10 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery;
-        bool records = false;  // as in wire::Join
+        // As in wire::Join.
+        bool records = false;
+        std::vector<wire::Feature> features = {};
+        Bytes person = {};
     };
 
     explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}
@@ -32,14 +35,18 @@ public:
     // What a message of the host changed.
     enum class Change {
         nothing,
-        welcomed,  // cameras() are known
-        refused,   // refusal() says why; the connection will end
-        settings,  // settings() hold what is new, note() what the host remarked
-        camera,    // camera_states()
-        pong,      // pong() answers a ping
-        delivery,  // delivery(): the host sends more or less
-        renderer,  // renderer_word(): how the host wants this participant to draw
-        goodbye,   // goodbye() says why: the session is over, the connection will end
+        welcomed,    // cameras() are known; they may be others than those of the connection before
+        cameras,     // some of cameras() came or left; the others are as they were
+        refused,     // refusal() says why; the connection will end
+        settings,    // settings() hold what is new, note() what the host remarked
+        camera,      // camera_states()
+        pong,        // pong() answers a ping
+        delivery,    // delivery(): the host sends more or less
+        renderer,    // renderer_word(): how the host wants this participant to draw
+        published,   // published(): the answer to what was offered
+        encode,      // encode(): how to encode the cameras that this participant publishes
+        encode_key,  // encode_key(): a key frame of one of them is wanted
+        goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: what is damaged or not understood is nothing.
     Change on_control(ByteView message);
@@ -47,6 +54,9 @@ public:
     // Other codecs from now on; an empty text keeps the codec. Returns the
     // message to send.
     Bytes choose(const std::string& depth_codec, const std::string& color_codec);
+    // The same of one camera, until another wish is said for it or for all.
+    static Bytes choose(CameraId camera, const std::string& depth_codec,
+                        const std::string& color_codec);
 
     // Another goal from now on. Returns the message to send.
     Bytes choose_delivery(const wire::ChooseDelivery& goal);
@@ -55,9 +65,12 @@ public:
     const wire::Welcome& welcome() const { return welcome_; }
     // Those that judge_cameras() accepts; their calibrations can be decoded.
     const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
-    // A sentence for the user about each camera of the host that was not accepted.
+    // A sentence for the user about each camera that was not accepted, of the last message that
+    // named cameras.
     const std::vector<std::string>& left_out() const { return left_out_; }
+    // Of accepted cameras only.
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
+    bool may_publish() const;
     const std::string& note() const { return note_; }
     // Of accepted cameras only.
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
@@ -68,9 +81,16 @@ public:
     const wire::SetRenderer& renderer_word() const { return renderer_word_; }
     // One sentence for the user; empty as long as the session goes on.
     const std::string& goodbye() const { return goodbye_; }
+    const wire::Published& published() const { return published_; }
+    const wire::Encode& encode() const { return encode_; }
+    const wire::EncodeKey& encode_key() const { return encode_key_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
+    void take_settings(std::vector<wire::StreamSetting> settings);
+    void add_cameras(std::vector<wire::Camera> cameras);
+    void remove_cameras(const std::vector<CameraId>& cameras);
+
     Wishes wishes_;
     bool joined_ = false;
     wire::Welcome welcome_;
@@ -83,6 +103,9 @@ private:
     wire::Delivery delivery_;
     wire::SetRenderer renderer_word_;
     std::string goodbye_;
+    wire::Published published_;
+    wire::Encode encode_;
+    wire::EncodeKey encode_key_;
 };
 
 }  // namespace theatron::session

@@ -24,7 +24,7 @@ void check(const session::ViewerSession& viewer) {
     for (const wire::Camera& camera : viewer.cameras()) {
         const auto calibration = decode_calibration(camera.calibration);
         if (!calibration || !known.insert(camera.id).second ||
-            std::size_t(camera.id) >= wire::max_cameras || !is_shown_as_it_is(camera.name))
+            int(camera.id) > session::max_camera_number || !is_shown_as_it_is(camera.name))
             std::abort();
         depth_pixels += calibration->depth.size.area();
         color_pixels += calibration->color.size.area();
@@ -39,7 +39,7 @@ void check(const session::ViewerSession& viewer) {
                                     viewer.renderer_word().renderer, viewer.welcome().host_name})
         if (!is_shown_as_it_is(text))
             std::abort();
-    if (viewer.settings().size() > wire::max_streams)
+    if (viewer.cameras().size() > wire::max_cameras || viewer.settings().size() > wire::max_streams)
         std::abort();
 }
 

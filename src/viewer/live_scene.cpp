@@ -16,21 +16,17 @@ namespace {
 constexpr double stale_presence = 0.3;
 constexpr double fading_seconds = 0.5;
 
+LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
+    return {camera.description.session, camera.description.name};
+}
+
 }  // namespace
 
 std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     std::uint64_t generation = 0;
     const auto cameras = participant.cameras(generation);
     if (generation != generation_) {
-        for (const auto& [id, calibration] : calibrations_)
-            clouds_.remove_camera(id);
-        calibrations_.clear();
-        presence_.clear();
-        newest_.clear();
-        for (const auto& camera : cameras) {
-            clouds_.set_camera(camera.description.id, camera.calibration);
-            calibrations_[camera.description.id] = camera.calibration;
-        }
+        take_cameras(cameras);
         cut_people(cameras);
         generation_ = generation;
     }
@@ -43,6 +39,42 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
             updated.push_back(frame->camera);
         }
     return updated;
+}
+
+// Cameras that left, came or were calibrated anew; the others' pictures stay. A camera of another
+// session is another one, whatever its number.
+void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cameras) {
+    const auto announced = [&](CameraId id) {
+        return std::find_if(cameras.begin(), cameras.end(),
+                            [&](const auto& camera) { return camera.description.id == id; });
+    };
+    const auto shown = calibrations_;
+    for (const auto& [id, calibration] : shown)
+        if (const auto camera = announced(id);
+            camera == cameras.end() || origin_of(*camera) != origins_[id]) {
+            clouds_.remove_camera(id);
+            calibrations_.erase(id);
+            origins_.erase(id);
+            presence_.erase(id);
+            newest_.erase(id);
+        }
+    for (const auto& camera : cameras) {
+        const CameraId id = camera.description.id;
+        const auto known = calibrations_.find(id);
+        const bool is_new = known == calibrations_.end();
+        // More cannot be drawn; what came first stays.
+        if (is_new && calibrations_.size() == std::size_t(render::max_cameras))
+            continue;
+        if (!is_new && known->second == camera.calibration)
+            continue;
+        const bool same_lens = !is_new && known->second.depth == camera.calibration.depth &&
+                               known->second.color == camera.calibration.color;
+        if (!same_lens)
+            newest_.erase(id);
+        clouds_.set_camera(id, camera.calibration);
+        calibrations_[id] = camera.calibration;
+        origins_[id] = origin_of(camera);
+    }
 }
 
 Status LiveScene::upload(const receive::CameraFrame& frame) {

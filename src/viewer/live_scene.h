@@ -22,11 +22,15 @@ struct RoomChoice {
 // Use from one thread, with the same GL context current.
 class LiveScene {
 public:
+    // With its number, which camera it is.
+    using Origin = std::pair<wire::SessionId, std::string>;
+
     explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})
         : choice_(choice), people_(std::move(people)) {}
 
-    // Takes over new cameras and frames. Returns the cameras with a new picture. Throws
-    // Error if a person's place names a camera that the host never had.
+    // Takes over new cameras and frames. Returns the cameras with a new picture. A camera that
+    // joins or leaves changes no other camera's picture; beyond render::max_cameras none is added.
+    // Throws Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
     // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
@@ -49,6 +53,7 @@ public:
                            const std::string& renderer, bool with_room);
 
 private:
+    void take_cameras(const std::vector<client::Participant::Camera>& cameras);
     Status upload(const receive::CameraFrame& frame);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
@@ -65,6 +70,7 @@ private:
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;
+    std::map<CameraId, Origin> origins_;
     std::map<CameraId, receive::CameraFramePtr> newest_;
 };
 

@@ -67,6 +67,14 @@ Offset<void> pack_part(Builder& b, const Bytes& bytes) {
         .Union();
 }
 
+template <class Id>
+requires std::is_enum_v<Id> Offset<void> pack_part(Builder& b, const std::vector<Id>& ids) {
+    std::vector<Number<Id>> numbers;
+    for (const Id id : ids)
+        numbers.push_back(to_number(id));
+    return b.CreateVector(numbers).Union();
+}
+
 template <class Element>
 Offset<void> pack_part(Builder& b, const std::vector<Element>& list) {
     std::vector<Offset<Table>> tables;
@@ -121,6 +129,9 @@ bool is_sound(const Message&) {
 bool is_sound(const StreamSetting& setting) {
     return setting.setting != SettingId{};
 }
+bool is_sound(const Join& join) {
+    return join.person.empty() || join.person.size() == person_id_size;
+}
 bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
@@ -143,6 +154,19 @@ bool unpack_part(const Table& table, voffset_t slot, std::size_t limit, Bytes& b
         return false;
     const auto view = std::as_bytes(std::span(part->data(), part->size()));
     bytes.assign(view.begin(), view.end());
+    return true;
+}
+
+template <class Id>
+requires std::is_enum_v<Id>
+bool unpack_part(const Table& table, voffset_t slot, std::size_t limit, std::vector<Id>& ids) {
+    const auto* part = table.GetPointer<const Vector<Number<Id>>*>(slot);
+    if (!part)
+        return true;
+    if (part->size() > limit)
+        return false;
+    for (const Number<Id> number : *part)
+        ids.push_back(Id(number));
     return true;
 }
 

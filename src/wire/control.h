@@ -25,15 +25,28 @@ inline constexpr std::uint16_t protocol_max = 2;
 
 // What decoding lets through, in characters. It makes every text clean
 // (base/outside_text.h) and cuts it to these; a list that is longer makes its message malformed.
-inline constexpr std::size_t max_name = 64;       // of a participant, a host, a camera
-inline constexpr std::size_t max_token = 256;     // the host compares it whole
-inline constexpr std::size_t max_codec = 200;     // one codec in its spelling
-inline constexpr std::size_t max_renderer = 40;   // one renderer's name
-inline constexpr std::size_t max_sentence = 500;  // a reason, a problem, a note, a step
-inline constexpr std::size_t max_filter = 1000;   // a chain of filters in its spelling
-inline constexpr std::size_t max_cameras = 63;    // of one host, as many as a recording holds
+inline constexpr std::size_t max_name = 64;                // of a participant, a host, a camera
+inline constexpr std::size_t max_token = 256;              // the host compares it whole
+inline constexpr std::size_t max_codec = 200;              // one codec in its spelling
+inline constexpr std::size_t max_renderer = 40;            // one renderer's name
+inline constexpr std::size_t max_sentence = 500;           // a reason, a problem, a note, a step
+inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
+inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
 inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
 inline constexpr std::size_t max_streams = 2 * max_cameras;
+// Of all cameras of one publisher together.
+inline constexpr std::size_t max_encodings = 64;
+
+// Numbers of things that not every program of a protocol does; a program passes over those that it
+// does not know.
+enum class Feature : std::uint16_t {
+    publish = 1,  // sends cameras
+};
+inline constexpr std::size_t max_features = 32;
+inline constexpr std::size_t person_id_size = 16;
+
+// A run of a host; random. Numbers of cameras and participants are of one session.
+enum class SessionId : std::uint32_t {};
 
 // The first message of a participant.
 struct Join {
@@ -48,6 +61,11 @@ struct Join {
     // It records: it is sent everything in order, however late, and nobody else's doing changes
     // its encodings while it stays.
     bool records = false;
+    // What this program can do beside what every program of its protocol can.
+    std::vector<Feature> features;
+    // 16 random bytes that this person's program keeps; empty: it keeps none. The number of a
+    // participant is of one connection, this is of all.
+    Bytes person;
 
     static void fields(auto& m, auto&& field) {
         field(m.protocol_min);
@@ -59,6 +77,8 @@ struct Join {
         field(m.target_latency_ms);
         field(m.max_kbit_per_s);
         field(m.records);
+        field(m.features, max_features);
+        field(m.person, person_id_size);
     }
 };
 
@@ -66,11 +86,44 @@ struct Join {
 struct ChooseCodecs {
     std::string depth_codec;
     std::string color_codec;
+    // Of these cameras only. Empty: of all, also of those that come later; what was chosen for
+    // single cameras no longer holds.
+    std::vector<CameraId> cameras;
 
     static void fields(auto& m, auto&& field) {
         field(m.depth_codec, max_codec);
         field(m.color_codec, max_codec);
+        field(m.cameras, max_cameras);
     }
+};
+
+// A camera that a participant offers. The host gives it its number.
+struct OfferedCamera {
+    std::string name;
+    bool has_color = false;
+    double frames_per_second = 0;
+    Bytes calibration;  // geometry/calibration.h
+
+    static void fields(auto& m, auto&& field) {
+        field(m.name, max_name);
+        field(m.has_color);
+        field(m.frames_per_second);
+        field(m.calibration, max_calibration_size);
+    }
+};
+
+// The participant wants to send these cameras. The host answers with Published.
+struct Publish {
+    std::vector<OfferedCamera> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+};
+
+// The participant takes these of its cameras out of the session.
+struct Unpublish {
+    std::vector<CameraId> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
 };
 
 // The participant lost the reference frame of this stream.
@@ -135,7 +188,9 @@ struct Camera {
     StreamId color_stream{};
     bool has_color = false;
     double frames_per_second = 0;
-    Bytes calibration;  // geometry/calibration.h
+    Bytes calibration;          // geometry/calibration.h
+    ParticipantId publisher{};  // 0: the host
+    SessionId session{};        // to which it belongs
 
     static void fields(auto& m, auto&& field) {
         field(m.id);
@@ -145,6 +200,8 @@ struct Camera {
         field(m.has_color);
         field(m.frames_per_second);
         field(m.calibration, max_calibration_size);
+        field(m.publisher);
+        field(m.session);
     }
 };
 
@@ -154,12 +211,43 @@ struct Welcome {
     ParticipantId participant{};
     std::string host_name;
     std::vector<Camera> cameras;
+    // Those of Join that hold in this session.
+    std::vector<Feature> features;
+    SessionId session{};
 
     static void fields(auto& m, auto&& field) {
         field(m.protocol);
         field(m.participant);
         field(m.host_name, max_name);
         field(m.cameras, max_cameras);
+        field(m.features, max_features);
+        field(m.session);
+    }
+};
+
+// Cameras have joined the session. The others stay as they are.
+struct CamerasAdded {
+    std::vector<Camera> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+};
+
+// Cameras have left the session. Their numbers never come again.
+struct CamerasRemoved {
+    std::vector<CameraId> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+};
+
+// The host's answer to Publish: the numbers of the cameras, in their order. Where `problem` is not
+// empty, none was taken, and it is one sentence for the user.
+struct Published {
+    std::vector<CameraId> cameras;
+    std::string problem;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.cameras, max_cameras);
+        field(m.problem, max_sentence);
     }
 };
 
@@ -183,8 +271,8 @@ struct StreamSetting {
     }
 };
 
-// What this participant now gets. `note` is empty or says why it is not what
-// was asked for.
+// How this participant gets these streams from now on; others stay as they are. `note` is empty or
+// says why it is not what was asked for.
 struct Settings {
     std::vector<StreamSetting> settings;
     std::string note;
@@ -197,6 +285,7 @@ struct Settings {
 
 enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, failed = 3 };
 
+// Said by the host about any camera, by a publisher about its own.
 struct CameraState {
     CameraId camera{};
     CameraCondition condition{};
@@ -208,6 +297,25 @@ struct CameraState {
         field(m.condition);
         field(m.problem, max_sentence);
         field(m.filter, max_filter);
+    }
+};
+
+// To a publisher: how to encode its streams from now on, exactly so; streams without a setting are
+// not encoded.
+struct Encode {
+    std::vector<StreamSetting> settings;
+
+    static void fields(auto& m, auto&& field) { field(m.settings, max_encodings); }
+};
+
+// To a publisher: the next frame of this stream in this setting is to be a key frame.
+struct EncodeKey {
+    StreamId stream{};
+    SettingId setting{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.stream);
+        field(m.setting);
     }
 };
 
@@ -259,9 +367,11 @@ struct Goodbye {
 };
 
 // In the order of the unions in control.fbs.
-using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery>;
+using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
+                            Unpublish, CameraState>;
 using ToParticipant =
-    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye>;
+    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
+                 CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey>;
 
 Bytes encode(const ToHost& message);
 Bytes encode(const ToParticipant& message);

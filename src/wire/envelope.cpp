@@ -122,6 +122,11 @@ bool StateReader::next(State& state) {
     return true;
 }
 
+void Unwrapper::take_media(std::size_t max_message) {
+    takes_ = Takes::everything;
+    max_message_ = std::min(max_message, max_media_size);
+}
+
 Result<Unwrapper::Unwrapped> Unwrapper::take(ByteView envelope) {
     if (envelope.empty())
         return Status::truncated;
@@ -153,7 +158,7 @@ Result<Unwrapper::Unwrapped> Unwrapper::take_chunk(ByteView envelope) {
     const std::size_t offset = load_le<std::uint32_t>(envelope.data() + 1);
     const std::size_t total = load_le<std::uint32_t>(envelope.data() + 5);
     const ByteView chunk = envelope.subspan(chunk_header_size);
-    if (total > max_media_size || chunk.size() > max_chunk_size)
+    if (total > max_message_ || chunk.size() > max_chunk_size)
         return Status::too_large;
     const bool continues = offset == filled_ && (offset == 0 || total == expected_);
     if (!continues || chunk.size() > total - offset)

@@ -114,10 +114,14 @@ public:
     // The views are valid until the next call. After a status the connection should be closed.
     Result<Unwrapped> take(ByteView envelope);
 
+    // Media is taken from now on, at most `max_message` bytes in one message.
+    void take_media(std::size_t max_message);
+
 private:
     Result<Unwrapped> take_chunk(ByteView envelope);
 
     Takes takes_;
+    std::size_t max_message_ = media_header_size + max_payload_size;
     Bytes media_;
     std::size_t filled_ = 0;
     std::size_t expected_ = 0;

@@ -251,6 +251,10 @@ Result<ToParticipant> decoded_again(const ToParticipant& m) {
     return decode_to_participant(encode(m));
 }
 
+Result<ToParticipant> decoded_again(const CameraState& m) {
+    return decoded_again(ToParticipant(m));
+}
+
 template <class T>
 T round_trip(const T& m) {
     const auto decoded = decoded_again(m);
@@ -260,7 +264,20 @@ T round_trip(const T& m) {
 }
 
 TEST(Control, EveryMessageRoundTrips) {
-    const Join join = round_trip(Join{1, 2, "secret", "Dr. A", "trvl", "jpeg", 150, 9000, true});
+    const Join join = round_trip(Join{1,
+                                      2,
+                                      "secret",
+                                      "Dr. A",
+                                      "trvl",
+                                      "jpeg",
+                                      150,
+                                      9000,
+                                      true,
+                                      {Feature::publish, Feature{999}},
+                                      numbered(16)});
+    EXPECT_EQ(join.features, (std::vector{Feature::publish, Feature{999}}));
+    EXPECT_EQ(join.person, numbered(16));
+    EXPECT_FALSE(decoded_again(Join{1, 2, "", "", "", "", 0, 0, false, {}, numbered(15)}));
     EXPECT_EQ(join.protocol_max, 2);
     EXPECT_EQ(join.token, "secret");
     EXPECT_EQ(join.name, "Dr. A");
@@ -272,7 +289,35 @@ TEST(Control, EveryMessageRoundTrips) {
     const Delivery delivery = round_trip(Delivery{2, 6, "a quarter of the frames", "too old"});
     EXPECT_EQ(int(delivery.level) * 10 + delivery.levels, 26);
     EXPECT_EQ(delivery.what + delivery.reason, "a quarter of the framestoo old");
-    EXPECT_EQ(round_trip(ChooseCodecs{"rvl", ""}).depth_codec, "rvl");
+    const std::vector<CameraId> cameras{CameraId{3}, CameraId{0x7fff}};
+    EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).depth_codec, "rvl");
+    EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).cameras, cameras);
+    const Publish offer = round_trip(Publish{{{"face", true, 30, numbered(5)}}});
+    ASSERT_EQ(offer.cameras.size(), 1u);
+    EXPECT_EQ(offer.cameras[0].name, "face");
+    EXPECT_EQ(offer.cameras[0].calibration, numbered(5));
+    EXPECT_EQ(round_trip(Unpublish{cameras}).cameras, cameras);
+    EXPECT_EQ(round_trip(CamerasRemoved{cameras}).cameras, cameras);
+    EXPECT_EQ(round_trip(Published{cameras, "no"}).cameras, cameras);
+    EXPECT_EQ(round_trip(Published{cameras, "no"}).problem, "no");
+    const CamerasAdded added = round_trip(CamerasAdded{{{CameraId{9},
+                                                         "a",
+                                                         StreamId{18},
+                                                         StreamId{19},
+                                                         true,
+                                                         30,
+                                                         {},
+                                                         ParticipantId{4},
+                                                         SessionId{7}}}});
+    EXPECT_EQ(added.cameras.at(0).session, SessionId{7});
+    ASSERT_EQ(added.cameras.size(), 1u);
+    EXPECT_EQ(added.cameras[0].publisher, ParticipantId{4});
+    EXPECT_EQ(round_trip(Encode{{{StreamId{18}, SettingId{2}, "raw"}}}).settings[0].codec, "raw");
+    EXPECT_EQ(round_trip(EncodeKey{StreamId{18}, SettingId{2}}).setting, SettingId{2});
+    EXPECT_EQ(
+        std::get<CameraState>(*decoded_again(ToHost(CameraState{CameraId{1}, {}, "gone", ""})))
+            .problem,
+        "gone");
     EXPECT_EQ(round_trip(RequestKey{StreamId{3}, SettingId{4}}).setting, SettingId{4});
     EXPECT_EQ(round_trip(Ping{from_us(-5)}).sent, from_us(-5));
     const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}, "blend"});
@@ -303,7 +348,7 @@ TEST(Control, EveryMessageRoundTrips) {
 
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
-    const Bytes known = encode(Goodbye{"over"});
+    const Bytes known = encode(EncodeKey{StreamId{1}, SettingId{1}});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {

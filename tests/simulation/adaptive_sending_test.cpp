@@ -124,9 +124,15 @@ private:
         const auto check = [](const std::string& text) {
             return HostSession::CheckedCodec{text, ""};
         };
-        return {"secret",     "OR",  {camera},
-                check,        check, [](std::string_view a, std::string_view b) { return a == b; },
-                codec_steps()};
+        HostSession::Config config;
+        config.admission.tokens = {{"secret", session::Role::viewer, {}}};
+        config.admission.equal_secrets = [](std::string_view a, std::string_view b) {
+            return a == b;
+        };
+        config.cameras = {camera};
+        config.check_depth = config.check_color = check;
+        config.streams.codecs = codec_steps();
+        return config;
     }
 
     double color_size(const std::string& codec) const {

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/camera_publisher.h"
+
+#include <algorithm>
+
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "geometry/calibration.h"
+#include "video/color_codec.h"
+#include "video/depth_codecs.h"
+
+namespace theatron::publish {
+namespace {
+
+// Why this build cannot encode so; empty: it can.
+std::string problem_of(bool depth, const std::string& codec) {
+    if (depth) {
+        const auto parsed = video::parse_depth_setting(codec);
+        return parsed.problem.empty() ? video::missing_depth_encoder(parsed.setting)
+                                      : parsed.problem;
+    }
+    const auto parsed = video::parse_color_setting(codec);
+    return parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem;
+}
+
+void shift(TimePoint& time, Duration offset) {
+    if (time != TimePoint{})
+        time += offset;
+}
+
+}  // namespace
+
+CameraPublisher::CameraPublisher(std::vector<std::string> specifications,
+                                 const capture::Progress& progress)
+    : specifications_(std::move(specifications)), states_(specifications_.size()) {
+    std::vector<std::unique_ptr<capture::Camera>> cameras;
+    for (const std::string& specification : specifications_) {
+        cameras.push_back(capture::open_camera(specification, progress));
+        const capture::CameraInfo& info = cameras.back()->info();
+        offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
+                           encode_calibration(info.calibration)});
+    }
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        open(i, std::move(cameras[i]));
+}
+
+CameraPublisher::~CameraPublisher() {
+    end();
+    lanes_.clear();
+}
+
+void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> opened) {
+    send::CameraLane::Events events;
+    events.media = [this, camera](const send::EncodedMedia& encoded) { on_media(camera, encoded); };
+    events.state = [this, camera](wire::CameraState state) { on_state(camera, std::move(state)); };
+    send::CameraLane::Options options;
+    options.cameras = specifications_.size();
+    options.open_again = [specification = specifications_[camera]] {
+        return capture::open_camera(specification);
+    };
+    // Lanes count from 0; the host's numbers are put into the headers.
+    lanes_.push_back(std::make_unique<send::CameraLane>(
+        CameraId(camera), std::move(opened), std::move(events), workers_, std::move(options)));
+}
+
+client::Participant::Publishing CameraPublisher::events() {
+    client::Participant::Publishing events;
+    events.published = [this](const std::vector<CameraId>& numbers) { on_published(numbers); };
+    events.encode = [this](const std::vector<wire::StreamSetting>& settings) {
+        on_encode(settings);
+    };
+    events.encode_key = [this](StreamId stream, SettingId setting) {
+        on_encode_key(stream, setting);
+    };
+    return events;
+}
+
+void CameraPublisher::begin(client::Participant& participant) {
+    {
+        const std::lock_guard lock(mutex_);
+        participant_ = &participant;
+    }
+    participant.publish(offers_);
+}
+
+void CameraPublisher::end() {
+    const std::lock_guard lock(mutex_);
+    if (participant_)
+        participant_->publish({});
+    participant_ = nullptr;
+    numbers_.clear();
+    for (const auto& lane : lanes_)
+        lane->set_settings({}, {});
+}
+
+// The camera that the host calls so; lanes_.size() if there is none.
+std::size_t CameraPublisher::camera_with(CameraId number) const {
+    const auto found = std::find(numbers_.begin(), numbers_.end(), number);
+    return found == numbers_.end() ? lanes_.size() : std::size_t(found - numbers_.begin());
+}
+
+void CameraPublisher::on_published(const std::vector<CameraId>& numbers) {
+    const std::lock_guard lock(mutex_);
+    if (!participant_)
+        return;
+    numbers_ = numbers;
+    numbers_.resize(std::min(numbers_.size(), lanes_.size()));
+    if (numbers_.empty())
+        for (const auto& lane : lanes_)
+            lane->set_settings({}, {});
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        wire::CameraState state = states_[i];
+        state.camera = numbers_[i];
+        if (state.condition != wire::CameraCondition::live || !state.problem.empty())
+            participant_->tell_camera(state);
+    }
+}
+
+void CameraPublisher::on_encode(const std::vector<wire::StreamSetting>& settings) {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::vector<send::LaneSetting>> depth(lanes_.size()), color(lanes_.size());
+    for (const wire::StreamSetting& setting : settings) {
+        const std::size_t camera = camera_with(camera_of(setting.stream));
+        if (camera == lanes_.size())
+            continue;
+        const bool is_depth = theatron::is_depth(setting.stream);
+        if (const std::string problem = problem_of(is_depth, setting.codec); !problem.empty()) {
+            log::warning("publish", "cannot encode as the host asks",
+                         {log::outside("codec", setting.codec), {"problem", problem}});
+            continue;
+        }
+        (is_depth ? depth : color)[camera].push_back({setting.setting, setting.codec});
+    }
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+        lanes_[i]->set_settings(std::move(depth[i]), std::move(color[i]));
+}
+
+void CameraPublisher::on_encode_key(StreamId stream, SettingId setting) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t camera = camera_with(camera_of(stream));
+    if (camera < lanes_.size())
+        lanes_[camera]->request_key(
+            is_depth(stream) ? depth_stream(CameraId(camera)) : color_stream(CameraId(camera)),
+            setting);
+}
+
+// The host's number of the camera and the session's time come into the header.
+void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& encoded) {
+    const std::lock_guard lock(mutex_);
+    if (!participant_ || camera >= numbers_.size())
+        return;
+    const Duration offset = participant_->now() - steady_now();
+    wire::MediaHeader header = encoded.header;
+    header.stream =
+        is_depth(header.stream) ? depth_stream(numbers_[camera]) : color_stream(numbers_[camera]);
+    for (TimePoint* time :
+         {&header.moment, &header.captured, &header.delivered, &header.filtered, &header.encoded})
+        shift(*time, offset);
+    const auto message = std::make_shared<Bytes>(*encoded.message);
+    wire::write_media_header(header, message->data());
+    participant_->send_media(header, message);
+}
+
+void CameraPublisher::on_state(std::size_t camera, wire::CameraState state) {
+    const std::lock_guard lock(mutex_);
+    states_[camera] = state;
+    if (!participant_ || camera >= numbers_.size())
+        return;
+    state.camera = numbers_[camera];
+    participant_->tell_camera(state);
+}
+
+}  // namespace theatron::publish

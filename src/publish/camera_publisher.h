@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cameras of a participant: opens them, encodes them as the host asks, and sends them.
+//
+//     publish::CameraPublisher publisher({"synthetic"}, {});
+//     client::Participant::Options options{...};
+//     options.publishing = publisher.events();
+//     client::Participant participant(options);
+//     const publish::Publishing running(publisher, participant);
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "capture/camera.h"
+#include "client/participant.h"
+#include "send/camera_lane.h"
+
+namespace theatron::publish {
+
+class CameraPublisher {
+public:
+    // Opens the cameras; throws Error with one sentence if one cannot be had.
+    CameraPublisher(std::vector<std::string> specifications, const capture::Progress& progress);
+    ~CameraPublisher();
+
+    // For the options of the participant that sends them; valid as long as the publisher.
+    client::Participant::Publishing events();
+
+    // The cameras join the session of this participant, which stays until end().
+    void begin(client::Participant& participant);
+    // No more is called of the participant once this has returned.
+    void end();
+
+private:
+    void open(std::size_t camera, std::unique_ptr<capture::Camera> opened);
+    void on_published(const std::vector<CameraId>& numbers);
+    void on_encode(const std::vector<wire::StreamSetting>& settings);
+    void on_encode_key(StreamId stream, SettingId setting);
+    void on_media(std::size_t camera, const send::EncodedMedia& encoded);
+    void on_state(std::size_t camera, wire::CameraState state);
+    std::size_t camera_with(CameraId number) const;
+
+    const std::vector<std::string> specifications_;
+    std::vector<wire::OfferedCamera> offers_;
+
+    std::mutex mutex_;  // guards all up to `lanes_`
+    client::Participant* participant_ = nullptr;
+    std::vector<CameraId> numbers_;          // as the host gave them, by camera; may be empty
+    std::vector<wire::CameraState> states_;  // newest, by camera
+
+    send::Workers workers_;
+    std::vector<std::unique_ptr<send::CameraLane>> lanes_;  // never change
+};
+
+// Begins, and ends when it goes.
+class Publishing {
+public:
+    Publishing(CameraPublisher& publisher, client::Participant& participant)
+        : publisher_(publisher) {
+        publisher_.begin(participant);
+    }
+    ~Publishing() { publisher_.end(); }
+    Publishing(const Publishing&) = delete;
+    Publishing& operator=(const Publishing&) = delete;
+
+private:
+    CameraPublisher& publisher_;
+};
+
+}  // namespace theatron::publish

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/admission.h"
+
+#include <algorithm>
+
+namespace theatron::session {
+namespace {
+
+std::string shown_name(const std::string& name) {
+    return name.find_first_not_of(' ') == std::string::npos ? "guest" : name;
+}
+
+}  // namespace
+
+void Admission::on_connected(ParticipantId id, std::size_t streams, TimePoint now) {
+    const auto found = participants_.try_emplace(id, streams).first;
+    found->second.connected = now;
+}
+
+Admission::Participant* Admission::find(ParticipantId id) {
+    const auto found = participants_.find(id);
+    return found == participants_.end() ? nullptr : &found->second;
+}
+
+Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) const {
+    if (hello.protocol_min > wire::protocol_max)
+        return {{},
+                "This host is older than your Theatron (protocol " +
+                    std::to_string(wire::protocol_max) + ", you need " +
+                    std::to_string(hello.protocol_min) + "); update the host."};
+    if (hello.protocol_max < wire::protocol_min)
+        return {{},
+                "Your Theatron is too old for this host (protocol " +
+                    std::to_string(hello.protocol_max) + ", it needs " +
+                    std::to_string(wire::protocol_min) + "); update it."};
+    // All are compared, so that the time that it takes says nothing about which one is right.
+    const Token* shown = nullptr;
+    for (const Token& token : config_.tokens)
+        if (config_.equal_secrets(hello.token, token.secret))
+            shown = &token;
+    if (!shown)
+        return {{}, "The join token is wrong; ask for the host's current link."};
+    if (shown->expires && now >= *shown->expires)
+        return {{}, "This link has expired; ask for a new one."};
+    const auto recorders = std::count_if(
+        participants_.begin(), participants_.end(),
+        [](const auto& entry) { return entry.second.takes_part() && entry.second.records; });
+    if (hello.records && recorders >= max_recorders)
+        return {{},
+                "This session is recorded " + std::to_string(max_recorders) +
+                    " times already, which is as often as can be; end another recording."};
+    return {shown->role, ""};
+}
+
+void Admission::admit(Participant& participant, const wire::Join& hello, Role role) {
+    participant.joined = true;
+    participant.protocol = std::min(hello.protocol_max, wire::protocol_max);
+    participant.role = role;
+    participant.person = hello.person;
+    participant.features.clear();
+    const bool publishes = std::find(hello.features.begin(), hello.features.end(),
+                                     wire::Feature::publish) != hello.features.end();
+    if (publishes && role == Role::publisher)
+        participant.features.push_back(wire::Feature::publish);
+    participant.records = hello.records;
+    participant.name = shown_name(hello.name);
+}
+
+void Admission::keep_for_later(Participant& participant, wire::ToHost message) {
+    const auto keep = [&](std::optional<CameraId> camera, const wire::ChooseCodecs& wish) {
+        wire::ChooseCodecs& late = participant.late_codecs[camera];
+        if (!wish.depth_codec.empty())
+            late.depth_codec = wish.depth_codec;
+        if (!wish.color_codec.empty())
+            late.color_codec = wish.color_codec;
+        if (camera)
+            late.cameras = {*camera};
+    };
+    if (const auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
+        if (wish->cameras.empty()) {
+            // What was kept for single cameras no longer holds.
+            for (auto& [camera, late] : participant.late_codecs) {
+                if (!wish->depth_codec.empty())
+                    late.depth_codec.clear();
+                if (!wish->color_codec.empty())
+                    late.color_codec.clear();
+            }
+            keep(std::nullopt, *wish);
+        }
+        for (const CameraId camera : wish->cameras)
+            if (participant.late_codecs.size() <= wire::max_cameras)
+                keep(camera, *wish);
+    } else if (const auto* goal = std::get_if<wire::ChooseDelivery>(&message)) {
+        participant.late_goal = *goal;
+    }
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The participants of a session: who may come in, in which role and for how long; their names, and
+// how often each may ask for something.
+//
+// A pure state machine; time is passed in.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/time.h"
+#include "session/request_budget.h"
+#include "wire/control.h"
+
+namespace theatron::session {
+
+enum class Role : std::uint8_t {
+    viewer,     // receives
+    publisher,  // may send cameras, too
+};
+
+class Admission {
+public:
+    // Whoever shows the token may join in this role, until it expires.
+    struct Token {
+        std::string secret;
+        Role role = Role::viewer;
+        std::optional<TimePoint> expires;
+    };
+    struct Config {
+        std::vector<Token> tokens;
+        // Compares secrets in constant time; given, because this module has no crypto.
+        std::function<bool(std::string_view, std::string_view)> equal_secrets;
+    };
+
+    // Connections that have not joined by then are closed.
+    static constexpr Duration join_deadline = std::chrono::seconds(5);
+    // Each may have much waiting to be sent (net::Outbox::max_kept_bytes). One more is refused.
+    static constexpr int max_recorders = 4;
+
+    struct Participant {
+        // `streams`: how many there are in the session.
+        explicit Participant(std::size_t streams) : budget(streams) {}
+
+        bool joined = false;
+        bool closing = false;
+        bool takes_part() const { return joined && !closing; }
+        TimePoint connected;
+        std::uint16_t protocol = 0;
+        std::string name;
+        Bytes person;                         // as in wire::Join
+        std::vector<wire::Feature> features;  // those of Join that hold here
+        Role role = Role::viewer;
+        bool records = false;                    // as in wire::Join
+        std::size_t max_media = 0;               // bytes of its largest media message so far
+        std::vector<wire::StreamReport> report;  // the newest
+        std::string renderer;                    // how it draws, as it says; may be empty
+        TimePoint renderer_noted;                // when that was last believed
+        RequestBudget budget;
+        // The newest of what was asked for too often; carried out as soon as it may be. Of codecs
+        // one for each camera, and one for all.
+        std::map<std::optional<CameraId>, wire::ChooseCodecs> late_codecs;
+        std::optional<wire::ChooseDelivery> late_goal;
+    };
+
+    explicit Admission(Config config) : config_(std::move(config)) {}
+
+    void on_connected(ParticipantId id, std::size_t streams, TimePoint now);
+    // Null if there is none of this number.
+    Participant* find(ParticipantId id);
+    const std::map<ParticipantId, Participant>& participants() const { return participants_; }
+    std::map<ParticipantId, Participant>& participants() { return participants_; }
+    void remove(ParticipantId id) { participants_.erase(id); }
+
+    // Whether this connection may join: in its role, or with one sentence on why not.
+    struct Verdict {
+        Role role = Role::viewer;
+        std::string refusal;  // empty: welcome
+    };
+    Verdict judge(const wire::Join& hello, TimePoint now) const;
+    // The participant is in from now on.
+    void admit(Participant& participant, const wire::Join& hello, Role role);
+
+    // Takes a request that came too often. Of wishes the last counts;
+    // all else is asked for or said again.
+    static void keep_for_later(Participant& participant, wire::ToHost message);
+
+private:
+    const Config config_;
+    std::map<ParticipantId, Participant> participants_;
+};
+
+}  // namespace theatron::session

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// One camera of a session: who publishes it, in which settings it is encoded, and which of them
+// each receiver gets. A pure state machine.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/time.h"
+#include "session/setting_table.h"
+#include "session/stream_rates.h"
+#include "wire/control.h"
+#include "wire/media_header.h"
+
+namespace theatron::session {
+
+class CameraStreams {
+public:
+    struct Usual {
+        std::string depth, color;  // codecs that have a place of their own; see SettingTable
+    };
+    // `numbers` outlives the camera.
+    CameraStreams(wire::Camera description, SettingNumbers& numbers, const Usual& usual,
+                  const CodecSteps& codecs);
+
+    const wire::Camera& description() const { return description_; }
+    ParticipantId publisher() const { return description_.publisher; }
+    StreamId stream(bool depth) const {
+        return depth ? description_.depth_stream : description_.color_stream;
+    }
+
+    SettingTable& table(bool depth) { return depth ? depth_ : color_; }
+    const SettingTable& table(bool depth) const { return depth ? depth_ : color_; }
+
+    // What a receiver was told that it gets; {} before.
+    struct Told {
+        SettingId depth{}, color{};
+        int highest_layer = 0;  // that it is sent
+        SettingId of(bool is_depth) const { return is_depth ? depth : color; }
+    };
+    std::map<ParticipantId, Told> receivers;
+
+    std::optional<wire::CameraState> state;  // as its publisher said last
+
+    // Settings that were active when this was called last and are no more; nothing if neither they
+    // nor others changed.
+    std::optional<std::vector<SettingId>> take_change();
+
+    // Encoding in this setting keeps up no longer, or does again. True if that is new.
+    bool set_slow(bool depth, SettingId setting, bool is_slow);
+    bool is_slow(bool depth, const std::string& codec) const;
+
+    // A frame of this camera was encoded. Its layer for receivers, or none if its setting is not
+    // active.
+    std::optional<int> on_media(const wire::MediaHeader& header, TimePoint now);
+    // Which layer a colour frame has for a receiver that gets this depth setting. Colour has the
+    // layer of the depth that belongs to it, so that the same moments are left out of both.
+    int color_layer(FrameNumber frame, SettingId depth) const;
+    // From exposure to encoded, about; 0 if nothing was encoded.
+    Duration made_in(SettingId setting) const;
+
+private:
+    struct NewestDepth {
+        FrameNumber frame = 0;
+        int layer = 0;
+    };
+    wire::Camera description_;
+    SettingTable depth_, color_;
+    std::function<bool(std::uint8_t)> refers_;  // as in CodecSteps
+    std::vector<ActiveSetting> known_depth_, known_color_;  // at the last take_change()
+    std::set<SettingId> slow_;
+    std::map<SettingId, Duration> made_in_;
+    std::map<SettingId, NewestDepth> newest_depth_;
+};
+
+}  // namespace theatron::session

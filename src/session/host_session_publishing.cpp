@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras of participants: offers, and what comes from them.
+#include <algorithm>
+#include <utility>
+
+#include "geometry/calibration.h"
+#include "session/announced_cameras.h"
+#include "session/host_session.h"
+
+namespace theatron::session {
+namespace {
+
+// No codec makes a picture much larger than its pixels (receive::max_media_size).
+std::size_t max_media_size(Size size) {
+    constexpr std::size_t overhead = 64 * 1024, bytes_per_pixel = 4;
+    return wire::media_header_size + overhead + bytes_per_pixel * size.area();
+}
+
+}  // namespace
+
+void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint) {
+    std::vector<wire::Camera> cameras;
+    for (const wire::OfferedCamera& offered : offer.cameras) {
+        wire::Camera camera;
+        camera.name = offered.name;
+        camera.has_color = offered.has_color;
+        camera.frames_per_second = offered.frames_per_second;
+        camera.calibration = offered.calibration;
+        camera.session = config_.session;
+        cameras.push_back(std::move(camera));
+    }
+    if (std::string problem = problem_of(id, offer, cameras); !problem.empty())
+        return send(id, wire::Published{{}, std::move(problem)});
+    // The publisher knows its cameras' numbers before it is told how to encode them.
+    wire::Published answer;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        answer.cameras.push_back(streams_.next_id(i));
+    send(id, std::move(answer));
+    streams_.add(id, std::move(cameras));
+    take_media(id);
+    set_budgets();
+}
+
+// Why these cameras cannot join the session; empty: they can.
+std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
+                                    const std::vector<wire::Camera>& cameras) const {
+    const auto& features = admission_.participants().at(id).features;
+    if (std::find(features.begin(), features.end(), wire::Feature::publish) == features.end())
+        return "This link lets nobody send cameras; ask for the host's link for publishers.";
+    if (offer.cameras.empty())
+        return "No camera was offered.";
+    if (streams_.of(id).size() + cameras.size() > max_published)
+        return "A participant can send " + std::to_string(max_published) + " cameras at once.";
+    if (streams_.size() + cameras.size() > wire::max_cameras)
+        return "The session has " + std::to_string(wire::max_cameras) +
+               " cameras, which is as many as can be.";
+    if (!streams_.has_numbers_for(cameras.size()))
+        return "The session has had so many cameras that there are no numbers left; the host has "
+               "to be started anew.";
+    // As every participant will judge them.
+    std::vector<wire::Camera> all = streams_.cameras();
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        all.push_back(cameras[i]);
+        all.back().id = streams_.next_id(i);
+        all.back().depth_stream = depth_stream(all.back().id);
+        all.back().color_stream = color_stream(all.back().id);
+    }
+    const AnnouncedCameras judged = judge_cameras(std::move(all));
+    return judged.left_out.empty() ? "" : judged.left_out.back();
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimePoint) {
+    std::vector<CameraId> own = streams_.of(id);
+    std::erase_if(own, [&](CameraId camera) {
+        return std::find(left.cameras.begin(), left.cameras.end(), camera) == left.cameras.end();
+    });
+    streams_.remove(own);
+    set_budgets();
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, TimePoint) {
+    const CameraStreams* camera = streams_.find(state.camera);
+    if (camera && camera->publisher() == id)
+        streams_.on_state(state);
+}
+
+// Its connection takes as much as the pictures of its cameras can need. What is on its way when a
+// camera leaves still comes, so that it never takes less.
+void HostSession::take_media(ParticipantId id) {
+    std::size_t& most = admission_.find(id)->max_media;
+    for (const CameraId camera : streams_.of(id))
+        if (const auto calibration =
+                decode_calibration(streams_.find(camera)->description().calibration))
+            most = std::max({most, max_media_size(calibration->depth.size),
+                             max_media_size(calibration->color.size)});
+    actions_.push_back(action::TakeMedia{id, most});
+}
+
+void HostSession::set_budgets() {
+    for (auto& [id, participant] : admission_.participants())
+        participant.budget.set_streams(2 * streams_.size());
+}
+
+std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView message,
+                                                      TimePoint now) {
+    const Participant* participant = admission_.find(id);
+    if (!participant || !participant->takes_part())
+        return {};
+    const auto header = wire::parse_media_header(message);
+    if (!header) {
+        refuse(id, "A picture was " + std::string(to_text(header.error())) + ".");
+        return {};
+    }
+    const CameraStreams* camera = streams_.find(camera_of(header->stream));
+    // A camera that has just left may still have pictures on their way; its number is nobody's.
+    if (!camera && camera_of(header->stream) < streams_.next_id(0))
+        return {};
+    if (!camera || camera->publisher() != id ||
+        (!is_depth(header->stream) && !camera->description().has_color)) {
+        refuse(id, "A picture belongs to no camera of this participant.");
+        return {};
+    }
+    return streams_.on_media(*header, message.size(), now);
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+// Publishers, cameras and participants that come and go while a session runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/calibration.h"
+#include "session/host_session.h"
+
+namespace theatron::session {
+namespace {
+
+constexpr ParticipantId alice{1}, bob{2}, carol{3}, dave{4};
+
+class SessionOfMany : public ::testing::Test {
+protected:
+    SessionOfMany() : session(config()) {}
+
+    static Bytes calibration(Size depth = {64, 48}, Size color = {128, 96}) {
+        Calibration c;
+        c.depth.size = depth;
+        c.color.size = color;
+        c.depth.fx = c.depth.fy = c.color.fx = c.color.fy = 60;
+        return encode_calibration(c);
+    }
+    static HostSession::Config config() {
+        HostSession::Config config;
+        config.admission.tokens = {{"watch", Role::viewer, {}},
+                                   {"publish", Role::publisher, {}},
+                                   {"short", Role::publisher, from_us(5'000'000)}};
+        config.admission.equal_secrets = [](std::string_view a, std::string_view b) {
+            return a == b;
+        };
+        config.session = wire::SessionId{5};
+        wire::Camera camera;
+        camera.name = "OR lamp";
+        camera.has_color = true;
+        camera.frames_per_second = 30;
+        camera.calibration = calibration();
+        config.cameras = {camera};
+        config.check_depth = config.check_color = [](const std::string& text) {
+            return text == "bad" ? HostSession::CheckedCodec{"", "There is no codec bad."}
+                                 : HostSession::CheckedCodec{text, ""};
+        };
+        return config;
+    }
+
+    void say(ParticipantId id, const wire::ToHost& message) {
+        session.on_control(id, wire::encode(message), now);
+    }
+    void join(ParticipantId id, const char* token = "watch", const char* depth = "strata") {
+        session.on_connected(id, now);
+        wire::Join hello;
+        hello.token = token;
+        hello.depth_codec = depth;
+        hello.color_codec = "jpeg";
+        hello.features = {wire::Feature{77}, wire::Feature::publish};
+        say(id, hello);
+    }
+    // Offers this many cameras; their numbers.
+    std::vector<CameraId> publish(ParticipantId id, std::size_t cameras) {
+        say(id, wire::Publish{
+                    std::vector<wire::OfferedCamera>(cameras, {"face", true, 30, calibration()})});
+        actions = session.take_actions();
+        const auto answers = sent<wire::Published>(id);
+        return answers.empty() ? std::vector<CameraId>() : answers.back().cameras;
+    }
+    template <class T>
+    std::vector<T> all() const {
+        std::vector<T> result;
+        for (const Action& a : actions)
+            if (const auto* wanted = std::get_if<T>(&a))
+                result.push_back(*wanted);
+        return result;
+    }
+    // Everything of one kind that is sent to a participant, in the actions taken last.
+    template <class T>
+    std::vector<T> sent(ParticipantId id) const {
+        std::vector<T> result;
+        for (const auto& a : all<action::Send>())
+            if (a.participant == id)
+                if (const auto* m = std::get_if<T>(&a.message))
+                    result.push_back(*m);
+        return result;
+    }
+    // What a participant gets of a stream, as it was told in the actions taken last.
+    std::string codec_of(ParticipantId id, StreamId stream) const {
+        std::string codec;
+        for (const auto& message : sent<wire::Settings>(id))
+            for (const auto& setting : message.settings)
+                if (setting.stream == stream)
+                    codec = setting.codec;
+        return codec;
+    }
+    Bytes picture(CameraId camera, SettingId setting, FrameNumber frame = 0) const {
+        wire::MediaHeader h;
+        h.stream = depth_stream(camera);
+        h.setting = setting;
+        h.frame = h.reference = frame;
+        h.key = true;
+        h.captured = now;
+        Bytes message(wire::media_header_size);
+        wire::write_media_header(h, message.data());
+        return message;
+    }
+
+    TimePoint now = from_us(1'000'000);
+    HostSession session;
+    std::vector<Action> actions;
+};
+
+TEST_F(SessionOfMany, ACameraOfAParticipantReachesTheOthers) {
+    join(alice, "publish");
+    join(bob);
+    (void)session.take_actions();
+    const auto cameras = publish(alice, 1);
+    ASSERT_EQ(cameras, std::vector{CameraId{1}}) << "the host's own is 0";
+    ASSERT_EQ(sent<wire::CamerasAdded>(bob).size(), 1u);
+    const wire::Camera added = sent<wire::CamerasAdded>(bob)[0].cameras.at(0);
+    EXPECT_EQ(added.publisher, alice);
+    EXPECT_EQ(added.session, wire::SessionId{5});
+    EXPECT_EQ(added.depth_stream, depth_stream(CameraId{1}));
+    EXPECT_TRUE(sent<wire::CamerasAdded>(alice).empty()) << "it knows its own";
+    ASSERT_EQ(all<action::TakeMedia>().size(), 1u);
+    EXPECT_GT(all<action::TakeMedia>()[0].max_message, 4u * 128 * 96);
+
+    // The publisher is told to encode what bob gets.
+    ASSERT_EQ(sent<wire::Encode>(alice).size(), 1u);
+    const auto encode = sent<wire::Encode>(alice)[0].settings;
+    ASSERT_EQ(encode.size(), 2u);
+    EXPECT_EQ(encode[0].codec, "strata");
+    EXPECT_EQ(codec_of(bob, added.depth_stream), "strata");
+    session.on_tick(now);
+    actions = session.take_actions();
+    EXPECT_EQ(sent<wire::EncodeKey>(alice).size(), 2u);
+
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now),
+              std::vector{bob});
+    join(carol);
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now),
+              (std::vector{bob, carol}))
+        << "that come later, too";
+    actions = session.take_actions();
+    EXPECT_EQ(sent<wire::Welcome>(carol).at(0).cameras.size(), 2u);
+    EXPECT_TRUE(all<action::Close>().empty());
+}
+
+TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
+    join(alice);
+    actions = session.take_actions();
+    EXPECT_TRUE(sent<wire::Welcome>(alice).at(0).features.empty());
+    EXPECT_TRUE(publish(alice, 1).empty());
+    EXPECT_NE(sent<wire::Published>(alice).at(0).problem.find("link"), std::string::npos);
+    EXPECT_EQ(session.streams().size(), 1u);
+    EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{1}, SettingId{1}), now).empty());
+    actions = session.take_actions();
+    EXPECT_EQ(all<action::Close>().size(), 1u);
+}
+
+TEST_F(SessionOfMany, NobodySendsPicturesOfAnothersCamera) {
+    join(alice, "publish");
+    join(bob, "publish");
+    join(carol);
+    const auto own = publish(alice, 1);
+    const SettingId setting = sent<wire::Encode>(alice).at(0).settings.at(0).setting;
+    EXPECT_TRUE(session.on_media_from(bob, picture(own.at(0), setting), now).empty());
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Refused>(bob).size(), 1u);
+    ASSERT_EQ(all<action::Close>().size(), 1u);
+    EXPECT_EQ(all<action::Close>()[0].participant, bob);
+    EXPECT_FALSE(session.on_media_from(alice, picture(own.at(0), setting), now).empty());
+    // Nor of the host's.
+    EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{0}, setting), now).empty());
+    actions = session.take_actions();
+    EXPECT_EQ(all<action::Close>().size(), 1u);
+}
+
+TEST_F(SessionOfMany, DamagedPicturesEndTheConnectionOfTheirPublisherOnly) {
+    join(alice, "publish");
+    join(bob);
+    (void)publish(alice, 1);
+    EXPECT_TRUE(session.on_media_from(alice, Bytes(70, std::byte{0xff}), now).empty());
+    actions = session.take_actions();
+    ASSERT_EQ(all<action::Close>().size(), 1u);
+    EXPECT_EQ(all<action::Close>()[0].participant, alice);
+}
+
+TEST_F(SessionOfMany, CamerasLeaveWithTheirPublisherAndNumbersNeverComeAgain) {
+    join(alice, "publish");
+    join(bob);
+    const auto first = publish(alice, 2);
+    session.on_closed(alice);
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::CamerasRemoved>(bob).size(), 1u);
+    EXPECT_EQ(sent<wire::CamerasRemoved>(bob)[0].cameras, first);
+    EXPECT_EQ(session.streams().size(), 1u);
+
+    join(carol, "publish");
+    const auto second = publish(carol, 2);
+    EXPECT_EQ(second, (std::vector{CameraId{3}, CameraId{4}}));
+    const SettingId setting = sent<wire::Encode>(carol).at(0).settings.at(0).setting;
+    say(carol, wire::Unpublish{{second[0], first[0], CameraId{0}}});
+    actions = session.take_actions();
+    EXPECT_EQ(sent<wire::CamerasRemoved>(bob).at(0).cameras, std::vector{second[0]})
+        << "others' cameras stay";
+    // What was on its way when the camera left is no fault.
+    EXPECT_TRUE(session.on_media_from(carol, picture(second[0], setting), now).empty());
+    actions = session.take_actions();
+    EXPECT_TRUE(all<action::Close>().empty());
+}
+
+TEST_F(SessionOfMany, ACameraThatComesOrLeavesChangesNothingOfTheOthers) {
+    join(alice, "publish");
+    join(bob, "watch", "zstd");
+    join(carol, "publish");
+    const auto stays = publish(alice, 1);
+    session.on_tick(now);
+    (void)session.take_actions();
+    for (int i = 0; i < 5; ++i) {
+        now += 1s;
+        const auto comes = publish(carol, 1);
+        ASSERT_EQ(comes.size(), 1u);
+        for (const bool leaves : {false, true}) {
+            if (leaves) {
+                say(carol, wire::Unpublish{comes});
+                actions = session.take_actions();
+            }
+            EXPECT_TRUE(all<action::ChangeSettings>().empty()) << "the host's own camera";
+            EXPECT_TRUE(sent<wire::Encode>(alice).empty());
+            EXPECT_EQ(codec_of(bob, depth_stream(stays[0])), "");
+            EXPECT_EQ(codec_of(bob, depth_stream(CameraId{0})), "");
+            session.on_tick(now);
+            actions = session.take_actions();
+            EXPECT_TRUE(sent<wire::EncodeKey>(alice).empty());
+            EXPECT_TRUE(all<action::RequestKey>().empty());
+        }
+    }
+}
+
+TEST_F(SessionOfMany, CodecsAreChosenForEachCamera) {
+    join(alice, "publish");
+    join(bob);
+    const CameraId face = publish(alice, 1).at(0);
+    say(bob, wire::ChooseCodecs{"rvl", "", {face}});
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(bob, depth_stream(face)), "rvl");
+    EXPECT_EQ(codec_of(bob, depth_stream(CameraId{0})), "") << "stays";
+    EXPECT_EQ(session.depth_settings(CameraId{0})[0].codec, "strata");
+    EXPECT_EQ(session.depth_settings(face)[0].codec, "rvl");
+
+    say(bob, wire::ChooseCodecs{"zstd", "", {}});
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(bob, depth_stream(face)), "zstd") << "a choice for all is for all";
+    EXPECT_EQ(codec_of(bob, depth_stream(CameraId{0})), "zstd");
+    const CameraId other = publish(alice, 1).at(0);
+    EXPECT_EQ(codec_of(bob, depth_stream(other)), "zstd") << "also for those that come";
+    say(bob, wire::ChooseCodecs{"rvl", "", {CameraId{999}}});
+    actions = session.take_actions();
+    EXPECT_TRUE(sent<wire::Settings>(bob).empty());
+}
+
+TEST_F(SessionOfMany, EachCameraHasPlacesOfItsOwn) {
+    join(alice, "watch", "trvl");
+    join(bob, "watch", "rvl");
+    join(carol, "watch", "zstd");
+    join(dave, "publish", "ans");
+    actions = session.take_actions();
+    EXPECT_NE(codec_of(dave, depth_stream(CameraId{0})), "ans") << "three are in use";
+    // A camera that only two of them get in codecs of their own has room.
+    const CameraId face = publish(dave, 1).at(0);
+    say(alice, wire::ChooseCodecs{"rvl", "", {face}});
+    say(bob, wire::ChooseCodecs{"ans", "", {face}});
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(bob, depth_stream(face)), "ans");
+    EXPECT_EQ(session.depth_settings(face).size(), 3u);
+}
+
+TEST_F(SessionOfMany, RequestsForKeyFramesReachThePublisher) {
+    join(alice, "publish");
+    join(bob);
+    const CameraId face = publish(alice, 1).at(0);
+    const SettingId setting = sent<wire::Encode>(alice).at(0).settings.at(0).setting;
+    session.on_tick(now);
+    (void)session.take_actions();
+    now += 1s;
+    say(bob, wire::RequestKey{depth_stream(face), setting});
+    say(alice, wire::RequestKey{depth_stream(face), setting});  // it does not get it
+    session.on_tick(now);
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::EncodeKey>(alice).size(), 1u);
+    EXPECT_EQ(sent<wire::EncodeKey>(alice)[0].setting, setting);
+    EXPECT_TRUE(all<action::RequestKey>().empty()) << "the host encodes nothing of it";
+}
+
+TEST_F(SessionOfMany, StatesAreBelievedOfOnesOwnCamerasOnly) {
+    join(alice, "publish");
+    join(bob, "publish");
+    const CameraId face = publish(alice, 1).at(0);
+    say(bob, wire::CameraState{face, wire::CameraCondition::failed, "a lie", ""});
+    say(bob, wire::CameraState{CameraId{0}, wire::CameraCondition::failed, "a lie", ""});
+    actions = session.take_actions();
+    EXPECT_TRUE(sent<wire::CameraState>(bob).empty());
+    EXPECT_TRUE(sent<wire::CameraState>(alice).empty());
+    say(alice, wire::CameraState{face, wire::CameraCondition::stale, "covered", ""});
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::CameraState>(bob).size(), 1u);
+    join(carol);
+    actions = session.take_actions();
+    EXPECT_EQ(sent<wire::CameraState>(carol).at(0).problem, "covered");
+}
+
+TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
+    join(alice, "publish");
+    (void)session.take_actions();
+    EXPECT_TRUE(publish(alice, HostSession::max_published + 1).empty());
+    EXPECT_EQ(publish(alice, HostSession::max_published).size(), HostSession::max_published);
+    EXPECT_TRUE(publish(alice, 1).empty());
+    EXPECT_NE(sent<wire::Published>(alice).at(0).problem, "");
+    join(bob, "publish");
+    say(bob, wire::Publish{{{"too large", true, 30, calibration({2048, 2049})}}});
+    say(bob, wire::Publish{{{"no calibration", true, 30, {}}}});
+    say(bob, wire::Publish{{{"no rate", true, -1, calibration()}}});
+    say(bob, wire::Publish{std::vector<wire::OfferedCamera>(
+                 5, {"too many pixels", true, 30, calibration({2048, 2048}, {4096, 3072})})});
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Published>(bob).size(), 4u);
+    for (const wire::Published& answer : sent<wire::Published>(bob)) {
+        EXPECT_TRUE(answer.cameras.empty());
+        EXPECT_NE(answer.problem, "");
+    }
+    EXPECT_EQ(session.streams().size(), 1 + HostSession::max_published);
+    for (int i = 3; session.streams().size() < wire::max_cameras && i < 60; ++i) {
+        join(ParticipantId(i), "publish");
+        (void)publish(ParticipantId(i), 2);
+    }
+    EXPECT_EQ(session.streams().size(), wire::max_cameras);
+    EXPECT_TRUE(publish(bob, 1).empty());
+}
+
+TEST_F(SessionOfMany, OfferingTooOftenIsAnsweredNotQueued) {
+    join(alice, "publish");
+    (void)session.take_actions();
+    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::publish)];
+    int taken = 0;
+    for (int i = 0; i < 2 * limit.at_once; ++i) {
+        const auto cameras = publish(alice, 1);
+        taken += !cameras.empty();
+        ASSERT_EQ(sent<wire::Published>(alice).size(), 1u);
+        say(alice, wire::Unpublish{cameras});
+    }
+    EXPECT_LE(taken, limit.at_once);
+    EXPECT_EQ(session.streams().size(), 1u) << "taking back is never refused";
+}
+
+TEST_F(SessionOfMany, ALinkThatHasExpiredLetsNobodyInAndPutsNobodyOut) {
+    join(alice, "short");
+    actions = session.take_actions();
+    EXPECT_EQ(sent<wire::Welcome>(alice).size(), 1u);
+    now = from_us(5'000'000);
+    join(bob, "short");
+    session.on_tick(now);
+    actions = session.take_actions();
+    EXPECT_NE(sent<wire::Refused>(bob).at(0).reason.find("expired"), std::string::npos);
+    EXPECT_TRUE(session.participants().at(alice).takes_part());
+    EXPECT_EQ(publish(alice, 1).size(), 1u);
+}
+
+}  // namespace
+}  // namespace theatron::session

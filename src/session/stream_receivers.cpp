@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// The receivers of streams: what they wish, what they are given, and what they are told.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "session/streams.h"
+
+namespace theatron::session {
+
+const std::string& Streams::Receiver::wished(CameraId camera, bool depth) const {
+    const auto single = wishes.find(camera);
+    const auto pick = [&](const Wish& w) -> const std::string& {
+        return depth ? w.depth : w.color;
+    };
+    return single != wishes.end() && !pick(single->second).empty() ? pick(single->second)
+                                                                   : pick(wish);
+}
+
+void Streams::join(ParticipantId id, const Wish& wish, bool records) {
+    Receiver& receiver = receivers_[id];
+    receiver.wish = wish;
+    receiver.records = records;
+    receiver.delivery.set_codecs(config_.codecs, region_is_drawn_);
+    receiver.delivery.set_wish(wish.depth, wish.color);
+    for (auto& [camera, streams] : cameras_)
+        if (streams.publisher() != id) {
+            set_wish(id, receiver, streams, true);
+            set_wish(id, receiver, streams, false);
+        }
+    apply();
+}
+
+void Streams::leave(ParticipantId id) {
+    receivers_.erase(id);
+    for (auto& [number, camera] : cameras_) {
+        camera.receivers.erase(id);
+        camera.table(true).leave(id);
+        camera.table(false).leave(id);
+    }
+    apply();
+}
+
+void Streams::tell_again(ParticipantId id) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end())
+        return;
+    for (auto& [number, camera] : cameras_)
+        if (const auto told = camera.receivers.find(id); told != camera.receivers.end())
+            told->second = {};
+    send(id, found->second.delivery.message({}));
+    tell_receiver(id, found->second);
+    if (!of(id).empty())
+        tell_publisher(id);
+}
+
+void Streams::choose(ParticipantId id, const Wish& wish, const std::vector<CameraId>& cameras) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end())
+        return;
+    Receiver& receiver = found->second;
+    const auto take_over = [&](Wish& target) {
+        if (!wish.depth.empty())
+            target.depth = wish.depth;
+        if (!wish.color.empty())
+            target.color = wish.color;
+    };
+    if (cameras.empty()) {
+        take_over(receiver.wish);
+        for (auto& [camera, single] : receiver.wishes) {
+            if (!wish.depth.empty())
+                single.depth.clear();
+            if (!wish.color.empty())
+                single.color.clear();
+        }
+    }
+    for (const CameraId camera : cameras)
+        if (cameras_.contains(camera))
+            take_over(receiver.wishes[camera]);
+    receiver.delivery.set_wish(receiver.wish.depth, receiver.wish.color);
+    for (auto& [camera, streams] : cameras_) {
+        const bool is_meant =
+            cameras.empty() || std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
+        if (streams.publisher() == id || !is_meant)
+            continue;
+        if (!wish.depth.empty())
+            set_wish(id, receiver, streams, true);
+        if (!wish.color.empty())
+            set_wish(id, receiver, streams, false);
+    }
+    take_step(id, receiver);
+    apply();
+}
+
+void Streams::set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth) {
+    camera.receivers.try_emplace(id);
+    SettingTable& table = camera.table(depth);
+    table.wish(id, receiver.wished(camera.description().id, depth));
+    if (receiver.records)
+        table.pin(id);
+}
+
+const LadderStep& Streams::step_for(ParticipantId id, Receiver& receiver,
+                                    const CameraStreams& camera) {
+    return receiver.delivery.step_of(
+        receiver.delivery.ladder(camera.table(true).wished(id), camera.table(false).wished(id)));
+}
+
+// Asks for the encodings of the receiver's step.
+void Streams::take_step(ParticipantId id, Receiver& receiver) {
+    for (auto& [number, camera] : cameras_)
+        if (camera.publisher() != id)
+            take_step(id, receiver, camera);
+}
+
+void Streams::take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera) {
+    const LadderStep step = step_for(id, receiver, camera);
+    camera.table(true).stopgap(id, step.depth_codec);
+    camera.table(false).stopgap(id, step.color_codec);
+}
+
+void Streams::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end())
+        return;
+    found->second.delivery.set_goal(goal);
+    actions_.push_back(action::SetCeiling{id, goal.max_kbit_per_s * 125ull});
+}
+
+void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end())
+        return;
+    Receiver& receiver = found->second;
+    std::vector<Delivery::Given> given;
+    for (const auto& [number, camera] : cameras_)
+        if (camera.publisher() != id)
+            given.push_back(
+                {&camera.table(true).given(id),
+                 camera.description().has_color ? &camera.table(false).given(id) : nullptr,
+                 camera.table(true).wished(id), camera.table(false).wished(id)});
+    Delivery& delivery = receiver.delivery;
+    if (!delivery.update(link, given, frames_per_second(), rates_, made_in(id), now))
+        return;
+    const wire::Delivery message = delivery.message(link.delay);
+    actions_.push_back(action::Stepped{id, message.what + ": " + message.reason});
+    send(id, message);
+    take_step(id, receiver);
+    apply();
+}
+
+std::string Streams::step_of(ParticipantId id) {
+    const auto found = receivers_.find(id);
+    return found == receivers_.end() ? "" : found->second.delivery.step().what;
+}
+
+double Streams::frames_per_second() const {
+    double fastest = 1;
+    for (const auto& [id, camera] : cameras_)
+        fastest = std::max(fastest, camera.description().frames_per_second);
+    return fastest;
+}
+
+// Of depth and colour the longer, of all cameras the mean. Settings are measured apart: one that
+// is encoded slowly makes nobody else's frames late.
+Duration Streams::made_in(ParticipantId id) const {
+    Duration depth{}, color{};
+    int cameras = 0;
+    for (const auto& [number, camera] : cameras_) {
+        const auto told = camera.receivers.find(id);
+        if (told == camera.receivers.end())
+            continue;
+        ++cameras;
+        depth += camera.made_in(told->second.depth);
+        color += camera.made_in(told->second.color);
+    }
+    return std::max(depth, color) / std::max(cameras, 1);
+}
+
+// Encoders and receivers in line with the tables.
+
+void Streams::apply() {
+    std::set<ParticipantId> publishers;
+    for (auto& [id, camera] : cameras_) {
+        const auto gone = camera.take_change();
+        if (!gone)
+            continue;
+        for (const SettingId setting : *gone) {
+            key_requests_.forget(setting);
+            rates_.forget(setting);
+        }
+        if (camera.publisher() == host_publisher)
+            actions_.push_back(action::ChangeSettings{id});
+        else
+            publishers.insert(camera.publisher());
+    }
+    for (const ParticipantId publisher : publishers)
+        tell_publisher(publisher);
+    for (auto& [id, receiver] : receivers_)
+        tell_receiver(id, receiver);
+}
+
+void Streams::tell_publisher(ParticipantId publisher) {
+    wire::Encode message;
+    for (const auto& [id, camera] : cameras_) {
+        if (camera.publisher() != publisher)
+            continue;
+        for (const bool depth : {true, false})
+            if (depth || camera.description().has_color)
+                for (const ActiveSetting& setting : camera.table(depth).active())
+                    message.settings.push_back({camera.stream(depth), setting.id, setting.codec});
+    }
+    send(publisher, std::move(message));
+}
+
+void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
+    wire::Settings message;
+    for (auto& [number, camera] : cameras_) {
+        const auto told = camera.receivers.find(id);
+        if (told == camera.receivers.end())
+            continue;
+        const ActiveSetting& depth = camera.table(true).given(id);
+        const ActiveSetting& color = camera.table(false).given(id);
+        const CameraStreams::Told now{depth.id, color.id,
+                                      step_for(id, receiver, camera).highest_layer};
+        const CameraStreams::Told before = std::exchange(told->second, now);
+        if (before.depth == now.depth && before.color == now.color)
+            continue;
+        for (const bool is_depth : {true, false}) {
+            if (!is_depth && !camera.description().has_color)
+                continue;
+            const ActiveSetting& setting = is_depth ? depth : color;
+            message.settings.push_back({camera.stream(is_depth), setting.id, setting.codec});
+            if (setting.id != before.of(is_depth))
+                key_requests_.request({camera.stream(is_depth), setting.id});
+        }
+        if (message.note.empty())
+            message.note = note_for(id, receiver, camera);
+    }
+    if (!message.settings.empty())
+        send(id, std::move(message));
+}
+
+// Empty if the receiver gets what it asked for.
+std::string Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
+    for (const bool depth : {true, false}) {
+        const LadderStep& step = step_for(id, receiver, camera);
+        const std::string& asked = receiver.records
+                                       ? receiver.wished(camera.description().id, depth)
+                                   : depth ? step.depth_codec
+                                           : step.color_codec;
+        if (camera.table(depth).given(id).codec != asked)
+            return "The host already encodes in " + std::to_string(SettingTable::max_active) +
+                   " ways; instead of " + asked + " you get the nearest of them.";
+    }
+    return "";
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/streams.h"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <utility>
+
+namespace theatron::session {
+
+// Cameras.
+
+void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
+    assert(has_numbers_for(cameras.size()));
+    for (wire::Camera& camera : cameras) {
+        camera.id = CameraId(next_camera_++);
+        camera.depth_stream = depth_stream(camera.id);
+        camera.color_stream = color_stream(camera.id);
+        camera.publisher = publisher;
+        CameraStreams& streams =
+            cameras_.try_emplace(camera.id, camera, numbers_, config_.usual, config_.codecs)
+                .first->second;
+        for (auto& [id, receiver] : receivers_)
+            if (id != publisher) {
+                set_wish(id, receiver, streams, true);
+                set_wish(id, receiver, streams, false);
+                take_step(id, receiver, streams);
+            }
+    }
+    for (const auto& [id, receiver] : receivers_)
+        if (id != publisher && !cameras.empty())
+            send(id, wire::CamerasAdded{cameras});
+    apply();
+}
+
+const std::vector<ActiveSetting>& Streams::settings(CameraId id, bool depth) const {
+    static const std::vector<ActiveSetting> none;
+    const CameraStreams* camera = find(id);
+    return camera ? camera->table(depth).active() : none;
+}
+
+void Streams::remove(const std::vector<CameraId>& cameras) {
+    std::map<ParticipantId, wire::CamerasRemoved> told;
+    for (const CameraId camera : cameras) {
+        const auto found = cameras_.find(camera);
+        if (found == cameras_.end())
+            continue;
+        for (const bool depth : {true, false})
+            for (const ActiveSetting& setting : found->second.table(depth).active()) {
+                key_requests_.forget(setting.id);
+                rates_.forget(setting.id);
+            }
+        for (auto& [id, receiver] : receivers_) {
+            receiver.wishes.erase(camera);
+            receiver.delivery.forget(depth_stream(camera));
+            receiver.delivery.forget(color_stream(camera));
+            if (id != found->second.publisher())
+                told[id].cameras.push_back(camera);
+        }
+        cameras_.erase(found);
+    }
+    for (auto& [id, message] : told)
+        send(id, std::move(message));
+}
+
+const CameraStreams* Streams::find(CameraId camera) const {
+    const auto found = cameras_.find(camera);
+    return found == cameras_.end() ? nullptr : &found->second;
+}
+
+std::vector<CameraId> Streams::of(ParticipantId publisher) const {
+    std::vector<CameraId> result;
+    for (const auto& [id, camera] : cameras_)
+        if (camera.publisher() == publisher)
+            result.push_back(id);
+    return result;
+}
+
+std::vector<wire::Camera> Streams::cameras() const {
+    std::vector<wire::Camera> result;
+    for (const auto& [id, camera] : cameras_)
+        result.push_back(camera.description());
+    return result;
+}
+
+std::vector<wire::Camera> Streams::seen_by(ParticipantId participant) const {
+    std::vector<wire::Camera> result;
+    for (const auto& [id, camera] : cameras_)
+        if (camera.publisher() != participant)
+            result.push_back(camera.description());
+    return result;
+}
+
+std::vector<wire::CameraState> Streams::states_seen_by(ParticipantId participant) const {
+    std::vector<wire::CameraState> result;
+    for (const auto& [id, camera] : cameras_)
+        if (camera.publisher() != participant && camera.state)
+            result.push_back(*camera.state);
+    return result;
+}
+
+void Streams::on_state(const wire::CameraState& state) {
+    const auto found = cameras_.find(state.camera);
+    if (found == cameras_.end())
+        return;
+    found->second.state = state;
+    for (const auto& [id, told] : found->second.receivers)
+        send(id, state);
+}
+
+void Streams::on_region(bool is_drawn) {
+    if (std::exchange(region_is_drawn_, is_drawn) == is_drawn)
+        return;
+    for (auto& [id, receiver] : receivers_) {
+        // A region adds steps down, which a recorder does not take.
+        if (receiver.records)
+            continue;
+        receiver.delivery.set_codecs(config_.codecs, is_drawn);
+        send(id, receiver.delivery.message({}));
+        take_step(id, receiver);
+    }
+    apply();
+}
+
+void Streams::on_encoding(CameraId id, SettingId setting, bool keeps_up, double ms_per_picture) {
+    const auto found = cameras_.find(id);
+    if (found == cameras_.end())
+        return;
+    CameraStreams& camera = found->second;
+    const bool depth = camera.table(true).find(setting) != nullptr;
+    const ActiveSetting* active = camera.table(depth).find(setting);
+    if (!active)
+        return;  // it has been left meanwhile
+    // Of a codec that several cameras are too slow in, once is enough.
+    const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), [&](const auto& entry) {
+        return entry.second.is_slow(depth, active->codec);
+    });
+    if (!camera.set_slow(depth, setting, !keeps_up))
+        return;
+    if (!keeps_up && !is_known) {
+        const std::string note =
+            "Encoding " + active->codec + " takes " + std::to_string(int(ms_per_picture + 0.5)) +
+            " ms a picture here, more than its share, so you get fewer pictures than the cameras "
+            "take; another codec would be faster.";
+        for (const auto& [receiver, told] : camera.receivers)
+            if (told.of(depth) == setting)
+                send(receiver, wire::Settings{{}, note});
+    }
+    apply();
+}
+
+// Media.
+
+std::vector<ParticipantId> Streams::on_media(const wire::MediaHeader& header, std::size_t size,
+                                             TimePoint now) {
+    const auto found = cameras_.find(camera_of(header.stream));
+    if (found == cameras_.end())
+        return {};
+    CameraStreams& camera = found->second;
+    const auto layer = camera.on_media(header, now);
+    if (!layer)
+        return {};
+    rates_.add(header.setting, *layer, size, now);
+
+    const bool depth = is_depth(header.stream);
+    const bool chain = camera.table(depth).find(header.setting)->traits.chain;
+    std::vector<ParticipantId> result;
+    for (const auto& [id, told] : camera.receivers) {
+        if (told.of(depth) != header.setting)
+            continue;
+        Receiver& receiver = receivers_.at(id);
+        const int own_layer = depth ? *layer : camera.color_layer(header.frame, told.depth);
+        if (!chain && !receiver.records &&
+            !receiver.delivery.lets_through(header.stream, own_layer, told.highest_layer))
+            continue;
+        result.push_back(id);
+    }
+    return result;
+}
+
+std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting) const {
+    std::vector<ParticipantId> result;
+    if (const CameraStreams* camera = find(camera_of(stream)))
+        for (const auto& [id, told] : camera->receivers)
+            if (told.of(is_depth(stream)) == setting)
+                result.push_back(id);
+    return result;
+}
+
+void Streams::request_key(StreamId stream, SettingId setting) {
+    const CameraStreams* camera = find(camera_of(stream));
+    if (camera && camera->table(is_depth(stream)).find(setting))
+        key_requests_.request({stream, setting});
+}
+
+void Streams::request_key(ParticipantId receiver, StreamId stream, SettingId setting) {
+    const CameraStreams* camera = find(camera_of(stream));
+    if (!camera)
+        return;
+    const auto told = camera->receivers.find(receiver);
+    if (told != camera->receivers.end() && told->second.of(is_depth(stream)) == setting)
+        key_requests_.request({stream, setting});
+}
+
+void Streams::on_tick(TimePoint now) {
+    for (const KeyRequests::Key& key : key_requests_.take(now)) {
+        const CameraStreams* camera = find(camera_of(key.stream));
+        if (camera && camera->publisher() != host_publisher)
+            send(camera->publisher(), wire::EncodeKey{key.stream, key.setting});
+        else if (camera)
+            actions_.push_back(action::RequestKey{key});
+    }
+}
+
+bool Streams::all_wait(CameraId id, const std::function<bool(ParticipantId)>& is_behind) const {
+    const CameraStreams* camera = find(id);
+    if (!camera || camera->receivers.empty())
+        return false;
+    return std::all_of(camera->receivers.begin(), camera->receivers.end(), [&](const auto& entry) {
+        return !receivers_.at(entry.first).delivery.adapts() && is_behind(entry.first);
+    });
+}
+
+}  // namespace theatron::session

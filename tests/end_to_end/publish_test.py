@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Participants whose cameras join and leave a session; nobody else's camera notices."""
+import contextlib
+import pathlib
+import random
+import shutil
+import tempfile
+import time
+import unittest
+
+from raw_peer import RawPeer, calibration, media_message
+from theatron_process import Process, host, make_recording, run
+
+PUBLISH = 1  # wire::Feature
+
+
+def viewer(link, *options):
+    return Process("join", link, "--every", "0.2", *options)
+
+
+def names(figures):
+    return sorted(c["name"] for c in figures["cameras"])
+
+
+def camera(figures, number):
+    """A camera by its number in the session."""
+    return next((c for c in figures["cameras"] if c["id"] == number), None)
+
+
+class Publishing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_publish_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.cameras = {name: f"folder:{make_recording(cls.folder / name)},loop=1,preload=1"
+                       for name in ("lamp", "face", "hand")}
+        cls.state = cls.folder / "state"
+
+    def test_a_participants_camera_comes_and_leaves_and_others_go_on(self):
+        with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
+            seen.wait_for(lambda f: names(f) == ["lamp"] and f["fps"] > 0, 15)
+            with viewer(h.greeting["publish_link"], "--publish", self.cameras["face"]) as publisher:
+                both = seen.wait_for(lambda f: len(f["cameras"]) == 2 and camera(f, 1)["frames"] > 20, 20)
+                self.assertEqual(camera(both, 1)["name"], "face")
+                self.assertGreater(camera(both, 1)["publisher"], 0)
+                self.assertEqual(camera(both, 1)["dropped"], 0)
+                self.assertLess(camera(both, 1)["newest_age_ms"], 1000)
+                self.assertEqual(names(publisher.newest_json()), ["lamp"], "one's own is not sent back")
+                # Codecs are chosen for each camera.
+                seen.say("depth rvl 1")
+                chosen = seen.wait_for(lambda f: "rvl" in camera(f, 1)["depth_codec"]
+                                       and camera(f, 1)["fps"] > 0, 10)
+                self.assertEqual(camera(chosen, 0)["depth_codec"], "strata")
+                publisher.process.kill()
+                alone = seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)
+            later = seen.wait_for(lambda f: camera(f, 0)["frames"] > camera(alone, 0)["frames"] + 30, 10)
+            self.assertEqual(camera(later, 0)["dropped"], 0)
+            self.assertEqual(later["joins"], 1)
+            # Numbers never come again, and a publisher finds back by itself.
+            with viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"],
+                        "--publish", self.cameras["face"]):
+                seen.wait_for(lambda f: camera(f, 2) and camera(f, 3) and camera(f, 3)["frames"] > 5, 20)
+
+    def test_a_viewers_link_lets_no_camera_in(self):
+        with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
+            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            with viewer(h.greeting["link"], "--publish", self.cameras["face"]) as publisher:
+                publisher.wait_for(lambda f: f["fps"] > 0, 15)
+                self.assertEqual(names(seen.newest_json()), ["lamp"])
+                publisher.say("quit")
+                self.assertEqual(publisher.end(), 0)
+                self.assertIn("publishers", "".join(publisher.errors))
+            # Not even with a program that does not ask.
+            with RawPeer(h.greeting["link"]) as peer:
+                peer.join()
+                peer.receive_control("Welcome")
+                peer.send_media(media_message(b"x" * 100, stream=0))
+                peer.wait_for_end(10)
+
+    def test_a_publisher_sends_pictures_of_its_own_cameras_only(self):
+        with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
+            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            offer = {"name": "made up", "has_color": False, "frames_per_second": 30.0,
+                     "calibration": list(calibration(color_width=0, color_height=0))}
+            with RawPeer(h.greeting["publish_link"]) as peer:
+                peer.join(features=[PUBLISH, 999])
+                self.assertEqual(peer.receive_control("Welcome")[1].get("features"), [PUBLISH])
+                peer.send_control("Publish", cameras=[offer])
+                number, = peer.receive_control("Published")[1]["cameras"]
+                setting = peer.receive_control("Encode")[1]["settings"][0]
+                self.assertEqual(setting["stream"], 2 * number)
+                peer.send_media(media_message(b"no depth", stream=2 * number, setting=setting["setting"]))
+                # Each setting begins with a key frame.
+                self.assertEqual(peer.receive_control("EncodeKey")[1]["stream"], 2 * number)
+                self.assertEqual(names(seen.newest_json()), ["lamp", "made up"])
+                peer.send_media(media_message(b"a lie", stream=0, setting=1))
+                self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["reason"])
+                peer.wait_for_end(10)
+            alone = seen.wait_for(lambda f: names(f) == ["lamp"], 10)
+            self.assertEqual(camera(alone, 0)["dropped"], 0)
+            with RawPeer(h.greeting["publish_link"]) as peer:
+                peer.join(features=[PUBLISH])
+                peer.send_control("Publish", cameras=[offer])
+                number, = peer.receive_control("Published")[1]["cameras"]
+                # Larger than any picture of that camera.
+                with contextlib.suppress(OSError):
+                    peer.send_media(media_message(b"x" * 4_000_000, stream=2 * number))
+                peer.wait_for_end(10)
+
+    def test_links_expire(self):
+        with host(self.state, self.cameras["lamp"], options=("--link-hours", "0.0000001")) as h:
+            code, _, errors = run("join", h.greeting["link"], "--json", "--seconds", "1")
+            self.assertNotEqual(code, 0)
+            self.assertIn("expired", errors)
+
+    def test_three_publishers_come_and_go_while_two_watch_and_one_records(self):
+        choice = random.Random(1)
+        file = self.folder / "many.mkv"
+        with host(self.state, self.cameras["lamp"]) as h, contextlib.ExitStack() as stack:
+            watching = [stack.enter_context(viewer(h.greeting["link"], "--depth-codec", codec))
+                        for codec in ("strata", "zstd")]
+            for one in watching:
+                one.wait_for(lambda f: f["fps"] > 0, 15)
+            recorder = stack.enter_context(Process("record", h.greeting["link"], file))
+            stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"]))
+            # A setting that is new may leave out frames until its cost is known.
+            before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20, 20) for one in watching]
+            others = {}
+            for _ in range(6):
+                which = choice.randrange(2)
+                if which in others:
+                    others.pop(which).__exit__()
+                else:
+                    others[which] = viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"])
+                    stack.callback(others[which].__exit__)
+                time.sleep(0.7)  # what happens at random happens at times
+            for one, first in zip(watching, before):
+                figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others), 15)
+                for number in (0, 1):
+                    lost = camera(figures, number)["dropped"] - camera(first, number)["dropped"]
+                    # A busy machine may cost a frame; a chain that breaks costs dozens.
+                    self.assertLessEqual(lost, 2, figures)
+                    self.assertGreater(camera(figures, number)["fps"], 1)
+            self.assertEqual(stay.newest_json()["joins"], 1)
+            recorder.process.terminate()
+            # Where a camera joins, a segment begins, with key frames; what is missing until then is counted (3).
+            self.assertIn(recorder.end(), (0, 3), recorder.errors)
+        code, out, errors = run("inspect", file)
+        self.assertIn(code, (0, 3), errors)
+        for name in ("lamp", "face"):
+            self.assertIn(name, out)
+
+
+if __name__ == "__main__":
+    unittest.main()
