@@ -166,10 +166,7 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
         lane.open_again = [this, specification = specifications[i]] {
             return capture::open_camera_at(specification, places);
         };
-        lane.make_color = [is_h264 = color_watch.is_h264()](const video::ColorSetting& setting) {
-            return setting.text == video::auto_color ? send::make_auto_encoder(is_h264)
-                                                     : video::make_color_encoder(setting);
-        };
+        lane.make_color = color_watch.make_color();
         lane.moments = moments;
         lane.one_per_moment = true;
         lanes.push_back(std::make_unique<send::CameraLane>(

@@ -357,7 +357,8 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
     carry_out();
 }
 
-void Host::Impl::send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers) {
+void Host::Impl::send_media(const net::Media& encoded,
+                            const std::vector<ParticipantId>& receivers) {
     for (const ParticipantId receiver : receivers) {
         const auto pushed = server->send_media(peer_of(receiver), encoded);
         dropped_slow[camera_of(encoded.stream)] += std::uint64_t(pushed.dropped);

@@ -10,11 +10,11 @@
 #include "base/line_limit.h"
 #include "base/steady_clock.h"
 #include "capture/camera_places.h"
-#include "host/color_watch.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "net/certificate.h"
 #include "net/server.h"
+#include "send/color_watch.h"
 #include "send/media_queue.h"
 #include "session/host_session.h"
 #include "session/pose_board.h"
@@ -30,7 +30,7 @@ struct Host::Impl {
     capture::CameraPlaces places;  // does not change once lanes run
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
-    ColorWatch color_watch;             // on the thread of the server
+    send::ColorWatch color_watch;       // on the thread of the server
     std::vector<FilterSource> filters;  // by camera; used by who owns the host
     std::vector<Size> depth_sizes;      // by camera; the same way
     std::thread thread;

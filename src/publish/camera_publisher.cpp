@@ -19,6 +19,8 @@ std::string problem_of(bool depth, const std::string& codec) {
         return parsed.problem.empty() ? video::missing_depth_encoder(parsed.setting)
                                       : parsed.problem;
     }
+    if (codec == video::auto_color)
+        return "";
     const auto parsed = video::parse_color_setting(codec);
     return parsed.problem.empty() ? video::missing_color_encoder(parsed.setting) : parsed.problem;
 }
@@ -58,6 +60,7 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     options.open_again = [specification = specifications_[camera]] {
         return capture::open_camera(specification);
     };
+    options.make_color = color_watch_.make_color();
     // Lanes count from 0; the host's numbers are put into the headers.
     lanes_.push_back(std::make_unique<send::CameraLane>(
         CameraId(camera), std::move(opened), std::move(events), workers_, std::move(options)));
@@ -149,6 +152,7 @@ void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& enc
     const std::lock_guard lock(mutex_);
     if (!participant_ || camera >= numbers_.size())
         return;
+    color_watch_.on_tick(lanes_, steady_now());
     const Duration offset = participant_->now() - steady_now();
     wire::MediaHeader header = encoded.header;
     header.stream =

@@ -17,6 +17,7 @@
 #include "capture/camera.h"
 #include "client/participant.h"
 #include "send/camera_lane.h"
+#include "send/color_watch.h"
 
 namespace theatron::publish {
 
@@ -46,11 +47,12 @@ private:
     const std::vector<std::string> specifications_;
     std::vector<wire::OfferedCamera> offers_;
 
-    std::mutex mutex_;  // guards all up to `lanes_`
+    std::mutex mutex_;  // guards all up to `workers_`
     client::Participant* participant_ = nullptr;
     std::vector<CameraId> numbers_;          // as the host gave them, by camera; may be empty
     std::vector<wire::CameraState> states_;  // newest, by camera
 
+    send::ColorWatch color_watch_;
     send::Workers workers_;
     std::vector<std::unique_ptr<send::CameraLane>> lanes_;  // never change
 };

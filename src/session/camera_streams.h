@@ -71,7 +71,7 @@ private:
     };
     wire::Camera description_;
     SettingTable depth_, color_;
-    std::function<bool(std::uint8_t)> refers_;  // as in CodecSteps
+    std::function<bool(std::uint8_t)> refers_;              // as in CodecSteps
     std::vector<ActiveSetting> known_depth_, known_color_;  // at the last take_change()
     std::set<SettingId> slow_;
     std::map<SettingId, Duration> made_in_;

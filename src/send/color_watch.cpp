@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/color_watch.h"
+#include "send/color_watch.h"
 
 #include <algorithm>
 #include <thread>
 
 #include "base/log.h"
 
-namespace theatron::host {
+namespace theatron::send {
 namespace {
 
 constexpr Duration measured_every = 1s;
@@ -16,23 +16,31 @@ constexpr double seconds_per_pixel = 11e-9;
 }  // namespace
 
 ColorWatch::ColorWatch()
-    : choice_(video::missing_color_encoder(video::parse_color_setting(send::auto_h264).setting)),
+    : choice_(video::missing_color_encoder(video::parse_color_setting(auto_h264).setting)),
       reason_(choice_.reason()) {}
+
+std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)>
+ColorWatch::make_color() const {
+    return [is_h264 = is_h264()](const video::ColorSetting& setting) {
+        return setting.text == video::auto_color ? make_auto_encoder(is_h264)
+                                                 : video::make_color_encoder(setting);
+    };
+}
 
 std::string ColorWatch::reason() const {
     const std::lock_guard lock(mutex_);
     return reason_;
 }
 
-send::ColorLoad ColorWatch::measure(const std::vector<std::unique_ptr<send::CameraLane>>& lanes) {
-    send::ColorLoad load;
+ColorLoad ColorWatch::measure(const std::vector<std::unique_ptr<CameraLane>>& lanes) {
+    ColorLoad load;
     load.busy = machine_.since_last();
     double cores = 0;
     for (const auto& lane : lanes) {
         const auto& info = lane->info();
         double picture_s = double(info.calibration.color.size.area()) * seconds_per_pixel;
         load.lost += lane->dropped_newest();
-        for (const send::EncoderFigures& encoder : lane->encoder_figures())
+        for (const EncoderFigures& encoder : lane->encoder_figures())
             if (encoder.codec == video::auto_color) {
                 load.in_use = true;
                 load.lost += encoder.left_out;
@@ -45,21 +53,20 @@ send::ColorLoad ColorWatch::measure(const std::vector<std::unique_ptr<send::Came
     return load;
 }
 
-void ColorWatch::on_tick(const std::vector<std::unique_ptr<send::CameraLane>>& lanes,
-                         TimePoint now) {
+void ColorWatch::on_tick(const std::vector<std::unique_ptr<CameraLane>>& lanes, TimePoint now) {
     if (now - measured_ < measured_every)
         return;
     const bool first = measured_ == TimePoint{};
     measured_ = now;
-    const send::ColorLoad load = measure(lanes);
+    const ColorLoad load = measure(lanes);
     if (first)
         return;  // nothing to compare with
     const bool changed = choice_.observe(load, now);
     *is_h264_ = choice_.is_h264();
     if (changed && load.in_use)
-        log::info("host", "automatic colour changed", {{"to", choice_.reason()}});
+        log::info("send", "automatic colour changed", {{"to", choice_.reason()}});
     const std::lock_guard lock(mutex_);
     reason_ = choice_.reason();
 }
 
-}  // namespace theatron::host
+}  // namespace theatron::send
