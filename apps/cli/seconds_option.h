@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a command runs, as an option of several commands.
+// The running time of a command, as an option of several commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@ namespace theatron::cli {
 // Three years: longer than anything runs, and well within a clock's range.
 inline constexpr double longest_seconds = 1e8;
 
-// Takes `seconds` from --seconds, or the option `name`; refuses what is not a time greater than 0.
+// Adds the option --seconds, or `name`, which sets `seconds`; values of 0 and below are refused.
 inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds, const std::string& help,
                                        const char* name = "--seconds") {
     return command.add_option(name, seconds, help)

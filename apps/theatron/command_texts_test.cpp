@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The sentence with which `call` refuses.
+// The error sentence of `call`.
 template <class Call>
 std::string refusal(const Call& call) {
     try {

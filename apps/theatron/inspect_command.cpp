@@ -187,7 +187,7 @@ void print_stream(const char* what, const Json& stream) {
               double(stream["longest_gap_ms"]));
 }
 
-// Lossless coding of what was filtered before is not what the sensor gave.
+// Lossless coding of filtered depth does not give the sensor's values.
 void print_filtering(const Json& depth) {
     if (depth["filtered"] > 0)
         print("          %llu of them went through the host's filters\n",
@@ -274,7 +274,7 @@ void print_minutes(const Json& camera) {
         }
 }
 
-// Decodes everything and says what is damaged. True if nothing is.
+// Decodes everything and prints the damage. True if there is none.
 bool add_verification(const std::shared_ptr<const record::RecordingFile>& recording,
                       const std::string& file, Json& json) {
     const exporting::Verification found = exporting::verify(recording, file, cli::show_progress());

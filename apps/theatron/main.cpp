@@ -27,7 +27,7 @@ int with_output_written(int code) {
 }
 
 int run(int argc, char** argv) {
-    // A file that reaches the size that is allowed is an error to report, not the end.
+    // At the file-size limit, writing then fails with an error instead of ending the process.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(
         "Theatron: open telepresence for the operating room.\n\n"

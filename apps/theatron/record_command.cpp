@@ -26,7 +26,7 @@
 namespace theatron::app {
 namespace {
 
-// The recording ended as it should, but something of what there was to record is not in it.
+// The recording ended normally, but it is not complete.
 constexpr int exit_incomplete = 3;
 
 struct Flags {
@@ -116,13 +116,13 @@ double cpu_seconds() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-// Pictures that came and are not in the recording, or never came.
+// Pictures that were not recorded, or that never came.
 struct Missing {
     std::uint64_t lost = 0, dropped = 0, interruptions = 0;
     bool any() const { return lost + dropped + interruptions > 0; }
 };
 
-// Says what the recording has of each camera, and sums up what is missing.
+// Prints the content of the recording for each camera, and the sums of missing pictures.
 nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& missing) {
     nlohmann::json cameras = nlohmann::json::array();
     for (const record::Intake::Stream& stream : source.intake().streams(steady_now())) {
@@ -151,7 +151,7 @@ nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& 
     return cameras;
 }
 
-// Looks whether the file that is written to is still there.
+// Checks that the file that is being written still exists.
 class FileWatch {
 public:
     explicit FileWatch(std::filesystem::path first) : first_(std::move(first)) {}
@@ -178,14 +178,14 @@ private:
     std::pair<dev_t, ino_t> file_{};
 };
 
-// How much older than now the newest picture is that has come.
+// Age of the newest picture that has arrived.
 Duration behind(record::RecordSource& source) {
     const auto newest = source.intake().newest_captured();
     return newest ? std::max(source.now().clock.session - *newest, Duration{}) : Duration{};
 }
 
-// The recording is to end, and pictures of the time before may still be at the host: takes them.
-// False if some did not come.
+// At the end of a recording: takes pictures of the time before that the host still has. False if
+// some did not come.
 template <class Say>
 bool fetch_rest(record::RecordSource& source, const Say& say) {
     constexpr Duration usual_delay = 1s, patience = 20s, no_progress = 3s;

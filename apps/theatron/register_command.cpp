@@ -153,7 +153,7 @@ void watch(std::vector<OpenCamera>& cameras, BoardSession& session, const Flags&
     }
 }
 
-// The floor as the camera that sees most of it has it, in the reference's frame.
+// The floor in the reference's frame, measured by the camera that sees most of it.
 std::optional<registration::Plane> floor_of(const std::vector<OpenCamera>& cameras,
                                             const BoardSession& session,
                                             const RigSolution& solution) {

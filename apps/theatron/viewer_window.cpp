@@ -19,7 +19,7 @@ namespace {
 
 constexpr Duration texts_every = 250ms;
 
-// Remarks of the participant's thread, on their way to the window's.
+// Remarks of the participant's thread for the window's thread.
 class Remarks {
 public:
     void add(const std::string& text) {

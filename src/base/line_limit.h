@@ -15,10 +15,10 @@ class LineLimit {
 public:
     // One line for each source in this time.
     static constexpr Duration interval = std::chrono::seconds(1);
-    // More sources at once share what one has.
+    // Further sources share one limit.
     static constexpr std::size_t max_sources = 64;
 
-    // If a line about `source` may be written now: the number of those left out since the last.
+    // If a line about `source` may be written now, the number of lines left out before; else empty.
     std::optional<std::uint64_t> take(const std::string& source, TimePoint now);
 
 private:

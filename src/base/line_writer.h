@@ -18,10 +18,10 @@ namespace theatron {
 
 class LineWriter {
 public:
-    // As many lines wait at most. More are left out, and a line says how many.
+    // Lines that may wait. Further ones are left out, and a line states their number.
     static constexpr std::size_t max_waiting = 1024;
 
-    // `write` is called from the thread alone, and may block.
+    // `write` is called from the writer's thread only, and may block.
     explicit LineWriter(std::function<void(std::string_view)> write);
     ~LineWriter();  // writes what waits
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where log lines go: standard error, by a thread of its own where there are threads.
+// The output of log lines: standard error, by a thread of its own if there are threads.
 #pragma once
 
 #include <string>

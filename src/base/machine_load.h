@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How busy the whole machine is, as the system counts it. Linux only; elsewhere it is never busy.
+// Load of the whole machine, as the system counts it. Linux only; 0 on other systems.
 #pragma once
 
 namespace theatron {
@@ -7,7 +7,7 @@ namespace theatron {
 // Measures between two calls. Not thread safe.
 class MachineLoad {
 public:
-    // Share of all cores that did anything since the last call, 0 to 1; 0 at the first call.
+    // Busy share of all cores since the last call, 0 to 1; 0 at the first call.
     double since_last();
 
 private:

@@ -70,7 +70,7 @@ public:
     }
     std::uint64_t count() const { return count_; }
     double sum() const { return sum_; }
-    // How many were at most bounds[i].
+    // Number of durations of at most bounds[i].
     std::uint64_t at_most(std::size_t i) const {
         std::uint64_t total = 0;
         for (std::size_t b = 0; b <= i; ++b)
@@ -84,7 +84,7 @@ private:
     double sum_ = 0;
 };
 
-// How much came in the last second.
+// Sum of the amounts of the last second.
 class RateWindow {
 public:
     void add(TimePoint now, double amount = 1) {

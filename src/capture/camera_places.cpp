@@ -99,7 +99,7 @@ std::string write_places(const CameraPlaces& places) {
         camera["depth_offset_mm"] = entry.depth_offset_mm;
         json["cameras"].push_back(std::move(camera));
     }
-    // A name that is no UTF-8 is written with replacements rather than not at all.
+    // Invalid UTF-8 in a name is replaced by U+FFFD.
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

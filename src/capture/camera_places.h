@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where cameras are in the room, in a file (docs/formats/places.md) or given by hand.
+// The places of cameras in the room, in a file (docs/formats/places.md) or given by hand.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct CameraPlaces {
         // Covariance of rotation (about the camera's axes, radians), then translation (along them,
         // metres), row by row; empty if unknown.
         std::optional<std::array<double, 36>> covariance;
-        double depth_offset_mm = 0;  // the camera measures this much too far
+        double depth_offset_mm = 0;  // distance by which the camera measures too far
         bool operator==(const Entry&) const = default;
     };
 
@@ -31,8 +31,8 @@ struct CameraPlaces {
     bool operator==(const CameraPlaces&) const = default;
 };
 
-// Places understood, or what is wrong with the text, as the end of a sentence that begins with the
-// file's name.
+// Parsed places, or the problem of the text, as the end of a sentence that begins with the file's
+// name.
 struct ParsedPlaces {
     CameraPlaces places;
     std::string problem;

@@ -58,9 +58,9 @@ void Decoders::run(Worker& worker) {
             worker.bytes_waiting -= message->cost();
         worker.busy = true;
         lock.unlock();
-        // Damage is counted there, and a key frame asked for.
+        // The receiver counts damage and requests a key frame.
         if (!contain("decode", [&] { work_on(worker, work); }) && message)
-            // The picture is lost, and what its decoder holds may be anything.
+            // The picture is lost, and the state of its decoder is undefined.
             if (const auto header = wire::parse_media_header(message->bytes))
                 (void)contain("decode",
                               [&] { events_.needs_key(header->stream, header->setting); });

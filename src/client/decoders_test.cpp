@@ -92,8 +92,8 @@ struct Held {
         Bytes bytes = message(number);
         return decoders.on_media(bytes, 7);
     }
-    // Leaves the thread busy with frame 0. The settings may not have been worked on yet, so whether
-    // that frame was taken at once is not known.
+    // Leaves the thread busy with frame 0. Returns the frame's size if it had to wait, because the
+    // thread was still busy with the settings; else 0.
     std::size_t occupy() {
         const bool at_once = send(0);
         first_came.get_future().wait();

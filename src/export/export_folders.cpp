@@ -129,7 +129,7 @@ public:
         depth_lens_.apply(frame.depth.view(), depth_.view());
         return std::as_const(depth_).view();
     }
-    // Nothing if it cannot be decoded.
+    // Empty if it cannot be decoded.
     std::optional<ColorView> color(const Frame& frame) {
         if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok)
             return std::nullopt;

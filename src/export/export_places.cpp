@@ -17,7 +17,7 @@ struct Found {
     std::vector<fs::path> folders;  // inner ones first
 };
 
-// As export_folders.cpp names them: five digits or more. Also one whose writing was cut off.
+// True for names of export_folders.cpp: five digits or more. Also for partly written files.
 bool is_picture(fs::path name, std::initializer_list<const char*> endings) {
     if (name.extension() == ".part")
         name = name.stem();
@@ -77,7 +77,7 @@ void clear(const fs::path& folder, bool overwrite) {
         if (!fs::remove(file, problem) && problem)
             throw Error("Cannot remove '" + file.string() + "': " + problem.message() + ".");
     }
-    // Those that hold something else stay.
+    // Folders with other files stay.
     for (const fs::path& one : found.folders) {
         std::error_code ignored;
         fs::remove(one, ignored);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where exports are written: never among the files of an earlier one.
+// The places of exports: never among the files of an earlier one.
 #pragma once
 
 #include <filesystem>

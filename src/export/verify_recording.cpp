@@ -69,13 +69,13 @@ public:
         decoder_ = video::make_color_decoder(parsed.setting.id);
     }
 
-    // missing_reference: it is whole, and what it refers to is not.
+    // missing_reference: the frame is whole, but its reference is not.
     Status decode(const wire::MediaHeader& header, ByteView payload) {
         if (!decoder_) {
             const Status status = jpeg_.decompress(payload, image_);
             return status == Status::ok && image_.size != size_ ? Status::size_mismatch : status;
         }
-        // One that is no key frame refers to the one before it, and so on to a key frame.
+        // A frame that is no key frame refers to the previous one, and so on up to a key frame.
         if (!header.key && last_ != header.reference)
             return Status::missing_reference;
         last_.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes all of a recording and counts what is not as it was recorded.
+// Decodes a whole recording and counts damaged and missing pictures.
 #pragma once
 
 #include <map>

@@ -135,7 +135,7 @@ TEST(Connection, BothSidesLearnOfTheEnd) {
     EXPECT_EQ(closed.get_future().get(), "refused");
 }
 
-// Answers each message with itself, until one says that something is wrong.
+// Answers each message with itself; a message that begins with 66 meets a fault of the host.
 Server::Handler echo_that_can_throw(TestServer*& host) {
     Server::Handler handler;
     handler.control = [&host](PeerId peer, ByteView bytes) {

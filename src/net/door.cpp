@@ -27,9 +27,9 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 
-// Handshakes that have to wait are looked at this often.
+// Waiting handshakes are checked at this interval.
 constexpr Duration handshake_pause = std::chrono::milliseconds(10);
-// Pictures come first where cores are short.
+// Lower priority than pictures, for machines with few cores.
 constexpr int niceness = 5;
 
 constexpr std::string_view websocket_path = "/connection";
@@ -88,8 +88,8 @@ struct Door::Impl {
     void turn_away(Places::Id id, const std::string& why);
 };
 
-// One connection on its way in. Everything on the door's thread. A step that fails, also for
-// want of memory, ends the connection.
+// One connection that is being accepted. Everything runs on the door's thread. A step that fails,
+// also for lack of memory, ends the connection.
 class Door::Impl::Stranger : public std::enable_shared_from_this<Stranger> {
 public:
     Stranger(Impl& door, Places::Id id, tcp::socket socket, std::string address)
@@ -129,7 +129,7 @@ public:
             });
     }
 
-    // Nothing is set up for a connection that says nothing.
+    // TLS is set up only after the first bytes have arrived.
     void start() {
         extend(request_deadline, "said too little in time");
         raw_.async_wait(tcp::socket::wait_read, step([this] {
@@ -191,7 +191,7 @@ private:
         }));
     }
 
-    // A browser, or a curious colleague with curl.
+    // For requests without a WebSocket, for example of a browser.
     void answer(const HttpAnswer& answer) {
         response_.result(unsigned(answer.status));
         response_.set(http::field::content_type, answer.type);

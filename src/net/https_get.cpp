@@ -45,7 +45,7 @@ struct Exchange {
         answer.body_limit(max_answer);
     }
 
-    // Goes on with `next`, or ends with what is wrong.
+    // Continues with `next`, or ends with the error.
     template <class Next>
     auto then(Next next) {
         return [this, next](beast::error_code error, auto&&...) {

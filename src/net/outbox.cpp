@@ -100,7 +100,7 @@ Outbox::Pushed Outbox::queue(Media media) {
     }
 
     if (media.key) {
-        // Needs nothing that waits, and nothing older is worth more.
+        // A key frame refers to none of the waiting frames and replaces them.
         result.dropped += drop_waiting(lane);
         lane.broken = false;
     } else if (lane.broken) {
@@ -121,8 +121,8 @@ Outbox::Pushed Outbox::queue(Media media) {
             --waiting_;
             ++result.dropped;
         } else if (media.temporal_layer > 0) {
-            // Later frames of layer 0 do not need it, and of its own layer's
-            // followers the receiver knows from their reference what to skip.
+            // Later frames of layer 0 do not need it. The receiver skips later frames
+            // of its own layer, because their reference is missing.
             return {result.dropped + 1, false};
         } else {
             result.dropped += drop_waiting(lane) + 1;
@@ -134,7 +134,7 @@ Outbox::Pushed Outbox::queue(Media media) {
     return result;
 }
 
-// The stream that was served longest ago, of those where something waits.
+// The stream that was served longest ago, among those with a waiting frame.
 Outbox::Lane* Outbox::longest_unserved() {
     Lane* chosen = nullptr;
     for (auto& [stream, lane] : lanes_)
@@ -199,7 +199,7 @@ void Outbox::next_interaction(Bytes& envelope, TimePoint now) {
     pay(envelope.size(), now);
 }
 
-// As many as one envelope holds, each in its turn.
+// As many as fit into one envelope, in a fixed order of keys that starts after the last one sent.
 void Outbox::next_states(Bytes& envelope) {
     envelope.clear();
     while (!states_.empty()) {
@@ -242,7 +242,7 @@ void Outbox::acknowledge(const wire::Acknowledgement& word, TimePoint now) {
 }
 
 bool Outbox::stands_still(TimePoint now) {
-    // A ceiling may hold back for longer.
+    // A ceiling may hold an envelope back for longer than give_up_after.
     if (idle_ || ask_again_ || moved_ != moved_before_ || !still_since_) {
         moved_before_ = moved_;
         still_since_ = now;

@@ -61,7 +61,7 @@ void Server::Impl::tick() {
         if (error)
             return;
         (void)contain("net", [this] {
-            // Looking may close and erase one.
+            // look() may close and erase a connection.
             for (const auto& [peer, connection] : std::map(peers))
                 connection->look();
             if (handler.tick)

@@ -170,7 +170,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     stream.exact = exactness(stream, payload);
 
     CameraState& camera = cameras_[stream.camera];
-    // Its colour never came: better shown with an older one than not at all.
+    // Its colour never came: the depth image is shown with an older one.
     if (camera.depth)
         hand_on(camera);
     camera.depth = frame;
@@ -220,7 +220,7 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
                               TimePoint now) {
     if (const Status s = follow_color_codec(stream, header); s != Status::ok)
         return s;
-    // Seen before any memory is taken for the picture.
+    // Checked before any memory is allocated for the picture.
     const auto size = video::read_color_size(stream.color_codec, payload);
     if (!size)
         return size.error();

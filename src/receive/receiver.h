@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// From media messages to images: decodes what arrives, pairs depth and colour
-// of a camera, notices what is missing, and knows how old everything is.
+// From media messages to images: decodes them, pairs depth and colour of a
+// camera, detects missing frames, and measures the age of pictures.
 //
 // No threads and no clock of its own: the owner calls it from one thread with
-// the session time, and is given frames that any thread may keep.
+// the session time, and gets frames that any thread may keep.
 #pragma once
 
 #include <functional>
@@ -82,7 +82,7 @@ public:
     // calibration keeps its decoders; streams of other cameras are forgotten. A camera whose
     // calibration cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
-    // Throws Error if a codec is one that this build does not know.
+    // Throws Error if this build does not know one of the codecs.
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
     // Takes one whole media message. Damaged and unknown ones are counted.

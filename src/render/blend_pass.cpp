@@ -15,7 +15,7 @@
 namespace theatron::render {
 namespace {
 
-// For a number of layers.
+// The program for a number of layers.
 struct BlendProgram {
     std::string definition;  // read by the compiler alone, but must live as long as its call
     Program program;

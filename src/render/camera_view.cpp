@@ -9,7 +9,7 @@ namespace theatron::render {
 namespace {
 
 constexpr Vec3 room_up{0, 1, 0};
-// A surface of interest reaches this far in depth and fills this share of the samples.
+// Depth range of a surface of interest, and the share of the samples that it fills.
 constexpr double interest_depth_mm = 300;
 constexpr std::size_t interest_share = 10;
 

@@ -78,7 +78,7 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
     CameraUniforms u{};
     put(u.clip_from_camera, projection(view) * matrix(eye_from_camera));
     put(u.color_from_camera, matrix(calibration.color_from_depth));
-    // Without a colour picture its size stays 0 and everything lies outside.
+    // Without a colour picture its size is 0, so that every point lies outside.
     if (camera.color_size() != Size{} && calibration.color.size != Size{}) {
         const CameraModel color = scaled(calibration.color, camera.color_size());
         put(u.color_pinhole, color.fx, color.fy, color.cx, color.cy);

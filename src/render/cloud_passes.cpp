@@ -18,7 +18,7 @@ public:
         glUniform2f(half_picture_, float(picture.width / 2.0), float(picture.height / 2.0));
         glUniform1f(pixels_per_tan_, float(picture.width / (frame.view.right - frame.view.left)));
         set_depth_from_w(frame.view, depth_from_w_);
-        // Points are wider than the viewport that their middles lie in.
+        // Points near the border reach beyond the viewport of their middles.
         glEnable(GL_SCISSOR_TEST);
         glScissor(frame.target.x, frame.target.y, picture.width, picture.height);
         for (const CloudCamera* camera : frame.cameras) {

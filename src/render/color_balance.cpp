@@ -27,7 +27,7 @@ double linear_from_srgb(int value) {
     return table[std::size_t(value)];
 }
 
-// Too dark and a step is too much, too bright and it may be cut off.
+// Usable values: below, one step is a large ratio; above, the value may be clipped.
 bool tells(Vec3 light) {
     const auto good = [](double v) { return v > 0.01 && v < 0.85; };
     return good(light.x) && good(light.y) && good(light.z);
@@ -99,7 +99,7 @@ void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color)
         }
 }
 
-// The mean light around the place where the camera sees this point, if it does.
+// The mean light around the pixel of this point; empty if the camera does not see it.
 std::optional<Vec3> ColorBalance::light_at(const Camera& camera, Vec3 point_room) {
     const Calibration& c = camera.calibration;
     const Vec3 p = inverse(c.room_from_camera) * point_room;
@@ -111,7 +111,7 @@ std::optional<Vec3> ColorBalance::light_at(const Camera& camera, Vec3 point_room
     const Size small = camera.depth.size;
     if (x < 1 || y < 1 || x + 1 >= small.width || y + 1 >= small.height)
         return std::nullopt;
-    // All around it must be the same surface: at edges light comes from both sides.
+    // All neighbours must be on the same surface: at edges light comes from both sides.
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
             const double z = camera.depth.view().row(y + dy)[x + dx] * c.depth_unit_mm / 1000;

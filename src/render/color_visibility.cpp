@@ -17,7 +17,7 @@ void ColorVisibility::update(CloudCamera& camera) {
         return;
     map.content = camera.content();
     const bool needed = may_be_hidden(camera.calibration());
-    // Half the depth's size: shadows need not be sharper than what throws them. Shaders that may
+    // Half the depth's size: shadows need not be sharper than that. Shaders that may
     // read a map want one, even where they do not.
     const Size depth = camera.depth_size();
     const Size size = needed ? Size{(depth.width + 1) / 2, (depth.height + 1) / 2} : Size{1, 1};

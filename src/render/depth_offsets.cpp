@@ -12,7 +12,7 @@
 namespace theatron::render {
 namespace {
 
-// Twice a second to begin with; later the offsets are known, and a copy costs some milliseconds.
+// Twice a second at first, less often later: a copy costs some milliseconds.
 constexpr unsigned uploads_per_copy = 15, uploads_per_later_copy = 60;
 constexpr int first_estimates = 8;
 constexpr int largest_copy = 1280;  // columns of a colour picture
@@ -25,7 +25,7 @@ constexpr double least_texture = 8;      // steps of 255
 constexpr double least_cosine = 0.3;     // at which both cameras must see a surface
 constexpr double usual_difference = 30;  // between two cameras' textures; more counts less
 constexpr double prior_weight = 1e8;     // pulls towards 0 where there is little texture
-constexpr double follow = 0.2;           // least share of a new estimate in what is used
+constexpr double follow = 0.2;           // smallest weight of a new estimate in the offset
 
 double metres(const Calibration& calibration, std::uint16_t units) {
     return units * calibration.depth_unit_mm / 1000;
@@ -99,7 +99,7 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
         --camera.passed_over;
         return;
     }
-    // Not all cameras in one picture.
+    // Cameras are copied in different pictures, to spread the cost.
     camera.passed_over =
         (camera.estimates < first_estimates ? uploads_per_copy : uploads_per_later_copy) +
         unsigned(std::distance(cameras_.begin(), cameras_.find(id)));
@@ -163,7 +163,7 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
         const auto place = project(b.color, color_from_a * point);
         return place ? texture_at(b.brightness.view(), *place, size) : std::nullopt;
     };
-    // Before the start is found both may be as wrong as they get.
+    // During the search both cameras may have their largest offsets.
     const bool coarse = size > finest;
     const double hidden_m = coarse ? 2 * largest_m : largest_m;
     Equation equation;
@@ -171,7 +171,7 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
         const Sample& s = a.samples[i];
         const Vec3 ray = s.point * (1 / s.point.z);
         const Vec3 point = s.point - ray * offset_m, from_b = point - eye_b;
-        // Far around the two see different things.
+        // From too different directions the two cameras see different sides.
         if (dot(s.normal, from_b) > -least_cosine * length(from_b) || dot(ray, from_b) < 0)
             continue;
         const Vec3 there = b_from_a * point;

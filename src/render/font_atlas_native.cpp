@@ -18,7 +18,7 @@ constexpr char32_t first = 0x20, last = 0x17f;
 // How far outlines are followed to either side, in pixels.
 constexpr int spread = 5;
 
-// From a drawn glyph, which has grey pixels at its outline, to distances. The library's own way
+// Distances from a drawn glyph, which has grey pixels at its outline. The library's own method
 // takes ten seconds for an alphabet.
 Image<std::uint8_t> distances_of(const FT_Bitmap& bitmap) {
     const int width = int(bitmap.width), height = int(bitmap.rows);

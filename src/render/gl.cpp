@@ -32,7 +32,7 @@ constexpr std::string_view es_preamble =
     "precision highp samplerCube;\n";
 constexpr std::string_view desktop_preamble = "#version 420 core\n";
 
-// For the current context.
+// The first lines of a shader for the current context.
 std::string_view preamble() {
 #ifdef __EMSCRIPTEN__
     return es_preamble;

@@ -10,7 +10,7 @@ std::vector<GLuint> grid_indices(Size size) {
         return indices;
     indices.reserve(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
     const auto at = [&](int x, int y) { return GLuint(y * size.width + x); };
-    // In upright strips, so that a row's vertices are still at hand for the next row.
+    // In upright strips, so that a row's vertices are still in the cache for the next row.
     constexpr int strip = 16;
     for (int first = 0; first + 1 < size.width; first += strip)
         for (int y = 0; y + 1 < size.height; ++y)

@@ -70,7 +70,7 @@ protected:
         return scene.render(view, {120, 90}, GetParam());
     }
 
-    // Neither is a multiple of the other, in any direction.
+    // Neither width nor height of one is a multiple of the other's.
     const Calibration camera = calibrated({97, 71}, {122, 63}, {0, 1.5, 0});
     const Calibration larger = calibrated({160, 93}, {90, 130}, {500, 1.5, 0});
 };

@@ -26,7 +26,7 @@ void set_vector(GLint uniform, Vec3 v) {
     glUniform3f(uniform, float(v.x), float(v.y), float(v.z));
 }
 
-// The light as an eye that sees the ball of what casts shadows, without perspective.
+// The light's view of the ball that contains all shadow casters, without perspective.
 struct LightView {
     Mat4 clip_from_room;
     explicit LightView(const SceneFrame& frame) {
@@ -173,7 +173,7 @@ struct ScenePasses::Parts {
         in_use = nullptr;
     }
 
-    // Makes the right program current, with all that is the same for the whole picture.
+    // Makes the right program current and sets its uniforms of the whole picture.
     void use_lit(const LitPicture& picture, bool textured) {
         const SceneFrame& frame = picture.frame;
         const CameraView& view = picture.view;

@@ -2,9 +2,9 @@
 // The virtual operating room around the clouds: floor, walls, and a mark with a name where each
 // camera stands.
 //
-// The real room is seen as clouds in its place, so this one only goes on where nothing was
-// measured: its floor and walls never hide a cloud. It needs to know where the cameras are; as long
-// as that is unknown, there is no floor to draw, and no room.
+// The real room appears as clouds in its place, so the virtual one is only visible where nothing
+// was measured: its floor and walls never hide a cloud. It needs the places of the cameras: without
+// a registered camera there is no room.
 #pragma once
 
 #include <optional>

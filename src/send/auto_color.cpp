@@ -24,7 +24,7 @@ public:
                 encoded->codec = video::ColorCodecId::h264;
                 return encoded;
             }
-            // A camera's damaged picture says nothing about the encoder.
+            // A camera's damaged picture is no failure of the encoder.
             if (encoded.error() == Status::malformed)
                 return encoded;
             h264_failed_ = true;

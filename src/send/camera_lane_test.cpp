@@ -14,7 +14,7 @@ namespace theatron::send {
 namespace {
 
 constexpr Size size{16, 12};
-// How long a test waits for what must happen: generous, so that slow machines pass.
+// Longest time that a test waits for an event: generous, so that slow machines pass.
 constexpr Duration patience = 20s;
 
 // Time that passes when the test says so.

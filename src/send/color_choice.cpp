@@ -28,7 +28,7 @@ bool ColorChoice::observe(const ColorLoad& load, TimePoint now) {
         lost_at_window_ = load.lost;
     }
     if (!load.in_use) {
-        // Nobody sees a change, and nothing is learnt from it.
+        // Without a receiver a change costs nothing, and it is no trial.
         began_ = now;
         is_h264_ = now >= not_before_ && load.busy + load.h264 <= most_busy - margin;
         reason_ = std::string(is_h264_ ? "H.264" : "JPEG") + ": the processor is " +

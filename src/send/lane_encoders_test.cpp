@@ -16,7 +16,7 @@ constexpr Size size{32, 24};
 constexpr SettingId cheap{1}, dear{2}, other{3};
 constexpr Duration share = 4ms;
 
-// An encoder that takes as much of a fake CPU as the test says.
+// An encoder that takes a given time of a fake CPU.
 class CostlyCodec final : public codec::DepthCodec {
 public:
     CostlyCodec(std::unique_ptr<codec::DepthCodec> codec, const Duration& cost, Duration& cpu)
@@ -41,7 +41,7 @@ private:
     Duration& cpu_;
 };
 
-// Fails when the test says so.
+// An encoder that fails on demand.
 class FailingColor final : public video::ColorEncoder {
 public:
     explicit FailingColor(const bool& fails) : fails_(fails) {}

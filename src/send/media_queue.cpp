@@ -59,7 +59,7 @@ MediaQueue::Taken MediaQueue::take() {
         if (lane.broken)
             taken.broken.push_back(key);
     }
-    // Settings come and go; what is not broken need not be remembered.
+    // Settings come and go; lanes that are not broken need not be kept.
     std::erase_if(lanes_, [](const auto& entry) { return !entry.second.broken; });
     return taken;
 }

@@ -70,7 +70,7 @@ void ThreadPool::run() {
         --idle_;
         lock.unlock();
         (void)contain("work", work);
-        work = nullptr;  // what it held is not released under the lock
+        work = nullptr;  // its captures are not destroyed under the lock
         lock.lock();
         ++idle_;
     }

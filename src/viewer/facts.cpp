@@ -122,7 +122,7 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     return line;
 }
 
-// Conditions that a picture which seems all right hides.
+// Warnings about conditions that the picture itself does not show.
 std::string warning_of(const Facts& facts) {
     constexpr double repeated_ms = 2000;
     // In other phases the message says it.
@@ -171,7 +171,7 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     xr::OverlayContent content;
     content.facts = line_of(facts, address, filter_name);
-    // A hidden line still shows what is not as it should be.
+    // A hidden line still shows facts that need attention.
     if (!facts.line)
         std::erase_if(content.facts, [](const xr::Fact& fact) { return !fact.warning; });
     const Message message = message_of(facts, address);

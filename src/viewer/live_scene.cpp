@@ -89,7 +89,7 @@ void LiveScene::set_depth_step(int step) {
         (void)upload(*frame);
 }
 
-// Heads stay where the options say. A host that comes back with other cameras is no error.
+// Heads stay at the places of the options. A host that returns with other cameras is no error.
 void LiveScene::cut_people(const std::vector<client::Participant::Camera>& cameras) {
     std::vector<std::string> names;
     for (const auto& camera : cameras)

@@ -12,7 +12,7 @@ namespace theatron::viewer {
 namespace {
 
 constexpr Duration notice_shown = std::chrono::seconds(5);
-// A picture that is shown for longer than this has an age that grows by the clock.
+// A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
 
 // The name after `current` in `names`; `current` may have options behind a colon.

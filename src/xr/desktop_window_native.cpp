@@ -128,7 +128,7 @@ bool DesktopWindow::Parts::open(const std::string& title, Size size, int profile
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, profile);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, major);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, minor);
-    // How a window is made depends on what will draw in it.
+    // The attributes take effect when a window is created, so each kind of GL needs a new one.
     if (window)
         SDL_DestroyWindow(window);
     window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,

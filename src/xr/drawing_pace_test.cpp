@@ -10,7 +10,7 @@
 namespace theatron::xr {
 namespace {
 
-// How long a machine needs for a picture drawn this way.
+// The time that a machine needs for a picture in this mode.
 using Machine = std::function<Duration(const DrawingWay&)>;
 
 // A viewer in front of a machine, whose cameras give 30 pictures a second.
@@ -71,7 +71,7 @@ TEST(DrawingPace, ASlowerMachineGetsTheNextBestThatKeepsUp) {
     EXPECT_EQ(best_for(machine(100ms, 10ms)), (DrawingWay{"mesh", 2, 1}));
     EXPECT_EQ(best_for(machine(200ms, 10ms)), (DrawingWay{"mesh", 3, 1}));
     EXPECT_EQ(best_for(machine(60ms, 90ms)), (DrawingWay{"mesh", 3, 0.5}));
-    // A graphics card to which points are nothing and blending is much.
+    // A graphics card on which points cost nothing and blending is slow.
     EXPECT_EQ(best_for([](const DrawingWay& way) { return way.renderer == "blend" ? 60ms : 20ms; }),
               (DrawingWay{"mesh", 1, 1}));
 }
@@ -123,7 +123,7 @@ TEST(DrawingPace, DoesNotSwingToAndFro) {
         }
 }
 
-// A GPU in whose queue pictures pile up only while the viewer moves: at rest it seems quick.
+// A GPU whose queue fills only while the viewer moves: at rest it seems fast.
 TEST(DrawingPace, WhatFailsAgainAndAgainIsTriedEverLessOften) {
     Viewer viewer(automatic_ways(2, 0));
     const Machine moving = [](const DrawingWay& way) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that draws a depth image as a surface: what the other renderers' times
-// are compared with.
+// The simplest drawing of a depth image as a surface: the yardstick for the times of
+// the other renderers.
 
 uniform int columns;  // of the depth image
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera's mesh into a layer of its own: its colour, and how good it is there.
+// Draws one camera's mesh into a separate layer: its colour, and its quality there.
 
 
 in vec4 v_place;

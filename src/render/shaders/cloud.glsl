@@ -35,7 +35,7 @@ vec3 point_at(ivec2 pixel, float z) {
     return vec3(ray * z, z);
 }
 
-// Beyond this nothing is expected to hide anything.
+// Largest distance of an occluder, metres.
 const float farthest_m = 20.0;
 
 // Where the colour camera sees a point of the depth camera's frame: the pixel, far

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws what a camera measures as its colour camera sees it, depth only: the map
-// that color_place.glsl asks. A point for each block of 2x2 depth pixels.
+// Draws a camera's depth from its colour camera's viewpoint, depth only: the map
+// that color_place.glsl reads. A point for each block of 2x2 depth pixels.
 
 uniform int blocks_per_row;
 uniform vec2 map_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface as it was measured, without what its camera always measures too much. Needs cloud.glsl.
+// The measured surface, minus the constant offset of its camera. Needs cloud.glsl.
 
 // Metres, 0 where there is none.
 float surface_m(ivec2 pixel) {

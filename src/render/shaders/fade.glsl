@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fading without sorting: of a surface that is seen to a share, that share of the pixels is
-// drawn, evenly spread (interleaved gradient noise, Jimenez 2014).
+// Fading without sorting: a surface with a share below 1 is drawn in that share of its pixels,
+// evenly spread (interleaved gradient noise, Jimenez 2014).
 
 bool is_faded(float share) {
     float threshold =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a camera's view of a point is worth beside other cameras'. Needs cloud.glsl.
+// The weight of a camera's view of a point beside other cameras'. Needs cloud.glsl.
 
 // Distance to the next edge of the surface, from 0 to 1.
 uniform sampler2D edge_distances;
@@ -12,7 +12,7 @@ float quality_at(ivec2 pixel, vec3 point, vec2 steepness, float seen) {
     float near = min(1.0, 1.0 / (point.z * point.z));
     // The cosine at which the camera sees the surface.
     float facing = inversesqrt(1.0 + dot(steepness, steepness));
-    // Nothing of a camera may begin or end suddenly.
+    // Weights fall to 0 at edges, so that no camera's share begins or ends suddenly.
     vec2 place = (vec2(pixel) + 0.5) / (4.0 * vec2(textureSize(edge_distances, 0)));
     float inner = texture(edge_distances, place).r;
     return near * facing * facing * inner * max(seen, 0.002);

@@ -73,15 +73,15 @@ float noise_m(float z) {
     return 0.0015 + 0.0008 * z * z;
 }
 
-// Refined depth of the frame before, 0 where there was none. The lowest bits count frames; see steadied().
+// Refined depth of the previous frame, 0 where there was none. Without its lowest bits; see remembered().
 float depth_before(ivec2 pixel) {
     ivec2 last = textureSize(depth_image, 0) - 1;
     return uintBitsToFloat(texelFetch(refined_before, clamp(pixel, ivec2(0), last), 0).r & ~age_bits);
 }
 
-// A mean of the neighbours on the same surface. Pairs of opposite neighbours, so that slopes and rims stay
-// where they are. A pair whose middle is not here has a step in between, which is no noise; where nothing
-// moved, the frame before tells, so that noise does not decide anew each time.
+// A mean over pairs of opposite neighbours on the same surface, so that slopes and rims keep their places. A
+// pair whose mean differs from this pixel has a step in between and gets less weight. Where nothing moved, the
+// previous frame decides this, so that noise does not change the decision from frame to frame.
 float smoothed(ivec2 pixel, float z) {
     float limit = largest_step(footprint_m(z));
     float noise = noise_m(z);
@@ -103,7 +103,7 @@ float smoothed(ivec2 pixel, float z) {
     return sum / weight;
 }
 
-// How many of the eight neighbours measure this surface now.
+// The number of the eight neighbours that measure this surface now.
 int support(float around[8], float z) {
     float limit = largest_step(footprint_m(z));
     int count = 0;

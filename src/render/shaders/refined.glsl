@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface as refine.frag made it from what was measured. Needs cloud.glsl.
+// The surface after refine.frag. Needs cloud.glsl.
 
 uniform usampler2D refined_depth;
 
@@ -8,5 +8,5 @@ float surface_m(ivec2 pixel) {
     return uintBitsToFloat(texelFetch(refined_depth, pixel, 0).r);
 }
 
-// How far a surface is drawn behind what hides it from its camera, in pixels.
+// How far a surface continues behind its occluder, in pixels.
 const float goes_on_behind = 1.5;

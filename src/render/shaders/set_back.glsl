@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets what has its colour win over what has none where cameras overlap.
+// Where cameras overlap, points with a colour of their own win over points without one.
 
 uniform vec2 depth_from_w;  // window depth of distance w: x + y / w
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a point is to be seen: less at the borders of a person, and of cameras that
-// come or go. Needs cloud.glsl.
+// The opacity of a point: less than 1 at the borders of a person, and while cameras fade in
+// or out. Needs cloud.glsl.
 
 // 0 to 1. `point` is in the depth camera's frame.
 float share_within_cut(vec3 point) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the neighbours of a point appear in the picture. Needs neighbours.glsl.
+// The places of a point's neighbours in the picture. Needs neighbours.glsl.
 
 uniform int columns;        // of the depth image
 uniform vec2 half_picture;  // half of its size in pixels

@@ -2,7 +2,7 @@
 // A colour picture that follows its noise slowly. Needs cloud.glsl.
 
 uniform bool has_before;
-uniform sampler2D colors_before;  // what this shader drew for the frame before
+uniform sampler2D colors_before;  // this shader's output for the previous frame
 
 layout(location = 0) out vec4 out_color;
 

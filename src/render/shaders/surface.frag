@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that is to be known of a depth pixel whatever the view: drawn once for each new
-// image, so that the vertex shaders of every view only read it (surface_read.glsl).
+// Computes all properties of a depth pixel that do not depend on the view, once for each new
+// image. The vertex shaders of every view only read them (surface_read.glsl).
 
 
 layout(location = 0) out uvec4 out_surface;
