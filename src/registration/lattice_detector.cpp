@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registration/lattice_detector.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
 namespace theatron::registration {
 namespace {
@@ -12,6 +14,8 @@ constexpr int sparse_step = 2;
 constexpr double least_area_share = 0.45, largest_area_share = 1.7;
 // A fit whose edges do not lie where the image has its edges is no board.
 constexpr double largest_edge_rms = 0.42;
+// With this agreement no better one is looked for.
+constexpr double sure_agreement = 0.97;
 
 }  // namespace
 
@@ -20,7 +24,8 @@ LatticeDetector::LatticeDetector(const CameraModel& camera, double depth_unit_mm
     : camera_(camera),
       metres_per_unit_(depth_unit_mm / 1000),
       target_(target),
-      rays_(make_ray_table(camera)) {
+      rays_(make_ray_table(camera)),
+      pixels_(camera, rays_) {
     assert(is_valid(target));
     sparse_rays_.resize({camera.size.width / sparse_step, camera.size.height / sparse_step});
     for (int y = 0; y < sparse_rays_.size.height; ++y)
@@ -45,9 +50,15 @@ std::optional<Detection> LatticeDetector::detect(DepthView depth) {
     const SurfaceSize wanted{std::hypot(target_.width_m, target_.height_m) * 1.05,
                              solid_area_m2(target_) * least_area_share,
                              solid_area_m2(target_) * largest_area_share};
-    const DepthLookup lookup{depth, &camera_, metres_per_unit_};
+    const DepthLookup lookup{depth, &camera_, &pixels_, metres_per_unit_};
+    // The most board-like area first: mostly it is the board, and the others are left alone.
+    std::vector<FoundPlane> planes = find_planes(sparse_, wanted, explained_);
+    const double solid = solid_area_m2(target_);
+    std::sort(planes.begin(), planes.end(), [&](const FoundPlane& a, const FoundPlane& b) {
+        return std::abs(std::log(a.area_m2 / solid)) < std::abs(std::log(b.area_m2 / solid));
+    });
     std::optional<Detection> best;
-    for (const FoundPlane& plane : find_planes(sparse_, wanted, explained_)) {
+    for (const FoundPlane& plane : planes) {
         const auto match = match_lattice(lookup, plane, target_);
         if (!match || (best && best->match.agreement >= match->agreement))
             continue;
@@ -56,6 +67,8 @@ std::optional<Detection> LatticeDetector::detect(DepthView depth) {
             continue;
         best = Detection{fit->camera_from_face * inverse(board_from_face(target_, match->face)),
                          *match, *fit};
+        if (match->agreement > sure_agreement)
+            break;
     }
     return best;
 }

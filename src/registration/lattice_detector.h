@@ -2,7 +2,7 @@
 // Finds the lattice target in depth images of one camera.
 //
 // Planes of the right size are searched, the pattern is looked for on each, and
-// the board's pose is fitted to the pixels. About ten milliseconds for 640x576
+// the board's pose is fitted to the pixels. Some milliseconds for 640x576
 // pixels on one core. One detector per thread.
 #pragma once
 
@@ -32,6 +32,7 @@ private:
     double metres_per_unit_;
     LatticeTarget target_;
     Image<Ray> rays_, sparse_rays_;
+    PixelLookup pixels_;
     SparseDepth sparse_;
     std::vector<std::uint8_t> explained_;
 };

@@ -7,8 +7,6 @@
 namespace theatron::registration {
 namespace {
 
-constexpr int columns = LatticeTarget::columns, rows = LatticeTarget::rows;
-
 // As docs/synthetic_sensor.md models mixed pixels: light that a pixel gets from the next and the
 // one after, how far a farther surface can pull a measurement, and what pull is given up.
 constexpr double next_light = 0.20, second_light = 0.012;
@@ -16,18 +14,6 @@ constexpr double own_width = 1;
 constexpr double farthest_pull_m = 0.3, given_up_m = 0.032;
 
 }  // namespace
-
-int nearest_cell(const LatticeTarget& target, double u, double v) {
-    const Rect first = cell(target, 0, 0), last = cell(target, columns - 1, rows - 1);
-    const double step_u = (last.left - first.left) / (columns - 1);
-    const double step_v = (first.bottom - last.bottom) / (rows - 1);
-    const double middle_u = (first.left + first.right) / 2,
-                 middle_v = (first.top + first.bottom) / 2;
-    const auto index = [](double along, int count) {
-        return int(std::lround(std::clamp(along, 0.0, double(count - 1))));
-    };
-    return index((middle_v - v) / step_v, rows) * columns + index((u - middle_u) / step_u, columns);
-}
 
 PixelBlur::PixelBlur(Vec2 direction) {
     constexpr double weights[5] = {second_light, next_light, 1 - 2 * (next_light + second_light),
@@ -97,7 +83,7 @@ struct SeenEdges::Viewpoint {
 SeenEdges::SeenEdges(const LatticeTarget& target, Face face, const Pose& camera_from_face,
                      double pitch, double board_reach_m, const BackgroundLight& background,
                      double log_background)
-    : target_(target), log_background_(log_background) {
+    : pattern_(target, face), log_background_(log_background) {
     const Pose& pose = camera_from_face;
     const Vec3 middle = pose.translation;
     // How the picture of the middle moves along an axis of the face.
@@ -122,15 +108,12 @@ SeenEdges::SeenEdges(const LatticeTarget& target, Face face, const Pose& camera_
         return light;
     };
     outline_ = seen(outline(target), false, from, scaled(background.outline));
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const auto i = std::size_t(row * columns + column);
-            is_hole_[i] = !is_filled(face, column, row);
-            const double light = background.cells[i];
-            if (is_hole_[i])
-                cells_[i] = seen(cell(target, column, row), true, from,
-                                 scaled({light, light, light, light}));
-        }
+    for (int i = 0; i < FacePattern::cell_count; ++i) {
+        const double light = background.cells[std::size_t(i)];
+        if (pattern_.is_hole(i))
+            cells_[std::size_t(i)] =
+                seen(pattern_.cell_at(i), true, from, scaled({light, light, light, light}));
+    }
 }
 
 SeenEdges::Sides SeenEdges::seen(const Rect& drawn, bool is_hole, const Viewpoint& from,
@@ -201,9 +184,9 @@ Coverage SeenEdges::at(double u, double v, double ramp_u, double ramp_v,
     Coverage sum;
     add(outline_, false, u, v, ramp_u, ramp_v, params, sum);
     // Bars are wider than any ramp, so no other hole is near.
-    const auto i = std::size_t(nearest_cell(target_, u, v));
-    if (is_hole_[i])
-        add(cells_[i], true, u, v, ramp_u, ramp_v, params, sum);
+    const int i = pattern_.nearest_cell(u, v);
+    if (pattern_.is_hole(i))
+        add(cells_[std::size_t(i)], true, u, v, ramp_u, ramp_v, params, sum);
     return sum;
 }
 

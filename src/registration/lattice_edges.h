@@ -33,9 +33,6 @@ struct BackgroundLight {
     std::array<double, LatticeTarget::columns * LatticeTarget::rows> cells{};  // row by row
 };
 
-// The cell nearest to a place on the face.
-int nearest_cell(const LatticeTarget& target, double u, double v);
-
 // Light is per area as seen, in that of the face.
 struct EdgeLight {
     double wall_px = 0;  // width of the wall beside the face's edge, as seen
@@ -79,8 +76,21 @@ public:
     // At (u, v) on the face, for pixels that blur an edge over `ramp_u` and `ramp_v` metres.
     Coverage at(double u, double v, double ramp_u, double ramp_v, const EdgeParams& params) const;
 
+    // Whether an edge appears within `reach_m` of a place.
+    bool is_near_edge(double u, double v, double reach_m) const {
+        const int i = pattern_.nearest_cell(u, v);
+        return outline_.is_near(u, v, reach_m) ||
+               (pattern_.is_hole(i) && cells_[std::size_t(i)].is_near(u, v, reach_m));
+    }
+
 private:
     struct Sides {
+        bool is_near(double u, double v, double reach_m) const {
+            const double inside = std::min(std::min(u - place[0], v - place[1]),
+                                           std::min(place[2] - u, place[3] - v));
+            return std::abs(inside) < reach_m;
+        }
+
         std::array<double, 4> place{};          // where each side appears
         std::array<double, 4> by_background{};  // how that changes with log_background
     };
@@ -90,11 +100,10 @@ private:
     void add(const Sides& sides, bool is_hole, double u, double v, double ramp_u, double ramp_v,
              const EdgeParams& params, Coverage& sum) const;
 
-    LatticeTarget target_;
+    FacePattern pattern_;
     double log_background_;
     Sides outline_;
-    std::array<Sides, LatticeTarget::columns * LatticeTarget::rows> cells_;
-    std::array<bool, LatticeTarget::columns * LatticeTarget::rows> is_hole_{};
+    std::array<Sides, FacePattern::cell_count> cells_;
 };
 
 }  // namespace theatron::registration

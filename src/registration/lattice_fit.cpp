@@ -10,15 +10,22 @@
 namespace theatron::registration {
 namespace {
 
-constexpr int rounds = 4;                   // plane, then edges
-constexpr int steps_per_round = 3;          // of the edges
-constexpr double ramp_pixels = 3;           // over which coverage goes from 0 to 1
-constexpr double first_ramp_m = 0.014;      // the match is good to a centimetre
+// A round fits the plane, then the edges. Coverage goes from 0 to 1 over some pixels, first over
+// more because the match is only good to a centimetre.
+struct Round {
+    double least_ramp_m;
+    double spacing_m;  // on the face; where pixels are finer, some rows and columns are left out
+    int steps;
+};
+constexpr std::array<Round, 3> rounds{{{0.014, 0.01, 2}, {0.007, 0.01, 2}, {0, 0.0045, 2}}};
+constexpr int last_steps = 2;  // of the edges, with the pixels of the last round
+constexpr double ramp_pixels = 3;
+constexpr double moves_in_round_m = 0.003;
 constexpr double free_of_edges_pixels = 3;  // pixels that show the plane alone
 constexpr int least_plane_pixels = 200, least_edge_pixels = 100;
-constexpr double mixed_m = 0.04;     // pulled off the board by what is behind it, no further
-constexpr double farthest_m = 0.04;  // from the match
-constexpr double edge_reach_m = 0.03;
+constexpr double mixed_m = 0.04;        // pulled off the board by what is behind it, no further
+constexpr double farthest_m = 0.04;     // from the match
+constexpr double light_reach_m = 0.03;  // around edges; the light of what is behind counts there
 constexpr double background_reflectivity = 0.6;  // in that of the board
 // Deviations of what is known beforehand.
 constexpr double prior_growth_m = 0.002, prior_log_background = 0.7;
@@ -37,11 +44,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 // A pixel near the board.
 struct Spot {
-    Vec3 ray;       // camera frame, z = 1
-    double du, dv;  // one pixel's extent on the face, metres
-    double shown;   // 1: board, 0: what is behind, 0.5: not measured
-    Vec2 place;     // on the face, about
-    float depth_m;  // 0: not measured
+    Vec3 ray;               // camera frame, z = 1
+    double ramp_u, ramp_v;  // along the face, over which coverage goes from 0 to 1, metres
+    double shown;           // 1: board, 0: what is behind, 0.5: not measured
 };
 
 struct PixelWindow {
@@ -119,6 +124,46 @@ PlaneSays plane_says(const Plane& plane, const Matrix3& q_covariance, const Pose
             by_pose.transpose() * information * longer};
 }
 
+// How far away the background is beyond each edge of the outline, and through each hole.
+class BackgroundDepth {
+public:
+    void add(const FacePattern& pattern, Vec2 p, double z_m) {
+        const FacePattern::Inside inside = pattern.inside(p.x, p.y);
+        if (inside.edge() > light_reach_m)
+            return;
+        const bool is_beyond = inside.outline < 0;
+        Mean& own = is_beyond ? beyond_[std::size_t(pattern.side_beyond(p.x, p.y))]
+                              : through_[std::size_t(pattern.nearest_cell(p.x, p.y))];
+        for (Mean* mean : {&own, &all_}) {
+            mean->sum += z_m;
+            ++mean->n;
+        }
+    }
+
+    // Expected for a face at `z_m`, whose normal has this cosine to the line of sight.
+    BackgroundLight light(double z_m, double cos_face) const {
+        const auto light_of = [&](const Mean& mean) {
+            constexpr int enough = 10;
+            const Mean& used = mean.n >= enough ? mean : all_;
+            const double behind_m = used.n > 0 ? used.sum / used.n : 2 * z_m;
+            return background_reflectivity * (z_m / behind_m) * (z_m / behind_m) / cos_face;
+        };
+        BackgroundLight result;
+        std::transform(beyond_.begin(), beyond_.end(), result.outline.begin(), light_of);
+        std::transform(through_.begin(), through_.end(), result.cells.begin(), light_of);
+        return result;
+    }
+
+private:
+    struct Mean {
+        double sum = 0;
+        int n = 0;
+    };
+    Mean all_;
+    std::array<Mean, 4> beyond_{};
+    std::array<Mean, FacePattern::cell_count> through_{};
+};
+
 class Fit {
 public:
     Fit(const DepthLookup& depth, const Image<Ray>& rays, const LatticeMatch& match,
@@ -126,6 +171,7 @@ public:
         : depth_(depth),
           rays_(rays),
           target_(target),
+          pattern_(target, match.face),
           trust_(trust),
           face_(match.face),
           start_(match.camera_from_face) {
@@ -133,44 +179,85 @@ public:
     }
 
     std::optional<LatticeFit> run() {
-        for (int round = 0; round < rounds; ++round) {
-            if (!fit_plane(round == 0) || !fit_edges(round))
+        bool first = true;
+        for (const Round& round : rounds) {
+            if (!fit_plane(first, round))
                 return {};
-            if (length(result_.camera_from_face.translation - start_.translation) > farthest_m)
+            SeenEdges seen = edges_from_here();
+            find_spots(seen, round);
+            if (!fit_edges(seen, round.steps) || is_far_from_match())
                 return {};
+            first = false;
         }
-        if (!fit_plane(false))
+        if (!fit_edges(edges_from_here(), last_steps) || is_far_from_match())
             return {};
         fill_covariance();
         return result_;
     }
 
 private:
-    // The face's plane from the pixels that show nothing else.
-    bool fit_plane(bool first) {
+    // Places on the face that the pixels of a plane see.
+    class OnFace {
+    public:
+        OnFace(const Plane& plane, const Pose& camera_from_face)
+            : u_(in_plane(axis_of(camera_from_face, 0), plane, camera_from_face)),
+              v_(in_plane(axis_of(camera_from_face, 1), plane, camera_from_face)) {}
+
+        // `on_plane` is the plane's inverse depth for this ray.
+        Vec2 at(Ray ray, double on_plane) const {
+            const double z = 1 / on_plane;
+            return {(u_.x * ray.x + u_.y * ray.y + u_.z) * z,
+                    (v_.x * ray.x + v_.y * ray.y + v_.z) * z};
+        }
+
+    private:
+        static Vec3 in_plane(Vec3 axis, const Plane& plane, const Pose& pose) {
+            return axis - plane.q * dot(axis, pose.translation);
+        }
+        Vec3 u_, v_;
+    };
+
+    int step_in(const Round& round) const {
+        const double pixel_m = pixel_pitch() * length(result_.camera_from_face.translation);
+        return std::max(1, int(round.spacing_m / pixel_m + 0.5));
+    }
+
+    // The face's plane from the pixels that show nothing else; and how far away the background is.
+    bool fit_plane(bool first, const Round& round) {
         const Pose& pose = result_.camera_from_face;
         const Plane before = first ? plane_of(pose) : result_.plane;
         const PixelWindow w = window_of(depth_, pose, target_);
-        const Pose face_from_camera = inverse(pose);
+        const OnFace on_face(before, pose);
+        const int step = step_in(round);
         const double margin =
             first ? 0.016 : free_of_edges_pixels * pixel_pitch() * length(pose.translation);
+        const double per_length = 1 / length(before.q);
+        background_ = {};
         Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
         Eigen::Vector3d b = Eigen::Vector3d::Zero();
         double square = 0, square_of_inverse = 0;
         int n = 0;
-        for (int y = w.top; y < w.bottom; ++y) {
+        for (int y = w.top; y < w.bottom; y += step) {
             const Ray* rays = rays_.view().row(y);
             const std::uint16_t* row = depth_.depth.row(y);
-            for (int x = w.left; x < w.right; ++x) {
+            for (int x = w.left; x < w.right; x += step) {
                 if (row[x] == 0 || rays[x].x == no_ray)
                     continue;
                 const double on_plane = before.inverse_depth(rays[x]);
                 const double z_m = row[x] * depth_.metres_per_unit;
-                const double off = (on_plane * z_m - 1) / length(before.q);
-                if (on_plane <= 0 || std::abs(off) > plane_tolerance_m(z_m))
+                const double off = (on_plane * z_m - 1) * per_length;
+                const double tolerance = plane_tolerance_m(z_m);
+                if (on_plane <= 0 || off < -tolerance)
                     continue;
-                const Vec3 p = face_from_camera * before.point(rays[x]);
-                if (!is_inside(p.x, p.y, margin))
+                const bool is_behind = off >= board_reach_m(z_m) + mixed_m;
+                if (off > tolerance && !is_behind)
+                    continue;
+                const Vec2 p = on_face.at(rays[x], on_plane);
+                if (is_behind) {
+                    background_.add(pattern_, p, z_m);
+                    continue;
+                }
+                if (pattern_.inside(p.x, p.y).solid() < margin)
                     continue;
                 const Eigen::Vector3d r(rays[x].x, rays[x].y, 1);
                 a += r * r.transpose();
@@ -180,7 +267,7 @@ private:
                 ++n;
             }
         }
-        if (n < least_plane_pixels)
+        if (n * step * step < least_plane_pixels)
             return false;
         const Eigen::Vector3d q = a.ldlt().solve(b);
         if (!q.allFinite())
@@ -197,27 +284,37 @@ private:
         return {z * (1 / dot(z, pose.translation))};
     }
 
-    bool fit_edges(int round) {
-        const double ramp_floor = round == 0 ? first_ramp_m : round == 1 ? first_ramp_m / 2 : 0;
-        const std::vector<Spot> spots = spots_near_edges();
-        Pose& pose = result_.camera_from_face;
+    bool is_far_from_match() const {
+        return length(result_.camera_from_face.translation - start_.translation) > farthest_m;
+    }
+
+    SeenEdges edges_from_here() const {
+        const Pose& pose = result_.camera_from_face;
         const Vec3 eye = inverse(pose).translation;
+        return {target_,
+                face_,
+                pose,
+                pixel_pitch(),
+                board_reach_m(length(eye)),
+                background_.light(pose.translation.z, eye.z / length(eye)),
+                result_.edges.log_background};
+    }
+
+    bool fit_edges(const SeenEdges& seen, int steps) {
+        Pose& pose = result_.camera_from_face;
         EdgeParams& params = result_.edges;
-        const SeenEdges seen(target_, face_, pose, pixel_pitch(), board_reach_m(length(eye)),
-                             background_light(spots, eye), params.log_background);
-        for (int step = 0; step < steps_per_round; ++step) {
+        for (int step = 0; step < steps; ++step) {
             MatrixAll a = MatrixAll::Zero();
             VectorAll b = VectorAll::Zero();
             double square = 0;
             int n = 0;
             const Pose face_from_camera = inverse(pose);
-            for (const Spot& s : spots) {
+            for (const Spot& s : spots_) {
                 const Vec3 d = rotate(face_from_camera.rotation, s.ray);
                 const double t = -face_from_camera.translation.z / d.z;
                 const double u = face_from_camera.translation.x + d.x * t;
                 const double v = face_from_camera.translation.y + d.y * t;
-                const Coverage c = seen.at(u, v, std::max(ramp_pixels * s.du, ramp_floor),
-                                           std::max(ramp_pixels * s.dv, ramp_floor), params);
+                const Coverage c = seen.at(u, v, s.ramp_u, s.ramp_v, params);
                 if (c.by_u == 0 && c.by_v == 0)
                     continue;
                 const double residual = s.shown - c.share;
@@ -271,119 +368,52 @@ private:
     // How far behind the plane a measurement is still the board: noise, and the walls.
     double board_reach_m(double z_m) const { return plane_tolerance_m(z_m) + target_.thickness_m; }
 
-    // Expected from how far away the background beyond each edge is.
-    BackgroundLight background_light(const std::vector<Spot>& spots, Vec3 eye) const {
-        struct Mean {
-            double sum = 0;
-            int n = 0;
-        };
-        Mean all;
-        std::array<Mean, 4> beyond{};
-        std::array<Mean, LatticeTarget::columns * LatticeTarget::rows> through{};
-        const Rect r = outline(target_);
-        for (const Spot& s : spots) {
-            if (s.shown != 0)
-                continue;
-            const double beside[4] = {r.left - s.place.x, r.bottom - s.place.y, s.place.x - r.right,
-                                      s.place.y - r.top};
-            const auto side = std::size_t(std::max_element(beside, beside + 4) - beside);
-            Mean& own = beside[side] > 0
-                            ? beyond[side]
-                            : through[std::size_t(nearest_cell(target_, s.place.x, s.place.y))];
-            for (Mean* mean : {&own, &all}) {
-                mean->sum += s.depth_m;
-                ++mean->n;
-            }
-        }
-        const double z = result_.camera_from_face.translation.z;
-        const double cos_face = eye.z / length(eye);
-        const auto light = [&](const Mean& mean) {
-            constexpr int enough = 10;
-            const Mean& used = mean.n >= enough ? mean : all;
-            const double behind_m = used.n > 0 ? used.sum / used.n : 2 * z;
-            return background_reflectivity * (z / behind_m) * (z / behind_m) / cos_face;
-        };
-        BackgroundLight result;
-        std::transform(beyond.begin(), beyond.end(), result.outline.begin(), light);
-        std::transform(through.begin(), through.end(), result.cells.begin(), light);
-        return result;
-    }
-
-    std::vector<Spot> spots_near_edges() const {
+    void find_spots(const SeenEdges& seen, const Round& round) {
         const Pose& pose = result_.camera_from_face;
         const Plane& plane = result_.plane;
         const PixelWindow w = window_of(depth_, pose, target_);
-        const Vec3 ax = axis_of(pose, 0), ay = axis_of(pose, 1);
-        const double length_q = length(plane.q);
-        std::vector<Spot> spots;
-        spots.reserve(std::size_t(std::max(0, w.right - w.left)) *
-                      std::size_t(std::max(0, w.bottom - w.top)) / 2);
-        const auto on_face = [&](Ray ray) {
-            const Vec3 p = plane.point(ray) - pose.translation;
-            return Vec2{dot(ax, p), dot(ay, p)};
-        };
-        for (int y = w.top; y + 1 < w.bottom; ++y) {
+        const OnFace on_face(plane, pose);
+        const int step = step_in(round);
+        const double per_length = 1 / length(plane.q);
+        const double usual_ramp_m = std::max(
+            ramp_pixels * pixel_pitch() * length(pose.translation) * 1.3, round.least_ramp_m);
+        const double reach_m = usual_ramp_m / 2 + moves_in_round_m + round.least_ramp_m / 2;
+        spots_.clear();
+        for (int y = w.top; y + 1 < w.bottom; y += step) {
             const Ray* rays = rays_.view().row(y);
             const Ray* below = rays_.view().row(y + 1);
             const std::uint16_t* row = depth_.depth.row(y);
-            for (int x = w.left; x + 1 < w.right; ++x) {
+            for (int x = w.left; x + 1 < w.right; x += step) {
                 if (rays[x].x == no_ray || rays[x + 1].x == no_ray || below[x].x == no_ray)
                     continue;
                 const double on_plane = plane.inverse_depth(rays[x]);
                 if (on_plane <= 0)
                     continue;
-                const Vec2 here = on_face(rays[x]);
+                const Vec2 here = on_face.at(rays[x], on_plane);
                 // Pixels in the middle of holes and of the rest say nothing.
-                if (!is_near_edge(here.x, here.y))
+                if (!seen.is_near_edge(here.x, here.y, reach_m))
                     continue;
-                double shown = 0.5, z = 0;
+                double shown = 0.5;
                 if (row[x] != 0) {
-                    z = row[x] * depth_.metres_per_unit;
-                    const double off = (on_plane * z - 1) / length_q;  // behind the plane
-                    const double tolerance = plane_tolerance_m(z);
-                    if (off < -tolerance)
+                    const double z = row[x] * depth_.metres_per_unit;
+                    const double off = (on_plane * z - 1) * per_length;  // behind the plane
+                    if (off < -plane_tolerance_m(z))
                         continue;  // something stands before the board
                     // A pixel that both share lies between them, near the board.
                     const double shared = board_reach_m(z);
                     shown = off < shared ? 1 : off < shared + mixed_m ? 0.5 : 0;
                 }
-                const Vec2 right = on_face(rays[x + 1]), under = on_face(below[x]);
-                spots.push_back({{rays[x].x, rays[x].y, 1},
-                                 std::hypot(right.x - here.x, under.x - here.x),
-                                 std::hypot(right.y - here.y, under.y - here.y),
-                                 shown,
-                                 here,
-                                 float(z)});
+                const Vec2 right = on_face.at(rays[x + 1], plane.inverse_depth(rays[x + 1]));
+                const Vec2 under = on_face.at(below[x], plane.inverse_depth(below[x]));
+                const auto ramp = [&](double a, double b) {
+                    return std::max(ramp_pixels * std::sqrt(a * a + b * b), round.least_ramp_m);
+                };
+                spots_.push_back({{rays[x].x, rays[x].y, 1},
+                                  ramp(right.x - here.x, under.x - here.x),
+                                  ramp(right.y - here.y, under.y - here.y),
+                                  shown});
             }
         }
-        return spots;
-    }
-
-    // Further than `margin` from every edge, on the board.
-    bool is_inside(double u, double v, double margin) const {
-        const Rect r = outline(target_);
-        if (u < r.left + margin || u > r.right - margin || v < r.bottom + margin ||
-            v > r.top - margin)
-            return false;
-        const int i = nearest_cell(target_, u, v);
-        const int column = i % LatticeTarget::columns, row = i / LatticeTarget::columns;
-        const Rect h = cell(target_, column, row);
-        return is_filled(face_, column, row) || u < h.left - margin || u > h.right + margin ||
-               v < h.bottom - margin || v > h.top + margin;
-    }
-
-    bool is_near_edge(double u, double v) const {
-        const auto near = [&](const Rect& r) {
-            const bool within = u > r.left - edge_reach_m && u < r.right + edge_reach_m &&
-                                v > r.bottom - edge_reach_m && v < r.top + edge_reach_m;
-            const bool deep = u > r.left + edge_reach_m && u < r.right - edge_reach_m &&
-                              v > r.bottom + edge_reach_m && v < r.top - edge_reach_m;
-            return within && !deep;
-        };
-        const int i = nearest_cell(target_, u, v);
-        const int column = i % LatticeTarget::columns, row = i / LatticeTarget::columns;
-        return near(outline(target_)) ||
-               (!is_filled(face_, column, row) && near(cell(target_, column, row)));
     }
 
     double pixel_pitch() const { return 2 / (depth_.camera->fx + depth_.camera->fy); }
@@ -416,12 +446,15 @@ private:
     const DepthLookup& depth_;
     const Image<Ray>& rays_;
     const LatticeTarget& target_;
+    const FacePattern pattern_;
     const DepthTrust& trust_;
     Face face_;
     Pose start_;
     MatrixAll edge_information_ = MatrixAll::Identity();
     VectorAll edge_pull_ = VectorAll::Zero();
     Vector6 last_step_ = Vector6::Zero();
+    BackgroundDepth background_;
+    std::vector<Spot> spots_;
     LatticeFit result_;
 };
 

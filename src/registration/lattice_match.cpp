@@ -9,113 +9,22 @@
 namespace theatron::registration {
 namespace {
 
-constexpr double cell_m = 0.01;   // of the rectified picture
-constexpr double rim_m = 0.04;    // around the outline nothing may lie on the plane
-constexpr double search_m = 0.3;  // between the middle of the points and the middle of the board
-constexpr double least_agreement = 0.9;
+constexpr double rim_m = 0.04;  // around the outline nothing may lie on the plane
 constexpr double least_known = 0.5;
-constexpr double least_margin = 0.06;
-constexpr int most_turns = 3;              // until the picture is upright
-constexpr double straight_enough = 0.006;  // radians
+constexpr double half_known = 0.65;  // below, the agreement has to be twice as good
 
-// The plane seen from in front: +1 where the surface is, -1 where the camera looks
-// through to something behind, 0 where nothing is known.
-struct Rectified {
-    int side = 0;  // cells in a row and in a column
-    std::vector<std::int8_t> value;
-
-    int at(int x, int y) const {
-        return value[std::size_t(y) * std::size_t(side) + std::size_t(x)];
-    }
+// Most planes are given up in the coarse picture.
+struct Stage {
+    double cell_m;
+    int arm;                 // of edge_angle
+    int most_turns;          // until the picture is upright
+    double straight_enough;  // radians
+    double search_m;         // between the origin of the axes and the middle of the board
+    int search_step;         // cells
+    double least_agreement, least_margin;
 };
-
-// Axes on the plane, unit vectors in the camera's frame.
-struct Axes {
-    Vec3 origin, x, y, z;
-};
-
-Axes axes_on(const Plane& plane, Vec3 middle) {
-    const Vec3 z = plane.normal();
-    const Vec3 helper = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 x = normalized(helper - z * dot(helper, z));
-    // On the plane itself, where the mean of noisy points is not quite.
-    const Vec3 origin = middle + z * ((1 - dot(plane.q, middle)) / -length(plane.q));
-    return {origin, x, cross(z, x), z};
-}
-
-Axes turned(const Axes& a, double angle) {
-    const Vec3 x = a.x * std::cos(angle) + a.y * std::sin(angle);
-    return {a.origin, x, cross(a.z, x), a.z};
-}
-
-Rectified rectify(const DepthLookup& lookup, const Axes& axes, double reach_m) {
-    Rectified picture;
-    picture.side = 2 * int(std::ceil(reach_m / cell_m));
-    picture.value.assign(std::size_t(picture.side) * std::size_t(picture.side), 0);
-    const double first = (0.5 - picture.side / 2) * cell_m;
-    for (int j = 0; j < picture.side; ++j)
-        for (int i = 0; i < picture.side; ++i) {
-            const Vec3 p =
-                axes.origin + axes.x * (first + i * cell_m) + axes.y * (first + j * cell_m);
-            const auto pixel = project(*lookup.camera, p);
-            if (!pixel)
-                continue;
-            const int px = int(std::lround(pixel->x)), py = int(std::lround(pixel->y));
-            if (px < 0 || py < 0 || px >= lookup.depth.size.width || py >= lookup.depth.size.height)
-                continue;
-            const double measured = lookup.depth.row(py)[px] * lookup.metres_per_unit;
-            if (measured == 0)
-                continue;
-            const double behind = (measured - p.z) * -dot(axes.z, p) / p.z;
-            const double tolerance = plane_tolerance_m(p.z);
-            std::int8_t& value =
-                picture.value[std::size_t(j) * std::size_t(picture.side) + std::size_t(i)];
-            if (std::abs(behind) <= tolerance)
-                value = 1;
-            else if (behind > 2 * tolerance)
-                value = -1;
-        }
-    return picture;
-}
-
-// The same picture for axes that are turned by a quarter, counter-clockwise.
-Rectified quarter_turned(const Rectified& picture) {
-    Rectified result{picture.side, std::vector<std::int8_t>(picture.value.size())};
-    const int side = picture.side;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            result.value[std::size_t(y) * std::size_t(side) + std::size_t(x)] =
-                std::int8_t(picture.at(side - 1 - y, x));
-    return result;
-}
-
-// The direction of the pattern's edges, within an eighth of a turn of the x axis.
-double edge_angle(const Rectified& picture) {
-    double cosine = 0, sine = 0;
-    // Nothing is known along edges for some centimetres: a window reaches across.
-    constexpr int arm = 3;
-    for (int y = arm; y + arm < picture.side; ++y)
-        for (int x = arm; x + arm < picture.side; ++x) {
-            int gx = 0, gy = 0, least = 0, largest = 0;
-            for (int k = -arm; k <= arm; ++k) {
-                const int left = picture.at(x - arm, y + k), right = picture.at(x + arm, y + k);
-                const int below = picture.at(x + k, y - arm), above = picture.at(x + k, y + arm);
-                gx += right - left;
-                gy += above - below;
-                least = std::min({least, left, right, below, above});
-                largest = std::max({largest, left, right, below, above});
-            }
-            // Beside what is not measured at all there is no edge of the board.
-            if (least == largest || least == 0 || largest == 0)
-                continue;
-            // Four times the angle is the same for all four directions of a rectangle's edges.
-            const double angle = 4 * std::atan2(double(gy), double(gx));
-            const double weight = gx * gx + gy * gy;
-            cosine += weight * std::cos(angle);
-            sine += weight * std::sin(angle);
-        }
-    return std::atan2(sine, cosine) / 4;
-}
+constexpr Stage coarse{0.02, 2, 2, 0.02, 0.3, 2, 0.78, 0.03};
+constexpr Stage fine{0.01, 3, 2, 0.006, 0.03, 1, 0.9, 0.06};
 
 // Sums over any rectangle in four look-ups.
 class Integral {
@@ -125,7 +34,8 @@ public:
         for (int y = 0; y < picture.side; ++y) {
             int row = 0;
             for (int x = 0; x < picture.side; ++x) {
-                row += absolute ? std::abs(picture.at(x, y)) : picture.at(x, y);
+                const int value = picture.row(y)[x];
+                row += absolute ? std::abs(value) : value;
                 at(x + 1, y + 1) = at(x + 1, y) + row;
             }
         }
@@ -152,8 +62,8 @@ struct CellRect {
     int area() const { return (right - left) * (top - bottom); }
 };
 
-CellRect in_cells(const Rect& r, double grow_m = 0) {
-    const auto round = [](double v) { return int(std::lround(v / cell_m)); };
+CellRect in_cells(const Rect& r, double cell_m, double grow_m = 0) {
+    const auto round = [&](double v) { return int(std::lround(v / cell_m)); };
     return {round(r.left - grow_m), round(r.bottom - grow_m), round(r.right + grow_m),
             round(r.top + grow_m)};
 }
@@ -183,15 +93,16 @@ struct Place {
 // Compares the pattern with the picture at any place.
 class Comparison {
 public:
-    Comparison(const Rectified& picture, const LatticeTarget& target)
+    Comparison(const Rectified& picture, const LatticeTarget& target, double cell_m)
         : values_(picture, false),
           known_(picture, true),
           middle_(picture.side / 2),
-          outer_(in_cells(outline(target))),
-          rim_(in_cells(outline(target), rim_m)) {
+          outer_(in_cells(outline(target), cell_m)),
+          rim_(in_cells(outline(target), cell_m, rim_m)) {
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
-                cells_[std::size_t(row * columns + column)] = in_cells(cell(target, column, row));
+                cells_[std::size_t(row * columns + column)] =
+                    in_cells(cell(target, column, row), cell_m);
     }
 
     // Scores of the four ways.
@@ -241,12 +152,13 @@ private:
     std::array<CellRect, cell_count> cells_{};
 };
 
-std::optional<LatticeMatch> match_upright(const Rectified& picture, const Axes& axes,
-                                          const LatticeTarget& target) {
-    const Comparison comparison(picture, target);
-    constexpr int coarse = 3;
-    const Place rough = comparison.best(0, 0, int(search_m / cell_m), coarse);
-    const Place place = comparison.best(rough.x, rough.y, coarse, 1);
+std::optional<LatticeMatch> match_upright(const Rectified& picture, const PlaneAxes& axes,
+                                          const LatticeTarget& target, const Stage& stage) {
+    const double cell_m = stage.cell_m;
+    const Comparison comparison(picture, target, cell_m);
+    const Place rough = comparison.best(0, 0, int(stage.search_m / cell_m), stage.search_step);
+    const Place place =
+        stage.search_step > 1 ? comparison.best(rough.x, rough.y, stage.search_step, 1) : rough;
     const double known = comparison.known(place);
     if (known < least_known * comparison.total())
         return {};
@@ -261,7 +173,10 @@ std::optional<LatticeMatch> match_upright(const Rectified& picture, const Axes& 
     match.agreement = 0.5 + 0.5 * place.score / known;
     match.known = known / comparison.total();
     match.margin = 0.5 * (place.score - other) / known;
-    if (match.agreement < least_agreement || match.margin < least_margin)
+    const double least_agreement = match.known < half_known
+                                       ? stage.least_agreement + (1 - stage.least_agreement) / 2
+                                       : stage.least_agreement;
+    if (match.agreement < least_agreement || match.margin < stage.least_margin)
         return {};
     const Vec3 origin = axes.origin + axes.x * (place.x * cell_m) + axes.y * (place.y * cell_m);
     const double sign = place.way.upside_down ? -1 : 1;
@@ -271,27 +186,37 @@ std::optional<LatticeMatch> match_upright(const Rectified& picture, const Axes& 
     return match;
 }
 
+// The pattern along the axes of a picture that is turned until it is upright.
+std::optional<LatticeMatch> match_in(const DepthLookup& depth, PlaneAxes axes,
+                                     const LatticeTarget& target, const Stage& stage) {
+    const double reach_m = std::hypot(target.width_m, target.height_m) / 2 + rim_m + stage.search_m;
+    Rectified picture = rectify(depth, axes, reach_m, stage.cell_m);
+    // Cells make directions other than their own inaccurate, so the picture is made again.
+    for (int i = 0; i < stage.most_turns; ++i) {
+        const double angle = edge_angle(picture, stage.arm);
+        if (std::abs(angle) < stage.straight_enough)
+            break;
+        axes = turned(axes, angle);
+        picture = rectify(depth, axes, reach_m, stage.cell_m);
+    }
+    const auto upright = match_upright(picture, axes, target, stage);
+    // The other of the two directions that edges have.
+    const auto lying =
+        match_upright(quarter_turned(picture), turned(axes, std::numbers::pi / 2), target, stage);
+    return lying && (!upright || lying->agreement > upright->agreement) ? lying : upright;
+}
+
 }  // namespace
 
 std::optional<LatticeMatch> match_lattice(const DepthLookup& depth, const FoundPlane& found,
                                           const LatticeTarget& target) {
-    const double half_diagonal = std::hypot(target.width_m, target.height_m) / 2;
-    const double reach_m = half_diagonal + search_m;
-    Axes axes = axes_on(found.plane, found.middle);
-    Rectified picture = rectify(depth, axes, reach_m);
-    // Cells make directions other than their own inaccurate, so the picture is made again.
-    for (int i = 0; i < most_turns; ++i) {
-        const double angle = edge_angle(picture);
-        if (std::abs(angle) < straight_enough)
-            break;
-        axes = turned(axes, angle);
-        picture = rectify(depth, axes, reach_m);
-    }
-    // The pattern is upright in one of two pictures, a quarter turn apart.
-    const auto upright = match_upright(picture, axes, target);
-    const auto lying =
-        match_upright(quarter_turned(picture), turned(axes, std::numbers::pi / 2), target);
-    return lying && (!upright || lying->agreement > upright->agreement) ? lying : upright;
+    const auto rough = match_in(depth, axes_on(found.plane, found.middle), target, coarse);
+    if (!rough)
+        return {};
+    const Mat3 m = matrix_from_quat(rough->camera_from_face.rotation);
+    const auto axis = [&](int i) { return Vec3{m.m[0][i], m.m[1][i], m.m[2][i]}; };
+    return match_in(depth, {rough->camera_from_face.translation, axis(0), axis(1), axis(2)}, target,
+                    fine);
 }
 
 }  // namespace theatron::registration

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "registration/lattice_target.h"
-#include "registration/plane_search.h"
+#include "registration/rectified.h"
 
 namespace theatron::registration {
 
@@ -18,13 +18,6 @@ struct LatticeMatch {
     double agreement = 0;
     double known = 0;   // share of face and rim that the depth image says something about
     double margin = 0;  // lead over the best of the other three ways to see the board
-};
-
-// The depth image's measurement where `camera` sees a place.
-struct DepthLookup {
-    DepthView depth;
-    const CameraModel* camera = nullptr;
-    double metres_per_unit = 0.001;
 };
 
 // The best match on `found`, or nothing where no place agrees well enough.

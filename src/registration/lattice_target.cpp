@@ -62,6 +62,22 @@ std::vector<Rect> holes(const LatticeTarget& target, Face face) {
     return result;
 }
 
+FacePattern::FacePattern(const LatticeTarget& target, Face face)
+    : half_width_(target.width_m / 2), half_height_(target.height_m / 2) {
+    for (int row = 0; row < LatticeTarget::rows; ++row)
+        for (int column = 0; column < LatticeTarget::columns; ++column) {
+            const auto i = std::size_t(row * LatticeTarget::columns + column);
+            cells_[i] = cell(target, column, row);
+            holes_[i] = !is_filled(face, column, row);
+        }
+    const Rect& first = cells_.front();
+    const Rect& last = cells_.back();
+    first_u_ = (first.left + first.right) / 2;
+    first_v_ = (first.bottom + first.top) / 2;
+    per_step_u_ = (LatticeTarget::columns - 1) / (last.left - first.left);
+    per_step_v_ = (LatticeTarget::rows - 1) / (first.bottom - last.bottom);
+}
+
 double solid_area_m2(const LatticeTarget& target) {
     double area = target.width_m * target.height_m;
     for (const Rect& hole : holes(target, Face::front))

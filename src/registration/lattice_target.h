@@ -13,7 +13,9 @@
 // side, y up, z out of the front face. The back face lies at z = -thickness_m.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -61,6 +63,55 @@ bool is_filled(Face face, int column, int row);
 
 // All cells that are cut out, seen from `face`.
 std::vector<Rect> holes(const LatticeTarget& target, Face face);
+
+// The pattern of one face, prepared to be asked about many places.
+class FacePattern {
+public:
+    FacePattern(const LatticeTarget& target, Face face);
+
+    static constexpr int cell_count = LatticeTarget::columns * LatticeTarget::rows;
+
+    // The cell nearest to a place on the face, row by row.
+    int nearest_cell(double u, double v) const {
+        const auto index = [](double along, int count) {
+            return int(std::clamp(along, 0.0, double(count - 1)) + 0.5);
+        };
+        return index((first_v_ - v) * per_step_v_, LatticeTarget::rows) * LatticeTarget::columns +
+               index((u - first_u_) * per_step_u_, LatticeTarget::columns);
+    }
+    bool is_hole(int cell_index) const { return holes_[std::size_t(cell_index)]; }
+    const Rect& cell_at(int cell_index) const { return cells_[std::size_t(cell_index)]; }
+
+    // How far a place lies inside the outline, and inside the nearest hole; metres along the nearer
+    // axis, negative outside.
+    struct Inside {
+        double outline = 0, hole = 0;
+        double solid() const { return std::min(outline, -hole); }
+        double edge() const { return std::min(std::abs(outline), std::abs(hole)); }
+    };
+    Inside inside(double u, double v) const {
+        constexpr double no_hole = -1e3;
+        const int i = nearest_cell(u, v);
+        const Rect& c = cells_[std::size_t(i)];
+        return {std::min(half_width_ - std::abs(u), half_height_ - std::abs(v)),
+                holes_[std::size_t(i)]
+                    ? std::min(std::min(u - c.left, c.right - u), std::min(v - c.bottom, c.top - v))
+                    : no_hole};
+    }
+
+    // The side of the outline that a place outside of it is beyond: left, bottom, right, top.
+    int side_beyond(double u, double v) const {
+        const std::array<double, 4> beside{-half_width_ - u, -half_height_ - v, u - half_width_,
+                                           v - half_height_};
+        return int(std::max_element(beside.begin(), beside.end()) - beside.begin());
+    }
+
+private:
+    double half_width_, half_height_;
+    double first_u_, first_v_, per_step_u_, per_step_v_;  // middles of cells
+    std::array<Rect, cell_count> cells_;
+    std::array<bool, cell_count> holes_{};
+};
 
 // Area of one face without its holes, square metres.
 double solid_area_m2(const LatticeTarget& target);

@@ -121,5 +121,28 @@ TEST(SeenEdges, DerivativesOfCoverageAreThoseOfItsValues) {
     }
 }
 
+TEST(LatticeTarget, APatternKnowsHowFarAPlaceLiesFromItsEdges) {
+    const LatticeTarget target = large_target();
+    for (const Face face : {Face::front, Face::back}) {
+        const FacePattern pattern(target, face);
+        for (int row = 0; row < LatticeTarget::rows; ++row)
+            for (int column = 0; column < LatticeTarget::columns; ++column) {
+                const Rect c = cell(target, column, row);
+                const double u = c.left + 0.01, v = (c.bottom + c.top) / 2;
+                ASSERT_EQ(pattern.nearest_cell(u, v), row * LatticeTarget::columns + column);
+                const bool is_hole = !is_filled(face, column, row);
+                EXPECT_EQ(pattern.is_hole(pattern.nearest_cell(u, v)), is_hole);
+                if (is_hole)
+                    EXPECT_NEAR(pattern.inside(u, v).solid(), -0.01, 1e-12);
+                else
+                    EXPECT_GT(pattern.inside(u, v).solid(), 0.06);
+            }
+        EXPECT_NEAR(pattern.inside(-0.41, 0.1).outline, -0.01, 1e-12);
+        EXPECT_NEAR(pattern.inside(0.38, 0).solid(), 0.02, 1e-12);
+        EXPECT_EQ(pattern.side_beyond(-0.45, 0.1), 0);
+        EXPECT_EQ(pattern.side_beyond(0.1, 0.35), 3);
+    }
+}
+
 }  // namespace
 }  // namespace theatron::registration

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registration/plane_search.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,8 +8,9 @@
 namespace theatron::registration {
 namespace {
 
-constexpr int seed_size = 6;  // pixels; the flat piece that a search starts from
-constexpr int seed_step = 6;  // pixels from one start to the next
+constexpr int seed_size = 6;     // pixels; the flat piece that a search starts from
+constexpr int seed_step = 6;     // pixels from one start to the next
+constexpr int most_missing = 4;  // pixels of a start without a measurement
 constexpr double first_radius_m = 0.12;
 constexpr double least_share_measured = 0.7;  // of the first piece
 // Surfaces seen at a flatter angle are left out: cosine between ray and normal.
@@ -34,13 +34,18 @@ struct Sums {
     }
 
     std::optional<Plane> solve() const {
-        Eigen::Matrix3d a;
-        a << xx, xy, x, xy, yy, y, x, y, n;
-        const Eigen::LDLT<Eigen::Matrix3d> ldlt(a);
-        if (n < 3 || ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-12)
+        // Cramer's rule about the mean direction: the matrix is small and well scaled there.
+        if (n < 3)
             return {};
-        const Eigen::Vector3d q = ldlt.solve(Eigen::Vector3d(wx, wy, w));
-        return Plane{{q.x(), q.y(), q.z()}};
+        const double mx = x / n, my = y / n, mw = w / n;
+        const double cxx = xx - x * mx, cxy = xy - x * my, cyy = yy - y * my;
+        const double cwx = wx - w * mx, cwy = wy - w * my;
+        const double determinant = cxx * cyy - cxy * cxy;
+        if (!(determinant > 1e-9 * cxx * cyy))
+            return {};
+        const double qx = (cwx * cyy - cwy * cxy) / determinant;
+        const double qy = (cwy * cxx - cwx * cxy) / determinant;
+        return Plane{{qx, qy, mw - qx * mx - qy * my}};
     }
 
     // Mean squared residual of 1/z.
@@ -86,15 +91,19 @@ private:
     }
 
     std::optional<FoundPlane> try_seed(int x0, int y0) {
-        Sums sums;
+        int missing = 0;
         for (int y = y0; y < y0 + seed_size; ++y)
             for (int x = x0; x < x0 + seed_size; ++x) {
-                const float w = inverse(x, y);
-                const auto at = std::size_t(y) * std::size_t(depth_.size.width) + std::size_t(x);
-                if (w == 0 || explained_[at])
+                missing += inverse(x, y) == 0;
+                if (missing > most_missing ||
+                    explained_[std::size_t(y) * std::size_t(depth_.size.width) + std::size_t(x)])
                     return {};
-                sums.add(ray(x, y), w);
             }
+        Sums sums;
+        for (int y = y0; y < y0 + seed_size; ++y)
+            for (int x = x0; x < x0 + seed_size; ++x)
+                if (inverse(x, y) != 0)
+                    sums.add(ray(x, y), inverse(x, y));
         auto plane = sums.solve();
         if (!plane || !is_seen_well(*plane, ray(x0 + seed_size / 2, y0 + seed_size / 2)))
             return {};
@@ -104,7 +113,7 @@ private:
             return {};
 
         const Vec3 seed = plane->point(ray(x0 + seed_size / 2, y0 + seed_size / 2));
-        const auto first = gather(*plane, seed, first_radius_m, 1, false);
+        const auto first = gather(*plane, seed, first_radius_m, 2, false);
         if (first.area_m2 < least_share_measured * first_radius_m * first_radius_m * 2.2 ||
             !first.fitted)
             return {};
@@ -144,6 +153,8 @@ private:
         Sums sums;
         Gathered result;
         const double length_q = length(plane.q), radius2 = radius_m * radius_m;
+        const double near_tolerance = tolerance_m * length_q;
+        const double far_tolerance = tolerance_per_m * length_q;
         double sum_x = 0, sum_y = 0, sum_z = 0;
         for (int y = top; y < bottom; y += step) {
             const Ray* rays = depth_.rays->view().row(y);
@@ -154,8 +165,9 @@ private:
                 if (w == 0)
                     continue;
                 const double on_plane = plane.inverse_depth(rays[x]);
-                const double tolerance = plane_tolerance_m(1 / w) * w * length_q;
-                if (std::abs(on_plane - w) > tolerance || on_plane <= 0)
+                // |on_plane - w| within plane_tolerance_m(1 / w) * w * length_q, times w.
+                if (std::abs(on_plane - w) * w > (near_tolerance * w * w + far_tolerance) ||
+                    on_plane <= 0)
                     continue;
                 const double z = 1 / w;
                 const double dx = rays[x].x * z - middle.x, dy = rays[x].y * z - middle.y,
@@ -193,10 +205,6 @@ private:
 };
 
 }  // namespace
-
-double plane_tolerance_m(double depth_m) {
-    return 0.006 + 0.0012 * depth_m * depth_m;
-}
 
 std::vector<FoundPlane> find_planes(const SparseDepth& depth, const SurfaceSize& wanted,
                                     std::vector<std::uint8_t>& explained) {

@@ -49,7 +49,10 @@ struct FoundPlane {
 
 // How far from the plane a measurement at this depth may lie, metres: four
 // deviations of an Azure Kinect's noise on a dark surface, and its slow errors.
-double plane_tolerance_m(double depth_m);
+inline constexpr double tolerance_m = 0.006, tolerance_per_m = 0.0012;
+constexpr double plane_tolerance_m(double depth_m) {
+    return tolerance_m + tolerance_per_m * depth_m * depth_m;
+}
 
 // Planes that hold a surface of this size, most of it measured. `explained` is
 // scratch memory, resized as needed.
