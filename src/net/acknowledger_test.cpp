@@ -10,50 +10,50 @@
 namespace theatron::net {
 namespace {
 
-TEST(Acknowledger, TellsOfMediaSoonButNotOfEveryChunk) {
+TEST(Acknowledger, AcknowledgesMediaSoonButNotEveryChunk) {
     Acknowledger acknowledger;
     TimePoint now = from_us(1'000'000);
-    int told = 0;
+    int acknowledged = 0;
     std::uint64_t taken = 0;
     for (int i = 1; i <= 1000; ++i, now += 100us) {
         acknowledger.came(16'000, true, now);
-        if (const auto word = acknowledger.due(now)) {
-            ++told;
-            taken = word->taken;
-            EXPECT_EQ(word->held, Duration(0));
+        if (const auto acknowledgement = acknowledger.due(now)) {
+            ++acknowledged;
+            taken = acknowledgement->taken;
+            EXPECT_EQ(acknowledgement->held, Duration(0));
         }
     }
-    EXPECT_GE(told, 24);
-    EXPECT_LE(told, 26);
+    EXPECT_GE(acknowledged, 24);
+    EXPECT_LE(acknowledged, 26);
     // Nothing more comes: the rest is acknowledged in time, with the time that it waited.
     ASSERT_TRUE(acknowledger.ask_again());
     const TimePoint then = *acknowledger.ask_again();
     EXPECT_LE(then - now, Acknowledger::interval);
-    const auto word = acknowledger.due(then);
-    ASSERT_TRUE(word);
-    EXPECT_GT(word->taken, taken);
-    EXPECT_EQ(word->taken, 16'000'000u);
-    EXPECT_EQ(word->held, then - (now - 100us));
+    const auto acknowledgement = acknowledger.due(then);
+    ASSERT_TRUE(acknowledgement);
+    EXPECT_GT(acknowledgement->taken, taken);
+    EXPECT_EQ(acknowledgement->taken, 16'000'000u);
+    EXPECT_EQ(acknowledgement->held, then - (now - 100us));
     EXPECT_FALSE(acknowledger.due(then + 1s));
     EXPECT_FALSE(acknowledger.ask_again());
 }
 
-TEST(Acknowledger, SmallMessagesAreToldOfTogether) {
+TEST(Acknowledger, SmallMessagesAreAcknowledgedTogether) {
     Acknowledger acknowledger;
     TimePoint now = from_us(1'000'000);
-    std::uint64_t came = 0, told = 0;
+    std::uint64_t received = 0, acknowledged = 0;
     for (int i = 0; i < 1000; ++i, now += 11ms) {
         acknowledger.came(100, false, now);
-        came += 100;
+        received += 100;
         EXPECT_FALSE(acknowledger.ask_again());
-        if (const auto word = acknowledger.due(now))
-            told = word->taken;
-        EXPECT_LT(came - told, wire::max_untold);
+        if (const auto acknowledgement = acknowledger.due(now))
+            acknowledged = acknowledgement->taken;
+        EXPECT_LT(received - acknowledged, wire::max_untold);
     }
-    EXPECT_GT(told, 0u);
+    EXPECT_GT(acknowledged, 0u);
 }
 
-TEST(Acknowledger, WhatWaitsForADecoderIsNotTold) {
+TEST(Acknowledger, MessagesThatWaitForADecoderAreNotAcknowledged) {
     Acknowledger acknowledger;
     TimePoint now = from_us(1'000'000);
     acknowledger.came(10'000, true, now);
@@ -61,8 +61,8 @@ TEST(Acknowledger, WhatWaitsForADecoderIsNotTold) {
     ASSERT_TRUE(acknowledger.due(now));  // the header of the chunk was taken
     acknowledger.came(50'000, true, now += 1s);
     acknowledger.waits(49'991);
-    const auto word = acknowledger.due(now);
-    EXPECT_LT(word ? word->taken : 0, 100u);
+    const auto acknowledgement = acknowledger.due(now);
+    EXPECT_LT(acknowledgement ? acknowledgement->taken : 0, 100u);
     acknowledger.taken(9'991, now += 1s);
     EXPECT_EQ(acknowledger.due(now)->taken, 10'009u);
     acknowledger.taken(49'991, now += 1s);
@@ -103,9 +103,9 @@ struct SlowDecoder {
                 free_at_ = now + decode_time;
                 ++decoded;
             }
-            if (const auto word = acknowledger.due(now)) {
+            if (const auto acknowledgement = acknowledger.due(now)) {
                 heard_ = true;
-                flight.acknowledge(word->taken, word->held, now);
+                flight.acknowledge(acknowledgement->taken, acknowledgement->held, now);
             }
         }
     }

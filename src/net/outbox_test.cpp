@@ -254,7 +254,7 @@ TEST(Outbox, ControlThatNobodyReadsIsGivenUpAsAWhole) {
         ++kept;
     EXPECT_GT(kept, 10);
     EXPECT_TRUE(outbox.empty()) << "a part of what was said would be wrong";
-    EXPECT_TRUE(outbox.push_control(Bytes(60'000))) << "it can be told everything anew";
+    EXPECT_TRUE(outbox.push_control(Bytes(60'000))) << "the state can be sent again";
 }
 
 TEST(Outbox, ManySmallControlMessagesCountForWhatTheyCost) {

@@ -67,7 +67,7 @@ protected:
         };
         events.key_due = [this](StreamId, SettingId setting) { due.push_back(setting); };
         events.keeps_up = [this](SettingId setting, bool keeps_up, Duration) {
-            told.push_back({setting, keeps_up});
+            reported.push_back({setting, keeps_up});
         };
         LaneEncoders::Environment environment;
         environment.now = [] { return TimePoint(); };
@@ -150,7 +150,7 @@ protected:
     FrameNumber next = 0;
     std::map<SettingId, std::vector<EncodedMedia>> published;
     std::vector<SettingId> due;
-    std::vector<std::pair<SettingId, bool>> told;
+    std::vector<std::pair<SettingId, bool>> reported;
     std::deque<std::function<void()>> behind;
     std::unique_ptr<LaneEncoders> encoders;
 };
@@ -172,7 +172,7 @@ TEST_F(Encoders, ACheapSettingLosesNoFrameBesideADearOne) {
     expect_whole_chain(dear, "zstd:delta=1,level=19");
     EXPECT_EQ(encoders->figures()[1].left_out, 80u);
     EXPECT_TRUE(encoders->figures()[1].behind);
-    EXPECT_EQ(told, (std::vector{std::pair(dear, false)}));
+    EXPECT_EQ(reported, (std::vector{std::pair(dear, false)}));
 }
 
 TEST_F(Encoders, ADearOneThatWasFirstMakesWayForACheapOne) {
@@ -218,7 +218,7 @@ TEST_F(Encoders, ASettingWithinItsShareComesAtOnceSoonAfterItsFirstFrames) {
     }
     EXPECT_FALSE(encoders->figures()[1].behind);
     EXPECT_EQ(published[other].size(), 10u);
-    EXPECT_TRUE(told.empty());
+    EXPECT_TRUE(reported.empty());
     expect_whole_chain(other, "ans:delta=1");
 }
 
@@ -235,7 +235,7 @@ TEST_F(Encoders, NobodyIsToldThatASettingIsTooDearBeforeItIsMeasured) {
         give_depth();
     }
     EXPECT_FALSE(encoders->figures()[1].behind);
-    EXPECT_TRUE(told.empty());
+    EXPECT_TRUE(reported.empty());
 }
 
 TEST_F(Encoders, AKeyFrameWantedOfABusyEncoderComesNext) {

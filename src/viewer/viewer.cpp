@@ -108,11 +108,11 @@ void Viewer::choose_next_renderer(TimePoint now) {
 }
 
 void Viewer::follow_host(TimePoint now) {
-    const auto word = participant_.take_renderer_word();
-    if (!word)
+    const auto command = participant_.take_renderer_word();
+    if (!command)
         return;
     const session::RendererChoice before = choice_;
-    if (const std::string problem = viewer::follow_host(choice_, *word); !problem.empty())
+    if (const std::string problem = viewer::follow_host(choice_, *command); !problem.empty())
         return note(problem, now);
     if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
         note(choice_.locked() || !before.locked()

@@ -218,8 +218,8 @@ private:
             down.send(envelope, now);
         while (down.receive(envelope, now))
             arrive(envelope);
-        if (const auto word = acknowledger_.due(now)) {
-            wire::wrap_acknowledgement(*word, envelope);
+        if (const auto acknowledgement = acknowledger_.due(now)) {
+            wire::wrap_acknowledgement(*acknowledgement, envelope);
             up.send(envelope, now);
         }
         wire::Unwrapper host_side(wire::Unwrapper::Takes::all_but_media);

@@ -88,8 +88,8 @@ Waits wait_behind_media(double rate, Duration delay) {
             if (got->voice)
                 waits.voice_ms.push_back(waited(got->voice->packet));
         }
-        if (const auto word = acknowledger.due(now)) {
-            wire::wrap_acknowledgement(*word, envelope);
+        if (const auto acknowledgement = acknowledger.due(now)) {
+            wire::wrap_acknowledgement(*acknowledgement, envelope);
             up.send(envelope, now);
         }
     }
@@ -152,8 +152,8 @@ double bytes_per_second_after_a_stall(Duration stall) {
             acknowledger.came(envelope.size(), got->is_media, now);
             media_bytes += now > goes_on ? envelope.size() : 0;
         }
-        if (const auto word = acknowledger.due(now)) {
-            wire::wrap_acknowledgement(*word, envelope);
+        if (const auto acknowledgement = acknowledger.due(now)) {
+            wire::wrap_acknowledgement(*acknowledgement, envelope);
             up.send(envelope, now);
         }
     }
