@@ -11,6 +11,8 @@
 namespace theatron::app {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Flags {
     std::string file, out;
     bool json = false;
@@ -24,48 +26,9 @@ std::string default_out(const std::filesystem::path& file) {
     return (file.parent_path() / name).string();
 }
 
-void run(const Flags& flags) {
-    const auto recording = record::RecordingFile::open(flags.file);
-    const capture::Progress show = cli::show_progress();
-    const record::Recovered saved = record::recover(
-        *recording, flags.out.empty() ? default_out(flags.file) : flags.out, [&](double done) {
-            if (show)
-                show("recovering", done);
-        });
-    using Json = nlohmann::ordered_json;
-    Json cameras = Json::array();
-    for (std::size_t i = 0; i < saved.cameras.size(); ++i) {
-        const auto describe = [](const record::RecoveredStream& s) {
-            return Json{{"saved", s.saved}, {"damaged", s.damaged}, {"undecodable", s.undecodable}};
-        };
-        cameras.push_back({{"camera", int(recording->cameras()[i].id)},
-                           {"depth", describe(saved.cameras[i].depth)},
-                           {"color", describe(saved.cameras[i].color)}});
-    }
-    std::uint64_t places = 0, repeated = 0;
-    record::SegmentChain::Foreign foreign;
-    for (const auto& camera : saved.cameras)
-        repeated += camera.depth.repeated + camera.color.repeated;
-    for (const record::Segment& segment : recording->segments()) {
-        places += segment.damaged_places + segment.head_damaged;
-        repeated += segment.repeated;
-        foreign.files += segment.foreign.files;
-        foreign.bytes += segment.foreign.bytes;
-    }
-    if (flags.json) {
-        std::cout << Json{{"files", saved.files},
-                          {"bytes", saved.bytes},
-                          {"damaged_places", places},
-                          {"missing_segments", recording->missing_segments()},
-                          {"unreadable_files", recording->unreadable_files()},
-                          {"repeated", repeated},
-                          {"foreign_files", foreign.files},
-                          {"foreign_bytes", foreign.bytes},
-                          {"cameras", cameras}}
-                         .dump(-1, ' ', false, Json::error_handler_t::replace)
-                  << std::endl;
-        return;
-    }
+void print(const record::RecordingFile& recording, const record::Recovered& saved,
+           const Json& cameras, std::uint64_t places, std::uint64_t repeated,
+           const record::SegmentChain::Foreign& foreign) {
     for (const Json& camera : cameras)
         for (const char* kind : {"depth", "color"}) {
             const Json& s = camera[kind];
@@ -85,13 +48,70 @@ void run(const Flags& flags) {
     if (foreign.files > 0)
         std::printf("files behind its segments that do not follow them: %llu, %.1f MB, left out\n",
                     (unsigned long long)foreign.files, double(foreign.bytes) * 1e-6);
-    for (const std::string& file : recording->unreadable_files())
+    for (const std::string& file : recording.unreadable_files())
         std::printf("%s cannot be read: its beginning and all copies of it are damaged\n",
                     file.c_str());
-    if (recording->missing_segments() > 0)
-        std::printf("missing segments: %llu\n", (unsigned long long)recording->missing_segments());
+    if (recording.missing_segments() > 0)
+        std::printf("missing segments: %llu\n", (unsigned long long)recording.missing_segments());
+    for (const record::Segment& segment : recording.segments())
+        if (const std::string end = record::end_of(segment); !end.empty())
+            std::printf("%s: %s\n", segment.file.c_str(), end.c_str());
     for (const std::string& file : saved.files)
         std::printf("%s\n", file.c_str());
+}
+
+void run(const Flags& flags) {
+    const auto recording = record::RecordingFile::open(flags.file);
+    const capture::Progress show = cli::show_progress();
+    const record::Recovered saved = record::recover(
+        *recording, flags.out.empty() ? default_out(flags.file) : flags.out, [&](double done) {
+            if (show)
+                show("recovering", done);
+        });
+    Json cameras = Json::array();
+    for (std::size_t i = 0; i < saved.cameras.size(); ++i) {
+        const auto describe = [](const record::RecoveredStream& s) {
+            return Json{{"saved", s.saved}, {"damaged", s.damaged}, {"undecodable", s.undecodable}};
+        };
+        cameras.push_back({{"camera", int(recording->cameras()[i].id)},
+                           {"depth", describe(saved.cameras[i].depth)},
+                           {"color", describe(saved.cameras[i].color)}});
+    }
+    std::uint64_t places = 0, repeated = 0;
+    record::SegmentChain::Foreign foreign;
+    for (const auto& camera : saved.cameras)
+        repeated += camera.depth.repeated + camera.color.repeated;
+    for (const record::Segment& segment : recording->segments()) {
+        places += segment.damaged_places + segment.head_damaged;
+        repeated += segment.repeated;
+        foreign.files += segment.foreign.files;
+        foreign.bytes += segment.foreign.bytes;
+    }
+    Json ends = Json::array();
+    for (const record::Segment& segment : recording->segments())
+        if (!segment.closed)
+            ends.push_back(
+                {{"file", segment.file},
+                 {"missing_seconds",
+                  segment.missing_end ? Json(to_seconds(*segment.missing_end)) : Json()}});
+    if (flags.json)
+        std::cout << Json{{"files", saved.files},
+                          {"complete", saved.complete},
+                          {"bytes", saved.bytes},
+                          {"damaged_places", places},
+                          {"missing_segments", recording->missing_segments()},
+                          {"unreadable_files", recording->unreadable_files()},
+                          {"repeated", repeated},
+                          {"foreign_files", foreign.files},
+                          {"foreign_bytes", foreign.bytes},
+                          {"missing_ends", ends},
+                          {"cameras", cameras}}
+                         .dump(-1, ' ', false, Json::error_handler_t::replace)
+                  << std::endl;
+    else
+        print(*recording, saved, cameras, places, repeated, foreign);
+    if (!saved.complete)
+        throw CLI::RuntimeError(damaged_exit_code);
 }
 
 }  // namespace
@@ -102,7 +122,9 @@ void add_recover_command(CLI::App& app) {
         app.add_subcommand("recover", "Write what is whole of a damaged recording into a new one");
     command->footer(
         "Pictures that are damaged, and those that cannot be decoded without them, are left out;\n"
-        "all others are copied as they are. The recording itself is not changed.\n"
+        "all others are copied as they are. The recording itself is not changed. Exit code 0: "
+        "all\n"
+        "of it was saved; 3: something was left out or is missing; 1: nothing was written.\n"
         "\nExamples:\n"
         "  theatron recover operation.mkv\n"
         "  theatron recover operation.mkv saved.mkv");

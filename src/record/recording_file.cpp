@@ -175,7 +175,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
     };
     bool any = false;
     std::optional<TimePoint> first_captured;
-    const FoundClusters found = read_clusters(*member.source, head, [&](const FoundBlock& block) {
+    const auto visit = [&](const FoundBlock& block) {
         // A file has blocks of its own tracks only, those that this reader does not know included.
         if (!is_listed(block.track)) {
             ++refused_;
@@ -221,21 +221,34 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         frame.key = header->key;
         frame.filtered = header->filtered != TimePoint{};
         stream.frames.push_back(frame);
-    });
-    segment.damaged_places = found.damaged_places;
-    segment.damaged_bytes = found.damaged_bytes;
-    segment.closed = head.closed;
+    };
+    bool has_end = false;
+    const std::uint64_t whole = member.source->size();
+    std::uint64_t end = 0;  // of the segment in its file
+    for (std::optional<std::uint64_t> at = head.clusters_at; at;) {
+        FoundHead from_here = head;
+        from_here.clusters_at = *at;
+        const FoundClusters found = read_clusters(*member.source, from_here, visit);
+        segment.damaged_places += found.damaged_places;
+        segment.damaged_bytes += found.damaged_bytes;
+        has_end = found.has_end;
+        end = found.next_file_at.value_or(whole);
+        segment.bytes += end - (segment.bytes == 0 ? 0 : *at);
+        at.reset();
+        if (found.next_file_at) {
+            const SegmentChain::Behind behind = chain.add_behind(member, end);
+            segment.foreign.files += behind.foreign.files;
+            segment.foreign.bytes += behind.foreign.bytes;
+            at = behind.goes_on_at;
+        }
+    }
     segment.first_captured = first_captured.value_or(TimePoint{});
     if (info || head.date_ns > 0)
         segment.begin_utc = segment.info.clock.utc + (info ? segment.begin : Duration(0));
-    std::uint64_t end = member.source->size();
-    if (found.next_file_at) {
-        segment.foreign = chain.add_behind(member, *found.next_file_at);
-        end = *found.next_file_at;
+    segment.closed = has_end || (head.segment_end > 0 && head.segment_end <= segment.bytes);
+    segment.bytes += segment.foreign.bytes;
+    if (end < whole)
         member.source = std::make_shared<PartSource>(member.source, 0, end);
-    }
-    segment.bytes = end + segment.foreign.bytes;
-    segment.closed = found.has_end || (head.segment_end > 0 && head.segment_end <= end);
     if (!segment.closed && head.duration_us > 0) {
         const Duration until = any ? segment.end : Duration(0);
         segment.missing_end = std::max(Duration(head.duration_us) - until, Duration(0)) +

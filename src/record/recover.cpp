@@ -145,6 +145,32 @@ void check(const std::filesystem::path& file, std::uint64_t frames) {
                     "' is not what can be read from it; its disk may be failing.");
 }
 
+// Removes what was written, unless it was kept.
+class NewFiles {
+public:
+    ~NewFiles() {
+        std::error_code ignored;
+        for (const std::filesystem::path& file : files_)
+            std::filesystem::remove(file, ignored);
+    }
+    void add(const std::filesystem::path& file) { files_.push_back(file); }
+    void keep() { files_.clear(); }
+
+private:
+    std::vector<std::filesystem::path> files_;
+};
+
+bool saved_all(const RecordingFile& recording, const Recovered& result) {
+    bool all = recording.missing_segments() == 0 && recording.unreadable_files().empty();
+    for (const Segment& segment : recording.segments())
+        all = all && segment.closed && segment.damaged_places == 0 && segment.refused == 0 &&
+              segment.foreign.files == 0;
+    for (const Recovered::Camera& camera : result.cameras)
+        for (const RecoveredStream* stream : {&camera.depth, &camera.color})
+            all = all && stream->damaged == 0 && stream->undecodable == 0;
+    return all;
+}
+
 void require(const std::string& problem) {
     if (!problem.empty())
         throw Error(problem);
@@ -162,6 +188,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         streams.emplace_back(camera.depth, result.cameras[i].depth);
         streams.emplace_back(camera.color, result.cameras[i].color);
     }
+    NewFiles new_files;
     std::uint64_t bytes_before = 0;
     const Uid new_uid = make_uid();
     for (std::size_t s = 0; s < recording.segments().size(); ++s) {
@@ -170,6 +197,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         std::error_code ignored;
         if (std::filesystem::exists(file, ignored))
             throw Error("'" + file.string() + "' exists already; name another file.");
+        new_files.add(file);
         SegmentInfo info = segment.info;
         // Version 1 says no session time: that of its time 0 stands in the headers.
         if (!segment.has_info) {
@@ -224,6 +252,8 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         result.bytes += writer.bytes();
         result.files.push_back(file.string());
     }
+    result.complete = saved_all(recording, result);
+    new_files.keep();
     return result;
 }
 

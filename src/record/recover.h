@@ -19,6 +19,9 @@ struct RecoveredStream {
 };
 
 struct Recovered {
+    // All that the recording held by its numbers and ends is in it: see losses_of(). Pictures that
+    // stood twice and are saved once are no loss.
+    bool complete = false;
     std::vector<std::string> files;
     std::uint64_t bytes = 0;
     struct Camera {
@@ -28,8 +31,8 @@ struct Recovered {
 };
 
 // Segment by segment, into files that begin with `out` (segment_path) and are not there yet; times
-// and numbers stay. `progress` gets the part that is done, 0 to 1; it may be empty. Throws Error,
-// with what was written left where it is.
+// and numbers stay. `progress` gets the part that is done, 0 to 1; it may be empty. Throws Error;
+// the files that it made are then gone.
 Recovered recover(const RecordingFile& recording, const std::filesystem::path& out,
                   const std::function<void(double)>& progress);
 

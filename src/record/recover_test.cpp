@@ -116,6 +116,34 @@ TEST(JoinedFiles, AreReadAsOneRecordingWhereTheyAreItsSegments) {
     }
 }
 
+TEST(JoinedFiles, AnotherFileInTheMiddleDoesNotSwallowTheRest) {
+    const auto messages = with_keys(120, 500, 1);
+    const Bytes one = recording_of(messages), other = recording_of(with_keys(45, 500, 2));
+    for (const std::size_t at : {one.size() / 2, one.size() / 2 + 301, one.size() - 20}) {
+        Bytes bytes = one;
+        bytes.insert(bytes.begin() + std::ptrdiff_t(at), other.begin(), other.end());
+        const testing::TemporaryFolder folder;
+        const auto whole = recovered(bytes, folder.path());
+        EXPECT_GE(frames_in(*whole), messages.size() - 30) << at;
+        const auto broken = RecordingFile::open(folder.path() / "broken.mkv");
+        EXPECT_EQ(broken->segments()[0].foreign.files, 1u);
+        EXPECT_EQ(broken->segments()[0].foreign.bytes, other.size());
+        EXPECT_EQ(broken->bytes(), bytes.size());
+        Bytes payload;
+        for (const RecordedFrame& frame : whole->cameras()[0].depth.frames) {
+            ASSERT_EQ(whole->read_payload(frame, payload), Status::ok);
+            EXPECT_EQ(payload.back(), std::byte{1});
+        }
+    }
+    // Without its end nobody knows where it ends: its pictures are not taken for this one's.
+    Bytes bytes = one;
+    bytes.insert(bytes.begin() + std::ptrdiff_t(one.size() / 2), other.begin(),
+                 other.begin() + std::ptrdiff_t(other.size() / 2));
+    const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
+    ASSERT_TRUE(recording);
+    EXPECT_LE(frames_in(**recording), 61u);
+}
+
 // With the first one's copies of its head damaged, only the second one's are intact.
 TEST(JoinedFiles, KeepEachItsOwnHead) {
     const testing::TemporaryFolder folder;

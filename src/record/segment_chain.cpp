@@ -26,6 +26,16 @@ Result<FoundHead> read_own_head(const std::shared_ptr<ByteSource>& source) {
     return read_head(own);
 }
 
+// A file claims to end before `size`, and what stands there is the end of a file that was closed.
+// If only one of the two were so, pictures of one recording could be taken for another's.
+bool ends_before(const std::shared_ptr<PartSource>& file, const FoundHead& head,
+                 std::uint64_t size) {
+    if (head.segment_end == 0 || head.segment_end >= size)
+        return false;
+    PartSource own(file, 0, head.segment_end);
+    return read_clusters(own, head, [](const FoundBlock&) {}).has_end;
+}
+
 }  // namespace
 
 std::optional<SegmentInfo> segment_info_of(const FoundHead& head) {
@@ -84,8 +94,9 @@ std::optional<SegmentChain::Member> SegmentChain::take() {
     return member;
 }
 
-SegmentChain::Foreign SegmentChain::add_behind(const Member& taken, std::uint64_t at) {
-    Foreign foreign;
+SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t at) {
+    Behind behind;
+    Foreign& foreign = behind.foreign;
     const std::uint64_t end = taken.source->size();
     for (std::optional<std::uint64_t> next = at; next;) {
         const std::uint64_t begin = *next;
@@ -95,7 +106,12 @@ SegmentChain::Foreign SegmentChain::add_behind(const Member& taken, std::uint64_
             read_clusters(*rest, head ? *head : FoundHead{}, [](const FoundBlock&) {}).next_file_at;
         if (next)
             *next += begin;
-        const std::uint64_t size = next.value_or(end) - begin;
+        std::uint64_t size = next.value_or(end) - begin;
+        if (head && ends_before(rest, *head, size)) {
+            size = head->segment_end;
+            behind.goes_on_at = begin + size;
+            next.reset();
+        }
         const auto info = head ? segment_info_of(*head) : std::nullopt;
         const bool is_new = follows(info, last_) && !waiting_.contains(info->number);
         if (is_new) {
@@ -107,7 +123,7 @@ SegmentChain::Foreign SegmentChain::add_behind(const Member& taken, std::uint64_
             foreign.bytes += size;
         }
     }
-    return foreign;
+    return behind;
 }
 
 std::uint64_t SegmentChain::missing() const {

@@ -41,9 +41,14 @@ public:
     struct Foreign {
         std::uint64_t files = 0, bytes = 0;
     };
+    struct Behind {
+        Foreign foreign;
+        // Another file stands in the middle of the member's: here the member goes on.
+        std::optional<std::uint64_t> goes_on_at;
+    };
     // Behind the member that was taken last, from `at` on, stand one or more files. Those that
     // follow in the recording become members.
-    Foreign add_behind(const Member& taken, std::uint64_t at);
+    Behind add_behind(const Member& taken, std::uint64_t at);
 
     // After the last one was taken: how many segments between the first and the last are not there,
     // and at least as many as files that cannot be read although their names say that they follow.

@@ -13,7 +13,7 @@ import unittest
 
 from raw_peer import ACKNOWLEDGEMENT, FakeHost, RawPeer, camera, media_message
 from slow_disk import SlowDisk
-from theatron_process import Process, host, make_recording, run, write_png
+from theatron_process import PROGRAM, Process, host, make_recording, run, write_png
 
 DAY_S = 86_400
 COMPLETE, ENDED_BY_THE_DISK, INCOMPLETE = 0, 1, 3
@@ -215,6 +215,17 @@ class RecordFaults(unittest.TestCase):
                 self.assertIn("what came before is kept", figures["problem"])
             disk.be("well")
             self.assert_decodes(file)
+
+    def test_recovering_onto_a_full_disk_leaves_nothing_there(self):
+        code, _, errors = run("record", "--camera", f"folder:{self.source}", self.file)
+        self.assertIn(code, (COMPLETE, INCOMPLETE), errors)
+        disk = SlowDisk(self.folder)
+        disk.be("full")
+        done = subprocess.run([PROGRAM, "recover", self.file, disk.folder / "b.mkv"], env=disk.environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("The disk is full", done.stderr)
+        self.assertEqual(list(disk.folder.iterdir()), [])
 
     def test_a_size_limit_of_the_system_is_a_sentence(self):
         limited = ("bash", "-c", 'ulimit -f 20; exec "$@"', "-")  # blocks of 1024 bytes

@@ -121,7 +121,7 @@ class RecordingCare(unittest.TestCase):
         joined = self.folder / "joined.mkv"
         joined.write_bytes(path.read_bytes() + other.read_bytes() + path.read_bytes())
         code, out, errors = run("recover", joined, "--json")
-        self.assertEqual(code, 0, errors)
+        self.assertEqual(code, 3, errors)
         saved = json.loads(out)
         self.assertEqual((saved["foreign_files"], saved["cameras"][0]["depth"]["saved"]),
                          (2, recorded["depth"]["pictures"]))

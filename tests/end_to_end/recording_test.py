@@ -180,7 +180,7 @@ class Recording(unittest.TestCase):
         self.assert_same_depth(self.folder / "png")
 
         code, out, errors = run("recover", path, "--json")
-        self.assertEqual(code, 0, errors)
+        self.assertEqual((code, json.loads(out)["complete"]), (3, False), errors)
         saved = json.loads(out)
         self.assertEqual(saved["cameras"][0]["depth"], {"saved": pictures - 1, "damaged": 1, "undecodable": 0})
         self.assertEqual(saved["files"], [str(self.folder / "damaged.recovered.mkv")])
