@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM end a command cleanly: running work stops, files are closed,
-// figures are printed.
+// Ctrl-C, SIGTERM and SIGHUP (its terminal is gone) end a command cleanly: running work stops,
+// files are closed, figures are printed.
 #pragma once
 
 namespace theatron::cli {

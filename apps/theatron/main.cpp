@@ -70,6 +70,11 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, taken.data());
     } catch (const CLI::ParseError& e) {
+        const bool is_misread = dynamic_cast<const CLI::RequiredError*>(&e) ||
+                                dynamic_cast<const CLI::ExtrasError*>(&e);
+        if (const auto problem = theatron::app::file_taken_for_option(arguments);
+            is_misread && !problem.empty())
+            throw theatron::Error(problem);
         return with_output_written(app.exit(e));
     }
     return with_output_written(0);

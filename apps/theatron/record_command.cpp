@@ -70,6 +70,8 @@ std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
     const record::RecordCodecs codecs = check_codecs(flags);
     const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
+    if (const std::string problem = record::name_problem(file); !problem.empty())
+        throw Error(problem);
     std::error_code unknown;  // creating the file fails later with its reason
     if (!flags.overwrite && std::filesystem::exists(file, unknown))
         throw Error("'" + file + "' exists already; name another file, or give --overwrite.");

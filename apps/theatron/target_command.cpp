@@ -15,6 +15,7 @@ namespace {
 struct Flags {
     BoardFlags board;
     std::string out;
+    bool overwrite = false;
 };
 
 void run(const Flags& flags) {
@@ -22,6 +23,8 @@ void run(const Flags& flags) {
     const std::string ending = std::filesystem::path(flags.out).extension().string();
     if (ending != ".svg" && ending != ".dxf")
         throw Error("'" + flags.out + "' ends neither in .svg nor in .dxf.");
+    if (std::error_code ignored; !flags.overwrite && std::filesystem::exists(flags.out, ignored))
+        throw Error("'" + flags.out + "' exists already; name another file, or give --overwrite.");
     const std::string drawing =
         ending == ".svg" ? registration::svg_drawing(target) : registration::dxf_drawing(target);
     files::write_file(flags.out, std::as_bytes(std::span(drawing)));
@@ -45,6 +48,7 @@ void add_target_command(CLI::App& app) {
     add_board_options(*command, flags->board);
     command->add_option("--out", flags->out, "The drawing to write: FILE.svg or FILE.dxf")
         ->required();
+    command->add_flag("--overwrite", flags->overwrite, "Replace a drawing that is there");
     command->callback([flags] { run(*flags); });
 }
 

@@ -2,6 +2,7 @@
 #include "unknown_command.h"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 namespace theatron::app {
@@ -41,6 +42,16 @@ std::string unknown_command(const std::string& word, const std::vector<std::stri
     for (const std::string& command : commands)
         sentence += (command == commands.front() ? "" : ", ") + command;
     return sentence + ".";
+}
+
+std::string file_taken_for_option(const std::vector<std::string>& arguments) {
+    for (const std::string& word : arguments) {
+        const bool is_short_option = word.size() > 2 && word[0] == '-' && std::isalpha(word[1]);
+        if (is_short_option && word.find('.') != std::string::npos)
+            return "'" + word + "' is taken for an option; if it is a file, write './" + word +
+                   "'.";
+    }
+    return "";
 }
 
 }  // namespace theatron::app

@@ -11,4 +11,8 @@ namespace theatron::app {
 // is similar. Empty if the word is a command or an option.
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands);
 
+// A sentence on the first of `arguments` that looks like a file's name and is taken for an option,
+// since it begins with a hyphen; empty if there is none.
+std::string file_taken_for_option(const std::vector<std::string>& arguments);
+
 }  // namespace theatron::app

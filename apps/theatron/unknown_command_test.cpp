@@ -25,5 +25,11 @@ TEST(UnknownCommand, LeavesCommandsAndOptionsAlone) {
     EXPECT_EQ(unknown_command("--help", commands), "");
 }
 
+TEST(FileTakenForOption, IsNamedWithWhatToWrite) {
+    EXPECT_EQ(file_taken_for_option({"record", "-dash.mkv"}),
+              "'-dash.mkv' is taken for an option; if it is a file, write './-dash.mkv'.");
+    EXPECT_EQ(file_taken_for_option({"record", "--seconds=1.5", "-h", "-1.5", "./-dash.mkv"}), "");
+}
+
 }  // namespace
 }  // namespace theatron::app

@@ -159,8 +159,8 @@ void Host::Impl::carry_out(const session::action::TakeMedia& a) {
 }
 
 void Host::Impl::carry_out(const session::action::KeepEverything& a) {
+    // The queue before it learns of recorders in note_participants().
     server->keep_everything(peer_of(a.participant));
-    media.keep_everything(true);
 }
 
 void Host::Impl::carry_out(const session::action::SetCeiling& a) {

@@ -64,6 +64,8 @@ void block_file_size_signal() {
 Recorder::Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
                    const ClockPair& clock, const Options& options)
     : path_(path), buffer_bytes_(options.buffer_bytes) {
+    if (const std::string problem = name_problem(path_); !problem.empty())
+        throw Error(problem);
     info_.recording = make_uid();
     info_.clock = clock;
     const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};

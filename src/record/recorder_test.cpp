@@ -185,6 +185,25 @@ TEST(Recording, WhereNoFileCanBeIsOneSentence) {
     }
 }
 
+TEST(Recorder, RefusesANameThatLaterSegmentsCouldNotHave) {
+    const testing::TemporaryFolder folder;
+    const auto named = [&](std::size_t bytes) {
+        return folder.path() / (std::string(bytes - 4, 'n') + ".mkv");
+    };
+    EXPECT_EQ(name_problem(named(250)), "");
+    EXPECT_THROW(Recorder(named(251), cameras(1), session_begin), Error);
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+    Recorder recorder(named(250), cameras(1), session_begin);
+    const Message m = generated(1, 4, 100)[0];
+    for (int segment = 0; segment < 2; ++segment) {
+        EXPECT_EQ(add(recorder, m), Recorder::Added::taken);
+        recorder.begin_segment(cameras(1), session_begin);
+    }
+    recorder.finish();
+    EXPECT_EQ(recorder.figures().problem, "");
+    EXPECT_EQ(recorder.figures().segments, 2u);
+}
+
 TEST(Recorder, NoticesThatItsFileIsCutAndGoesOn) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "a.mkv";

@@ -180,6 +180,8 @@ void require(const std::string& problem) {
 
 Recovered recover(const RecordingFile& recording, const std::filesystem::path& out,
                   const std::function<void(double)>& progress) {
+    if (const std::string problem = name_problem(out); !problem.empty())
+        throw Error(problem);
     Recovered result;
     result.cameras.resize(recording.cameras().size());
     std::vector<StreamReader> streams;

@@ -2,6 +2,7 @@
 #include "record/segment_info.h"
 
 #include <algorithm>
+#include <climits>
 #include <cstdio>
 #include <random>
 
@@ -60,6 +61,15 @@ std::filesystem::path segment_path(const std::filesystem::path& first, std::uint
     name += text;
     name += first.extension();
     return first.parent_path() / name;
+}
+
+std::string name_problem(const std::filesystem::path& first) {
+    const std::size_t longest = segment_path(first, max_segments).filename().string().size();
+    if (longest <= NAME_MAX)
+        return "";
+    return "The name '" + first.filename().string() + "' is too long: it may have " +
+           std::to_string(NAME_MAX - (longest - first.filename().string().size())) +
+           " bytes, since further files of the recording get a number.";
 }
 
 Uid make_uid() {

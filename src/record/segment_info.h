@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <string>
 
 #include "base/bytes.h"
 #include "base/status.h"
@@ -42,6 +43,9 @@ Result<SegmentInfo> decode_segment_info(ByteView bytes);
 
 // Where a recording that begins in `first` has its segment `number`: "a.mkv", "a.002.mkv".
 std::filesystem::path segment_path(const std::filesystem::path& first, std::uint32_t number);
+
+// One sentence if the names of later segments would be longer than the system allows; else empty.
+std::string name_problem(const std::filesystem::path& first);
 
 // Two that are made anew are never equal.
 Uid make_uid();

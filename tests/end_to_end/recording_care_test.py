@@ -173,7 +173,8 @@ class RecordingCare(unittest.TestCase):
             self.assertIn("could not be written", done.stderr)
         long_name = self.folder / ("x" * 300 + ".mkv")
         for command, part in (
-                (("record", "--camera", self.camera, long_name), "File name too long"),
+                (("record", "--camera", self.camera, long_name), "is too long: it may have 250 bytes"),
+                (("record", "--camera", self.camera, "-dash.mkv"), "write './-dash.mkv'"),
                 (("join", DEAD_LINK, "--max-mbit", "nan"), "not a number of megabits"),
                 (("join", DEAD_LINK, "--offscreen", self.folder / "z.jpg"), "ending .png"),
                 (("join", DEAD_LINK, "--offscreen", "/nowhere/z.png"), "Cannot write '/nowhere/z.png'"),

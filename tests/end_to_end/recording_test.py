@@ -143,7 +143,7 @@ class Recording(unittest.TestCase):
             self.assertIn(read_png(picture), originals)
 
     def test_ctrl_c_ends_it_and_a_crash_leaves_a_file_that_opens(self):
-        for sig, name in ((signal.SIGINT, "ended.mkv"), (signal.SIGKILL, "killed.mkv")):
+        for sig, name in ((signal.SIGINT, "ended.mkv"), (signal.SIGHUP, "hung_up.mkv"), (signal.SIGKILL, "killed.mkv")):
             path = self.folder / name
             with Process("record", "--camera", f"folder:{self.source},loop=1", path) as recorder:
                 for _ in range(200):
@@ -153,7 +153,7 @@ class Recording(unittest.TestCase):
                 recorder.send(sig)
                 recorder.end()
             seen = self.inspect(name)
-            self.assertEqual(seen["complete"], sig == signal.SIGINT)
+            self.assertEqual(seen["complete"], sig != signal.SIGKILL)
             self.assertGreater(seen["cameras"][0]["depth"]["frames"], 0)
 
     def test_damage_is_passed_over_told_and_left_out_of_what_is_recovered(self):
