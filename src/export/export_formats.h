@@ -14,13 +14,13 @@ namespace theatron::exporting {
 struct ExportSource {
     std::vector<std::unique_ptr<capture::RecordedFrames>> cameras;
     std::vector<std::size_t> numbers;  // of each in the recording
-    bool one_camera = false;           // wanted: it gets no folder of its own
+    bool one_camera = false;           // only one was requested: it gets no folder of its own
     capture::Progress progress;
-    // Colour pictures that were whole and yet could not be decoded: each is left out.
+    // Number of undamaged colour pictures that could not be decoded; they are left out.
     std::uint64_t undecoded_color = 0;
 };
 
-// Each returns how many files or frames it wrote.
+// Each returns the number of written files or frames.
 //
 // DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply; `merged`: one file for each
 // moment with the points of all cameras, in the room.

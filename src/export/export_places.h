@@ -6,7 +6,8 @@
 
 namespace theatron::exporting {
 
-// "points" at first, and after calibrations changed "points.2" and so on; "kinect.2.mkv".
+// The place for the frames of calibration `calibration`, counted from 0: "points", then "points.2"
+// and so on; "kinect.2.mkv".
 std::filesystem::path place_of(const std::filesystem::path& place, std::size_t calibration);
 
 // Prepare a place: Error with one sentence if an export is there already, unless `overwrite`, which

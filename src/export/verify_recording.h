@@ -14,9 +14,9 @@ namespace theatron::exporting {
 
 struct VerifiedPictures {
     std::uint64_t pictures = 0;     // decoded
-    std::uint64_t damaged = 0;      // in the file, and not what was recorded
-    std::uint64_t undecodable = 0;  // whole, but refer to what is damaged or missing
-    std::uint64_t missing = 0;      // made, as their numbers say, and not in the file
+    std::uint64_t damaged = 0;      // in the file, with changed bytes
+    std::uint64_t undecodable = 0;  // whole, but with a damaged or missing reference
+    std::uint64_t missing = 0;      // not in the file, according to the frame numbers
     std::uint64_t gaps = 0;         // pauses of more than one and a half periods
 };
 
@@ -27,7 +27,7 @@ struct VerifiedMinute {
 struct Verification {
     // By minute since the recording's beginning, in the order of its cameras.
     std::vector<std::map<int, VerifiedMinute>> cameras;
-    bool damaged = false;  // anything, files included
+    bool damaged = false;  // any picture or file
 };
 
 // Throws Error if this build cannot decode the recording.

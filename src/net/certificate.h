@@ -23,8 +23,8 @@ std::string certificate_fingerprint(x509_st* certificate);
 Certificate make_certificate();
 
 // Reads host.crt and host.key from `folder`, or makes them and the folder, readable by their owner
-// alone. A crash while they are made leaves what the next start completes. Throws Error naming the
-// file that is damaged, not writable, or open to others.
+// alone. After a crash in between the next start completes them. Throws Error naming the file that
+// is damaged, not writable, or open to others.
 Certificate load_or_make_certificate(const std::filesystem::path& folder);
 
 // 128 random bits as 32 hex digits.

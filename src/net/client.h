@@ -31,10 +31,10 @@ public:
     Client(Link link, Handler handler);
     ~Client();
 
-    // Why run() came back.
+    // The reason for the end of run().
     struct End {
         std::string why;     // one sentence, empty after stop()
-        bool final = false;  // trying again cannot help: another certificate
+        bool final = false;  // another attempt is useless: the certificate is another one
     };
 
     // Connects and serves until the connection ends or stop() is called.

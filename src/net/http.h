@@ -17,11 +17,11 @@ struct HttpAnswer {
     std::string body;
 };
 
-// The part of a target before '?', as it is.
+// The part of a target before '?', not decoded.
 std::string_view path_of(std::string_view target);
 
-// The first value of a parameter of the query, with "%2B" and "+" as a browser writes them
-// resolved; empty if there is none. Any bytes can come out. Safe for untrusted input.
+// The first value of a parameter of the query, with "%2B" and "+" decoded as browsers encode
+// them; empty if there is none. May contain any bytes. Safe for untrusted input.
 std::string query_value(std::string_view target, std::string_view parameter);
 
 // The token that a request shows: "Authorization: Bearer TOKEN", or token=TOKEN in the query.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks a host over HTTPS. Its certificate must be the one that the link names.
+// HTTPS requests to a host. Its certificate must be the one that the link names.
 #pragma once
 
 #include <string>

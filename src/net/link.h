@@ -2,8 +2,8 @@
 // The link that a host prints and a participant opens:
 // https://HOST:PORT/#join=TOKEN&cert=FINGERPRINT
 //
-// The part behind '#' never travels to a server, so a browser can be given the
-// same link.
+// A browser never sends the part behind '#' to a server, so the same link can be
+// opened in a browser.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace theatron::net {
 struct Link {
     std::string host;  // a name or an address; IPv6 without brackets
     std::uint16_t port = 0;
-    std::string token;        // shows that the bearer was invited
+    std::string token;        // the permission to join
     std::string fingerprint;  // SHA-256 of the host's certificate, 64 hex digits
 };
 
 std::string format_link(const Link& link);
 
-// Throws Error saying what is missing or wrong, without the link's token.
+// Throws Error with one sentence about the problem, which does not contain the token.
 Link parse_link(std::string_view text);
 
 // "ADDRESS:PORT", "[IPV6]:PORT" or ":PORT"; port 0 lets the system choose.
@@ -30,7 +30,7 @@ struct Endpoint {
     std::uint16_t port = 0;
 };
 
-// Throws Error saying what is wrong.
+// Throws Error with one sentence about the problem.
 Endpoint parse_endpoint(std::string_view text);
 
 }  // namespace theatron::net
