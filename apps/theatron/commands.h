@@ -12,6 +12,7 @@ inline constexpr int damaged_exit_code = 3;
 
 void add_host_command(CLI::App& app);
 void add_join_command(CLI::App& app);
+void add_publish_command(CLI::App& app);
 void add_record_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_recover_command(CLI::App& app);

@@ -16,7 +16,6 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
-#include "cli/progress.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant.h"
@@ -29,7 +28,7 @@
 #include "input_lines.h"
 #include "link_argument.h"
 #include "participant_json.h"
-#include "publish/camera_publisher.h"
+#include "published_cameras.h"
 #include "session/renderer_choice.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -249,7 +248,7 @@ void run(const Flags& flags) {
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
-        publisher = std::make_unique<publish::CameraPublisher>(flags.cameras, cli::show_progress());
+        publisher = open_published(flags.cameras, {}, "");
         options.publishing = publisher->events();
     }
 

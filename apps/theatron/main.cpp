@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", THEATRON_VERSION);
     theatron::app::add_host_command(app);
     theatron::app::add_join_command(app);
+    theatron::app::add_publish_command(app);
     theatron::app::add_record_command(app);
     theatron::app::add_inspect_command(app);
     theatron::app::add_recover_command(app);

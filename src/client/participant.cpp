@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <map>
-#include <set>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/outside_text.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
-#include "net/clock_sync.h"
+#include "client/participant_shared.h"
 #include "wire/envelope.h"
 
 namespace theatron::client {
@@ -23,61 +21,17 @@ constexpr Duration first_wait = std::chrono::milliseconds(200);
 constexpr Duration longest_wait = std::chrono::seconds(2);
 // People whose poses are kept; a session has fewer.
 constexpr std::size_t max_poses = 256;
-// Frames that wait for the participant's thread; one more is dropped.
-constexpr std::size_t max_media_waiting = 64;
 
 std::vector<wire::Feature> features_of(const Participant::Options& options) {
-    return options.publishing.published ? std::vector{wire::Feature::publish}
-                                        : std::vector<wire::Feature>();
-}
-
-// The session's cameras, with the states that `before` knows.
-std::vector<Participant::Camera> described_cameras(const session::ViewerSession& session,
-                                                   const std::vector<Participant::Camera>& before) {
-    std::vector<Participant::Camera> cameras;
-    for (const wire::Camera& camera : session.cameras()) {
-        const auto calibration = decode_calibration(camera.calibration);
-        const auto known = std::find_if(before.begin(), before.end(), [&](const auto& c) {
-            return c.description.id == camera.id;
-        });
-        cameras.push_back(
-            {camera, calibration.value(),
-             known == before.end() ? wire::CameraState{camera.id, {}, "", ""} : known->state});
-    }
-    return cameras;
+    std::vector<wire::Feature> features;
+    if (options.publishing.published)
+        features.push_back(wire::Feature::publish);
+    if (options.sends_only)
+        features.push_back(wire::Feature::sends_only);
+    return features;
 }
 
 }  // namespace
-
-// State shared with other threads, under `mutex`.
-struct Participant::Shared {
-    mutable std::mutex mutex;
-    std::condition_variable changed;
-    Status status;
-    std::vector<Camera> cameras;
-    std::uint64_t generation = 0;
-    std::vector<wire::StreamSetting> settings;
-    std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
-    std::uint64_t decoder_generation = 0;                // of the cameras that these belong to
-    std::uint64_t connection = 0;                        // counts them
-    std::size_t taken = 0;    // bytes that decoders took, not yet passed to the client
-    bool is_telling = false;  // tell_taken() has been posted
-    std::vector<receive::StreamFigures> figures;
-    bool reset_wanted = false;
-    net::ClockSync clock;
-    net::Client* client = nullptr;  // while one runs
-    bool stopping = false;
-    std::string depth_wish, color_wish;  // codecs to ask for
-    std::optional<wire::ChooseDelivery> delivery_wish;
-    std::optional<wire::SetRenderer> renderer_word;  // not yet taken
-    std::string renderer;
-    std::map<ParticipantId, wire::PersonPose> poses;
-    std::optional<wire::PersonPose> own_pose;  // not yet sent
-    std::vector<std::pair<CameraId, wire::ChooseCodecs>> camera_wishes;
-    std::vector<wire::OfferedCamera> offers;
-    std::size_t media_waiting = 0;                    // for the participant's thread
-    std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
-};
 
 Participant::Participant(Options options)
     : options_(std::move(options)),
@@ -183,6 +137,7 @@ void Participant::run() {
             shared_->is_telling = false;
             shared_->poses.clear();
             shared_->own_pose.reset();
+            shared_->camera_wishes.clear();  // numbers of cameras may be others
             shared_->clock = {};
             shared_->status.round_trip = {};
             shared_->status.clock_known = false;
@@ -383,95 +338,6 @@ void Participant::on_control(ByteView message) {
     }
 }
 
-// A connection of its own: numbers of settings begin anew.
-void Participant::on_welcome() {
-    const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
-    std::unique_lock lock(shared_->mutex);
-    shared_->cameras = described_cameras(session_, {});
-    ++shared_->generation;
-    shared_->decoder_generation = generation;
-    shared_->newest.clear();
-    shared_->settings.clear();
-    shared_->status.phase = Phase::joined;
-    shared_->status.problem.clear();
-    shared_->status.host_name = session_.welcome().host_name;
-    shared_->status.delivery = {};
-    shared_->renderer_word = wire::SetRenderer{};
-    const bool again = ++shared_->status.joins > 1;
-    lock.unlock();
-    for (const std::string& problem : session_.left_out())
-        remark(problem);
-    ping(steady_now());
-    offer_cameras();
-    announce();
-    if (again)
-        remark("Connected again.");
-    if (options_.described)
-        options_.described();
-}
-
-void Participant::on_cameras() {
-    std::vector<std::string> news = session_.left_out();
-    decoders_->change_cameras(session_.cameras());
-    {
-        const std::lock_guard lock(shared_->mutex);
-        std::vector<Camera> cameras = described_cameras(session_, shared_->cameras);
-        const auto without = [](const std::vector<Camera>& all, CameraId id) {
-            return std::none_of(all.begin(), all.end(),
-                                [&](const Camera& c) { return c.description.id == id; });
-        };
-        for (const Camera& camera : cameras)
-            if (without(shared_->cameras, camera.description.id))
-                news.push_back("Camera " + camera.description.name + " has joined.");
-        for (const Camera& camera : shared_->cameras)
-            if (without(cameras, camera.description.id))
-                news.push_back("Camera " + camera.description.name + " has left.");
-        shared_->cameras = std::move(cameras);
-        shared_->settings = session_.settings();
-        ++shared_->generation;
-        std::erase_if(shared_->newest,
-                      [&](const auto& entry) { return without(shared_->cameras, entry.first); });
-    }
-    for (const std::string& text : news)
-        remark(text);
-    announce();
-    if (options_.described)
-        options_.described();
-}
-
-void Participant::on_camera_states() {
-    std::vector<std::string> news;
-    {
-        const std::lock_guard lock(shared_->mutex);
-        for (Camera& camera : shared_->cameras) {
-            const auto found = session_.camera_states().find(camera.description.id);
-            if (found == session_.camera_states().end())
-                continue;
-            const wire::CameraCondition before = camera.state.condition;
-            const bool had_problem = !camera.state.problem.empty();
-            camera.state = found->second;
-            using Condition = wire::CameraCondition;
-            const std::string name = "Camera " + camera.description.name;
-            const bool plays_damage =
-                camera.state.condition == Condition::live && !camera.state.problem.empty();
-            if (plays_damage && (!had_problem || before != Condition::live))
-                news.push_back(name + ": " + camera.state.problem);
-            if (camera.state.condition == before)
-                continue;
-            if (camera.state.condition == Condition::ended)
-                news.push_back(name + " has ended; its last picture stays.");
-            else if (camera.state.condition == Condition::failed)
-                news.push_back(name + " has failed: " + camera.state.problem);
-            else if (camera.state.condition == Condition::stale)
-                news.push_back(name + " stands still. " + camera.state.problem);
-            else
-                news.push_back(name + " is live again.");
-        }
-    }
-    for (const std::string& text : news)
-        remark(text);
-}
-
 void Participant::ping(TimePoint local) {
     shared_->client->send_control(wire::encode(wire::Ping{local}));
     // The offset is wanted soon; then it only has to follow the drift.
@@ -488,7 +354,7 @@ void Participant::on_tick() {
 
     std::string depth_wish, color_wish;
     std::optional<wire::ChooseDelivery> delivery_wish;
-    std::vector<std::pair<CameraId, wire::ChooseCodecs>> camera_wishes;
+    std::map<CameraId, wire::ChooseCodecs> camera_wishes;
     bool reset_wanted;
     {
         const std::lock_guard lock(shared_->mutex);
@@ -589,99 +455,11 @@ void Participant::choose_codecs(const std::string& depth, const std::string& col
 void Participant::choose_codecs(CameraId camera, const std::string& depth,
                                 const std::string& color) {
     const std::lock_guard lock(shared_->mutex);
-    shared_->camera_wishes.push_back({camera, {depth, color, {}}});
-}
-
-// Publishing.
-
-void Participant::publish(std::vector<wire::OfferedCamera> cameras) {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->offers = std::move(cameras);
-    if (shared_->client)
-        shared_->client->post([this] { offer_cameras(); });
-}
-
-// Frames have session times, so the clock comes first.
-void Participant::offer_cameras() {
-    wire::Publish offer;
-    {
-        const std::lock_guard lock(shared_->mutex);
-        if (!session_.joined() || !shared_->status.clock_known)
-            return;
-        offer.cameras = shared_->offers;
-    }
-    if (!numbers_.empty())
-        shared_->client->send_control(wire::encode(wire::Unpublish{std::exchange(numbers_, {})}));
-    if (!offer.cameras.empty() && !session_.may_publish())
-        remark("This link lets nobody send cameras; ask for the host's link for publishers.");
-    else if (!offer.cameras.empty())
-        shared_->client->send_control(wire::encode(offer));
-}
-
-void Participant::on_published() {
-    const wire::Published& answer = session_.published();
-    if (!answer.problem.empty())
-        remark(answer.problem);
-    numbers_ = answer.cameras;
-    if (options_.publishing.published)
-        options_.publishing.published(numbers_);
-}
-
-void Participant::send_media(const wire::MediaHeader& header,
-                             std::shared_ptr<const Bytes> message) {
-    const std::lock_guard lock(shared_->mutex);
-    if (!shared_->client)
-        return;
-    if (shared_->media_waiting == max_media_waiting) {
-        shared_->broken.insert({header.stream, header.setting});
-        return;
-    }
-    ++shared_->media_waiting;
-    shared_->client->post([this, header, message = std::move(message)]() mutable {
-        push_media(header, std::move(message));
-    });
-}
-
-void Participant::push_media(const wire::MediaHeader& header,
-                             std::shared_ptr<const Bytes> message) {
-    {
-        const std::lock_guard lock(shared_->mutex);
-        --shared_->media_waiting;
-    }
-    // Of a camera of a connection before, or one that has left.
-    if (std::find(numbers_.begin(), numbers_.end(), camera_of(header.stream)) == numbers_.end())
-        return;
-    // An outbox keeps one chain of frames for each stream; here each setting of a stream is one,
-    // and its number is unique in the session.
-    const auto chain = StreamId(std::uint16_t(header.setting));
-    const auto pushed = shared_->client->send_media({std::move(message),
-                                                     chain,
-                                                     header.setting,
-                                                     header.frame,
-                                                     header.reference,
-                                                     header.temporal_layer,
-                                                     header.key,
-                                                     {}});
-    if (pushed.needs_key)
-        missing_keys_.request({header.stream, header.setting});
-}
-
-void Participant::on_encode_keys() {
-    {
-        const std::lock_guard lock(shared_->mutex);
-        for (const auto& [stream, setting] : std::exchange(shared_->broken, {}))
-            missing_keys_.request({stream, setting});
-    }
-    for (const auto& key : missing_keys_.take(steady_now()))
-        if (options_.publishing.encode_key)
-            options_.publishing.encode_key(key.stream, key.setting);
-}
-
-void Participant::tell_camera(const wire::CameraState& state) {
-    const std::lock_guard lock(shared_->mutex);
-    if (shared_->client)
-        shared_->client->post(
-            [this, state] { shared_->client->send_control(wire::encode(wire::ToHost(state))); });
+    wire::ChooseCodecs& wish = shared_->camera_wishes[camera];
+    if (!depth.empty())
+        wish.depth_codec = depth;
+    if (!color.empty())
+        wish.color_codec = color;
 }
 
 void Participant::announce() const {

@@ -25,7 +25,7 @@ class Participant {
 public:
     static constexpr std::size_t max_remark_characters = 300;
 
-    // What a participant that sends cameras is told, from its own thread.
+    // Callbacks of a participant that sends cameras, on the participant's thread.
     struct Publishing {
         // The numbers of the cameras of publish(), in their order. With each connection they are
         // others; none: the connection is lost, or the host took none.
@@ -42,8 +42,9 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
-        bool records = false;  // as in wire::Join
-        Bytes person;          // likewise; see client/person_id.h
+        bool records = false;     // as in wire::Join
+        bool sends_only = false;  // is told of no cameras of others, and sent none
+        Bytes person;             // likewise; see client/person_id.h
         // Messages for the user: reconnecting, refused, a camera ended. Called
         // from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;
@@ -79,7 +80,8 @@ public:
         bool clock_known = false;  // now() is the session's time
         int joins = 0;             // successful joins; 1 if the connection was never lost
         wire::ChooseDelivery goal;
-        wire::Delivery delivery;  // the part of the requested data that the host sends
+        std::string publish_problem;  // why the host took no cameras of publish(); empty: it did
+        wire::Delivery delivery;      // the part of the requested data that the host sends
     };
     Status status() const;
 
@@ -155,6 +157,7 @@ private:
     void tell_pose();
     void offer_cameras();
     void on_published();
+    void refuse_cameras(const std::string& problem);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
     void on_welcome();

@@ -14,6 +14,9 @@
 
 namespace theatron::host {
 
+// The filter of a camera for which none is chosen.
+inline constexpr const char* usual_filter = "default";
+
 // Settings that can be used at once.
 struct LoadedFilter {
     filter::ChainSettings settings;

@@ -20,13 +20,6 @@
 namespace theatron::host {
 namespace {
 
-// Of cameras that are given none.
-constexpr const char* usual_filter = "default";
-
-// Cameras whose place in the room nobody knows stand side by side, so far apart
-// that none stands in another's picture.
-constexpr double unregistered_distance_m = 12;
-
 session::HostSession::CheckedCodec check_depth(const std::string& text) {
     const auto parsed = video::parse_depth_setting(text);
     return {parsed.setting.text,
@@ -57,6 +50,15 @@ void check_places(const std::string& file, const capture::CameraPlaces& places,
     if (named.empty())
         throw Error("'" + file + "' has no place of a camera that is opened (" + names +
                     "); register these with 'theatron register'.");
+}
+
+wire::Camera describe(const capture::CameraInfo& info) {
+    wire::Camera camera;
+    camera.name = info.name;
+    camera.has_color = info.calibration.color.size != Size{};
+    camera.frames_per_second = info.frames_per_second;
+    camera.calibration = encode_calibration(info.calibration);
+    return camera;
 }
 
 }  // namespace
@@ -109,8 +111,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     const session::ViewerSession::Wishes usual;
     config.streams.usual = {check_depth(usual.depth_codec).codec,
                             check_color(usual.color_codec).codec};
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-        config.cameras.push_back(describe(int(i), cameras[i]->info()));
+    for (const auto& camera : cameras)
+        config.cameras.push_back(describe(camera->info()));
 
     link = {options.link_host, 0, token, certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
@@ -130,18 +132,6 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });
     });
-}
-
-wire::Camera Host::Impl::describe(int number, const capture::CameraInfo& info) const {
-    Calibration calibration = info.calibration;
-    if (!calibration.registered)
-        calibration.room_from_camera.translation.x += number * unregistered_distance_m;
-    wire::Camera camera;
-    camera.name = info.name;
-    camera.has_color = calibration.color.size != Size{};
-    camera.frames_per_second = info.frames_per_second;
-    camera.calibration = encode_calibration(calibration);
-    return camera;
 }
 
 void Host::Impl::start_lanes(const std::vector<std::string>& specifications,

@@ -126,11 +126,19 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"renderer", participant.renderer},
                                 {"refused_requests", participant.refused},
                                 {"age_ms", age_ms(participant)}});
+    nlohmann::json published = nlohmann::json::array();
+    for (const auto& camera : figures.published)
+        published.push_back({{"id", int(camera.id)},
+                             {"name", camera.name},
+                             {"publisher", int(camera.publisher)},
+                             {"state", wire::text_of(camera.condition)},
+                             {"dropped_slow", camera.dropped_slow}});
     return {{"name", figures.name},
             {"seconds", figures.seconds},
             {"automatic_color", figures.automatic_color},
             {"cameras", cameras},
             {"participants", participants},
+            {"published", published},
             {"turned_away", figures.turned_away},
             {"faults", figures.faults}};
 }
@@ -256,6 +264,12 @@ std::string to_table(const nlohmann::json& figures) {
     }
     if (const std::string color = text(figures, "automatic_color"); !color.empty())
         table += "automatic colour is " + color + "\n";
+    for (const auto& camera : list(figures, "published")) {
+        std::snprintf(line, sizeof(line), "camera %.0f %.100s of participant %.0f: %.7s\n",
+                      number(camera, "id"), text(camera, "name").c_str(),
+                      number(camera, "publisher"), text(camera, "state").c_str());
+        table += line;
+    }
     for (const auto& participant : participants) {
         const std::string renderer = text(participant, "renderer");
         std::snprintf(line, sizeof(line),

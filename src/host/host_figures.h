@@ -30,13 +30,22 @@ struct HostFigures {
         std::uint64_t refused = 0;                // requests that came too often
     };
     std::vector<Participant> participants;
-    std::uint64_t turned_away = 0;  // strangers, since the host began
-    std::uint64_t faults = 0;       // that cost a connection, a picture or a camera (base/fault.h)
+    struct Published {
+        CameraId id{};
+        std::string name;
+        ParticipantId publisher{};
+        wire::CameraCondition condition{};
+        std::uint64_t dropped_slow = 0;  // as above
+    };
+    std::vector<Published> published;  // cameras that participants send now
+    std::uint64_t turned_away = 0;     // strangers, since the host began
+    std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 };
 
 // {"name","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
 // "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests",…}],"turned_away","faults"}
+// "renderer","refused_requests",…}],"published":[{"id","name","publisher","state",
+// "dropped_slow"}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

@@ -385,8 +385,19 @@ void Host::Impl::note_participants() {
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
         return entry.second.joined && entry.second.records;
     }));
+    const session::Streams& streams = session->streams();
+    std::erase_if(dropped_slow, [&](const auto& entry) { return !streams.find(entry.first); });
+    std::vector<HostFigures::Published> published;
+    for (const wire::Camera& camera : streams.cameras())
+        if (camera.publisher != session::host_publisher) {
+            const auto& state = streams.find(camera.id)->state;
+            published.push_back({camera.id, camera.name, camera.publisher,
+                                 state ? state->condition : wire::CameraCondition::live,
+                                 dropped_slow[camera.id]});
+        }
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
+    published_figures = std::move(published);
     dropped_slow_figures = dropped_slow;
 }
 
@@ -402,6 +413,7 @@ HostFigures Host::Impl::figures() const {
             {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
     }
     figures.participants = participant_figures;
+    figures.published = published_figures;
     figures.turned_away = turned_away;
     figures.faults = fault_count();
     return figures;

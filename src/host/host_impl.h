@@ -50,6 +50,7 @@ struct Host::Impl {
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
+    std::vector<HostFigures::Published> published_figures;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
     std::string name;
     std::vector<std::string> join_tokens, http_tokens;
@@ -75,8 +76,6 @@ struct Host::Impl {
     }
 
     void open(const HostOptions& options, const capture::Progress& progress);
-    // `number` is how many cameras the host opened before this one.
-    wire::Camera describe(int number, const capture::CameraInfo& info) const;
     net::Server::Handler handler();
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);

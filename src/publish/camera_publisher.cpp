@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "capture/placed_camera.h"
 #include "geometry/calibration.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -32,12 +33,14 @@ void shift(TimePoint& time, Duration offset) {
 
 }  // namespace
 
-CameraPublisher::CameraPublisher(std::vector<std::string> specifications,
+CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const std::string& places,
                                  const capture::Progress& progress)
-    : specifications_(std::move(specifications)), states_(specifications_.size()) {
+    : specifications_(std::move(specifications)),
+      places_(places.empty() ? capture::CameraPlaces() : capture::load_places(places)),
+      states_(specifications_.size()) {
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     for (const std::string& specification : specifications_) {
-        cameras.push_back(capture::open_camera(specification, progress));
+        cameras.push_back(capture::open_camera_at(specification, places_, progress));
         const capture::CameraInfo& info = cameras.back()->info();
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
                            encode_calibration(info.calibration)});
@@ -57,13 +60,30 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     events.state = [this, camera](wire::CameraState state) { on_state(camera, std::move(state)); };
     send::CameraLane::Options options;
     options.cameras = specifications_.size();
-    options.open_again = [specification = specifications_[camera]] {
-        return capture::open_camera(specification);
+    options.open_again = [this, specification = specifications_[camera]] {
+        return capture::open_camera_at(specification, places_);
     };
     options.make_color = color_watch_.make_color();
     // Lanes count from 0; the host's numbers are put into the headers.
     lanes_.push_back(std::make_unique<send::CameraLane>(
         CameraId(camera), std::move(opened), std::move(events), workers_, std::move(options)));
+}
+
+std::vector<std::string> CameraPublisher::camera_names() const {
+    std::vector<std::string> names;
+    for (const auto& lane : lanes_)
+        names.push_back(lane->info().name);
+    return names;
+}
+
+std::vector<CameraPublisher::Figures> CameraPublisher::figures() const {
+    std::vector<Figures> result;
+    for (const auto& lane : lanes_)
+        result.push_back({std::nullopt, lane->figures()});
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < std::min(numbers_.size(), result.size()); ++i)
+        result[i].number = numbers_[i];
+    return result;
 }
 
 client::Participant::Publishing CameraPublisher::events() {
@@ -114,7 +134,8 @@ void CameraPublisher::on_published(const std::vector<CameraId>& numbers) {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         wire::CameraState state = states_[i];
         state.camera = numbers_[i];
-        if (state.condition != wire::CameraCondition::live || !state.problem.empty())
+        if (state.condition != wire::CameraCondition::live || !state.problem.empty() ||
+            !state.filter.empty())
             participant_->tell_camera(state);
     }
 }

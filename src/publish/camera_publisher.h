@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cameras of a participant: opens them, encodes them as the host asks, and sends them.
 //
-//     publish::CameraPublisher publisher({"synthetic"}, {});
+//     publish::CameraPublisher publisher({"synthetic"}, "", {});
 //     client::Participant::Options options{...};
 //     options.publishing = publisher.events();
 //     client::Participant participant(options);
@@ -11,10 +11,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "capture/camera.h"
+#include "capture/camera_places.h"
 #include "client/participant.h"
 #include "send/camera_lane.h"
 #include "send/color_watch.h"
@@ -23,9 +25,27 @@ namespace theatron::publish {
 
 class CameraPublisher {
 public:
-    // Opens the cameras; throws Error with one sentence if one cannot be had.
-    CameraPublisher(std::vector<std::string> specifications, const capture::Progress& progress);
+    // Opens the cameras; throws Error with one sentence if one cannot be had. `places`: a file with
+    // their places in the room (docs/formats/places.md), empty: none.
+    CameraPublisher(std::vector<std::string> specifications, const std::string& places,
+                    const capture::Progress& progress);
     ~CameraPublisher();
+
+    std::vector<std::string> camera_names() const;
+    Size depth_size(std::size_t camera) const {
+        return lanes_.at(camera)->info().calibration.depth.size;
+    }
+    // As CameraLane::set_filter; without it depth is sent as the camera gave it.
+    void set_filter(std::size_t camera, const filter::ChainSettings& settings,
+                    std::shared_ptr<const filter::Background> background) {
+        lanes_.at(camera)->set_filter(settings, std::move(background));
+    }
+
+    struct Figures {
+        std::optional<CameraId> number;  // in the session; nothing: it is in none now
+        send::LaneFigures lane;
+    };
+    std::vector<Figures> figures() const;
 
     // For the options of the participant that sends them; valid as long as the publisher.
     client::Participant::Publishing events();
@@ -45,9 +65,10 @@ private:
     std::size_t camera_with(CameraId number) const;
 
     const std::vector<std::string> specifications_;
+    const capture::CameraPlaces places_;
     std::vector<wire::OfferedCamera> offers_;
 
-    std::mutex mutex_;  // guards all up to `workers_`
+    mutable std::mutex mutex_;  // guards all up to `workers_`
     client::Participant* participant_ = nullptr;
     std::vector<CameraId> numbers_;          // as the host gave them, by camera; may be empty
     std::vector<wire::CameraState> states_;  // newest, by camera

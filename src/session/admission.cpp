@@ -12,6 +12,10 @@ std::string shown_name(const std::string& name) {
 
 }  // namespace
 
+bool Admission::Participant::has(wire::Feature feature) const {
+    return std::find(features.begin(), features.end(), feature) != features.end();
+}
+
 void Admission::on_connected(ParticipantId id, std::size_t streams, TimePoint now) {
     const auto found = participants_.try_emplace(id, streams).first;
     found->second.connected = now;
@@ -58,10 +62,12 @@ void Admission::admit(Participant& participant, const wire::Join& hello, Role ro
     participant.role = role;
     participant.person = hello.person;
     participant.features.clear();
-    const bool publishes = std::find(hello.features.begin(), hello.features.end(),
-                                     wire::Feature::publish) != hello.features.end();
-    if (publishes && role == Role::publisher)
-        participant.features.push_back(wire::Feature::publish);
+    for (const wire::Feature known : {wire::Feature::publish, wire::Feature::sends_only}) {
+        const bool is_asked =
+            std::find(hello.features.begin(), hello.features.end(), known) != hello.features.end();
+        if (is_asked && (known != wire::Feature::publish || role == Role::publisher))
+            participant.features.push_back(known);
+    }
     participant.records = hello.records;
     participant.name = shown_name(hello.name);
 }
@@ -78,7 +84,7 @@ void Admission::keep_for_later(Participant& participant, wire::ToHost message) {
     };
     if (const auto* wish = std::get_if<wire::ChooseCodecs>(&message)) {
         if (wish->cameras.empty()) {
-            // What was kept for single cameras no longer holds.
+            // Requests that were kept for single cameras no longer hold.
             for (auto& [camera, late] : participant.late_codecs) {
                 if (!wish->depth_codec.empty())
                     late.depth_codec.clear();

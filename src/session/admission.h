@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The participants of a session: who may come in, in which role and for how long; their names, and
-// how often each may ask for something.
+// The participants of a session: admission by tokens, which have a role and may expire; their
+// names, features and request budgets.
 //
 // A pure state machine; time is passed in.
 #pragma once
@@ -27,7 +27,7 @@ enum class Role : std::uint8_t {
 
 class Admission {
 public:
-    // Whoever shows the token may join in this role, until it expires.
+    // Admits its bearer in this role, until it expires.
     struct Token {
         std::string secret;
         Role role = Role::viewer;
@@ -51,6 +51,7 @@ public:
         bool joined = false;
         bool closing = false;
         bool takes_part() const { return joined && !closing; }
+        bool has(wire::Feature feature) const;
         TimePoint connected;
         std::uint16_t protocol = 0;
         std::string name;
@@ -63,8 +64,8 @@ public:
         std::string renderer;                    // how it draws, as it says; may be empty
         TimePoint renderer_noted;                // when that was last believed
         RequestBudget budget;
-        // The newest of what was asked for too often; carried out as soon as it may be. Of codecs
-        // one for each camera, and one for all.
+        // The newest requests that came too often; each is carried out as soon as the budget
+        // allows. Codecs: one request for each camera, and one for all.
         std::map<std::optional<CameraId>, wire::ChooseCodecs> late_codecs;
         std::optional<wire::ChooseDelivery> late_goal;
     };
@@ -78,7 +79,7 @@ public:
     std::map<ParticipantId, Participant>& participants() { return participants_; }
     void remove(ParticipantId id) { participants_.erase(id); }
 
-    // Whether this connection may join: in its role, or with one sentence on why not.
+    // The answer to Join: the role, or one sentence on why the connection is refused.
     struct Verdict {
         Role role = Role::viewer;
         std::string refusal;  // empty: welcome
@@ -87,8 +88,8 @@ public:
     // The participant is in from now on.
     void admit(Participant& participant, const wire::Join& hello, Role role);
 
-    // Takes a request that came too often. Of wishes the last counts;
-    // all else is asked for or said again.
+    // Keeps a request that came too often: the last one of its kind. Requests that participants
+    // repeat by themselves are dropped.
     static void keep_for_later(Participant& participant, wire::ToHost message);
 
 private:

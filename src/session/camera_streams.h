@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera of a session: who publishes it, in which settings it is encoded, and which of them
+// One camera of a session: its publisher, the settings in which it is encoded, and the setting that
 // each receiver gets. A pure state machine.
 #pragma once
 
@@ -37,7 +37,7 @@ public:
     SettingTable& table(bool depth) { return depth ? depth_ : color_; }
     const SettingTable& table(bool depth) const { return depth ? depth_ : color_; }
 
-    // What a receiver was told that it gets; {} before.
+    // The settings of which a receiver was told that it gets them; {} before.
     struct Told {
         SettingId depth{}, color{};
         int highest_layer = 0;  // that it is sent
@@ -46,6 +46,8 @@ public:
     std::map<ParticipantId, Told> receivers;
 
     std::optional<wire::CameraState> state;  // as its publisher said last
+
+    int slot = 0;  // of the session, no other camera's; where a camera stands without a place
 
     // Settings that were active when this was called last and are no more; nothing if neither they
     // nor others changed.
@@ -58,8 +60,8 @@ public:
     // A frame of this camera was encoded. Its layer for receivers, or none if its setting is not
     // active.
     std::optional<int> on_media(const wire::MediaHeader& header, TimePoint now);
-    // Which layer a colour frame has for a receiver that gets this depth setting. Colour has the
-    // layer of the depth that belongs to it, so that the same moments are left out of both.
+    // The layer of a colour frame for a receiver that gets this depth setting: that of the depth
+    // frame of the same number, so that the same moments are left out of both.
     int color_layer(FrameNumber frame, SettingId depth) const;
     // From exposure to encoded, about; 0 if nothing was encoded.
     Duration made_in(SettingId setting) const;

@@ -103,15 +103,21 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     describe_session(id);
     if (hello.records)
         actions_.push_back(action::KeepEverything{id});
-    streams_.join(id, {depth.codec, color.codec}, hello.records);
-    streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
+    if (!participant.has(wire::Feature::sends_only)) {
+        streams_.join(id, {depth.codec, color.codec}, hello.records);
+        streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
+    }
     tell_renderer(id);
 }
 
 void HostSession::describe_session(ParticipantId id) {
     const Participant& participant = *admission_.find(id);
-    send(id, wire::Welcome{participant.protocol, id, config_.name, streams_.seen_by(id),
+    const bool sends_only = participant.has(wire::Feature::sends_only);
+    send(id, wire::Welcome{participant.protocol, id, config_.name,
+                           sends_only ? std::vector<wire::Camera>() : streams_.seen_by(id),
                            participant.features, config_.session});
+    if (sends_only)
+        return;
     for (const wire::CameraState& state : streams_.states_seen_by(id))
         send(id, state);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's authority over a session: takes what participants say, asks admission who they are,
-// and hands it to the state machine that it concerns. A pure state machine: messages and times go
-// in, messages and wishes to the cameras come out.
+// The host's authority over a session: dispatches each message of a participant, once admission has
+// let the participant in, to the state machine that it concerns. A pure state machine: messages and
+// times go in, actions come out.
 #pragma once
 
 #include <functional>
@@ -57,16 +57,16 @@ public:
     // The session is over: everybody is told so.
     void end();
 
-    // A frame of a camera of the host was encoded, `size` bytes. Who gets it.
+    // A frame of a camera of the host was encoded, `size` bytes. Returns its receivers.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
                                         TimePoint now);
-    // A participant has sent a media message. Who gets it. It is refused, with a reason, where it
-    // belongs to no camera that this participant publishes; what is late for a camera or a setting
-    // that was left is passed over.
+    // A participant has sent a media message. Returns its receivers. A message that belongs to no
+    // camera of this participant ends its connection with a reason; one that is late, for a camera
+    // or a setting that is gone, is ignored.
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
 
-    // Of the host's own cameras, and what is measured of sending them.
+    // The condition of the host's own cameras, and measurements of encoding them.
     void on_camera(const wire::CameraState& state) { streams_.on_state(state); }
     void on_region(bool is_drawn) { streams_.on_region(is_drawn); }
     void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture) {
@@ -84,7 +84,7 @@ public:
     // How those with this name should draw, now and when they join again.
     void set_renderer(const std::string& name, const wire::SetRenderer& wish);
 
-    // What is to be done, in order.
+    // Actions for the host to carry out, in order.
     std::vector<Action> take_actions();
 
     // How to encode a camera.

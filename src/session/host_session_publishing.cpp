@@ -44,8 +44,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
 // Why these cameras cannot join the session; empty: they can.
 std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
                                     const std::vector<wire::Camera>& cameras) const {
-    const auto& features = admission_.participants().at(id).features;
-    if (std::find(features.begin(), features.end(), wire::Feature::publish) == features.end())
+    if (!admission_.participants().at(id).has(wire::Feature::publish))
         return "This link lets nobody send cameras; ask for the host's link for publishers.";
     if (offer.cameras.empty())
         return "No camera was offered.";
@@ -84,8 +83,8 @@ void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, Ti
         streams_.on_state(state);
 }
 
-// Its connection takes as much as the pictures of its cameras can need. What is on its way when a
-// camera leaves still comes, so that it never takes less.
+// Lets the connection take messages as large as pictures of its cameras can be. The bound never
+// shrinks: pictures of a camera that leaves may still be on their way.
 void HostSession::take_media(ParticipantId id) {
     std::size_t& most = admission_.find(id)->max_media;
     for (const CameraId camera : streams_.of(id))

@@ -15,22 +15,22 @@ namespace theatron::session {
 
 class RendererWishes {
 public:
-    // Of everybody, also of those that join later. Forgets what was said about others.
+    // For all participants, also those that join later. Ends the wishes for single ones.
     void set(const wire::SetRenderer& wish) {
         all_ = wish;
         named_.clear();
         single_.clear();
     }
-    // Of those with this name, now and when they join again.
+    // For participants with this name, now and when they join again.
     void set(const std::string& name, const wire::SetRenderer& wish) { named_[name] = wish; }
-    // Of one connection.
+    // For one connection.
     void set(ParticipantId participant, const wire::SetRenderer& wish) {
         single_[participant] = wish;
     }
-    // A number is of one connection; what is said of its name may hold again.
+    // A participant has left. A wish for its name stays.
     void forget(ParticipantId participant) { single_.erase(participant); }
 
-    // Nothing as long as nothing was said that concerns this participant.
+    // The wish that holds for this participant, if any.
     std::optional<wire::SetRenderer> of(ParticipantId participant, const std::string& name) const {
         if (const auto single = single_.find(participant); single != single_.end())
             return single->second;

@@ -157,6 +157,55 @@ TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     EXPECT_EQ(all<action::Close>().size(), 1u);
 }
 
+// A machine with cameras and nobody in front of it.
+TEST_F(SessionOfMany, OneThatOnlySendsIsToldOfNoCameraAndSentNone) {
+    session.on_connected(alice, now);
+    wire::Join hello;
+    hello.token = "publish";
+    hello.depth_codec = "strata";
+    hello.color_codec = "jpeg";
+    hello.features = {wire::Feature::publish, wire::Feature::sends_only};
+    say(alice, hello);
+    join(bob, "publish");
+    actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Welcome>(alice).size(), 1u);
+    EXPECT_TRUE(sent<wire::Welcome>(alice)[0].cameras.empty());
+    EXPECT_EQ(sent<wire::Welcome>(alice)[0].features.size(), 2u);
+    EXPECT_TRUE(sent<wire::Settings>(alice).empty());
+    const auto of_bob = publish(bob, 1);
+    EXPECT_TRUE(sent<wire::CamerasAdded>(alice).empty());
+    EXPECT_EQ(of_bob.size(), 1u);
+    EXPECT_TRUE(sent<wire::Encode>(bob).empty()) << "nobody receives it";
+
+    const auto own = publish(alice, 1);
+    ASSERT_EQ(own.size(), 1u);
+    ASSERT_FALSE(sent<wire::Encode>(alice).empty());
+    EXPECT_EQ(sent<wire::Encode>(alice).back().settings.size(), 2u) << "bob receives it";
+    // What was lost on its way is said again.
+    session.resynchronise(alice);
+    actions = session.take_actions();
+    EXPECT_TRUE(sent<wire::Welcome>(alice).at(0).cameras.empty());
+    EXPECT_EQ(sent<wire::Encode>(alice).size(), 1u);
+    EXPECT_TRUE(sent<wire::CameraState>(alice).empty());
+}
+
+TEST_F(SessionOfMany, CamerasWithoutAPlaceStandBesideEachOther) {
+    join(alice, "publish");
+    join(bob, "publish");
+    const auto first = publish(alice, 1);
+    const auto second = publish(bob, 1);
+    session.on_closed(alice);
+    const auto third = publish(bob, 1);
+    const auto x_of = [&](CameraId id) {
+        const auto& calibration = session.streams().find(id)->description().calibration;
+        return decode_calibration(calibration)->room_from_camera.translation.x;
+    };
+    constexpr double apart = Streams::unregistered_distance_m;
+    EXPECT_EQ(x_of(CameraId{0}), 0);
+    EXPECT_EQ(x_of(second[0]), 2 * apart);
+    EXPECT_EQ(x_of(third[0]), apart) << "where the one that left stood";
+}
+
 TEST_F(SessionOfMany, NobodySendsPicturesOfAnothersCamera) {
     join(alice, "publish");
     join(bob, "publish");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The receivers of streams: what they wish, what they are given, and what they are told.
+// The receivers of streams: their wishes, the settings that they are given, and messages to them.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -42,14 +42,13 @@ void Streams::leave(ParticipantId id) {
 }
 
 void Streams::tell_again(ParticipantId id) {
-    const auto found = receivers_.find(id);
-    if (found == receivers_.end())
-        return;
-    for (auto& [number, camera] : cameras_)
-        if (const auto told = camera.receivers.find(id); told != camera.receivers.end())
-            told->second = {};
-    send(id, found->second.delivery.message({}));
-    tell_receiver(id, found->second);
+    if (const auto found = receivers_.find(id); found != receivers_.end()) {
+        for (auto& [number, camera] : cameras_)
+            if (const auto told = camera.receivers.find(id); told != camera.receivers.end())
+                told->second = {};
+        send(id, found->second.delivery.message({}));
+        tell_receiver(id, found->second);
+    }
     if (!of(id).empty())
         tell_publisher(id);
 }
@@ -161,8 +160,8 @@ double Streams::frames_per_second() const {
     return fastest;
 }
 
-// Of depth and colour the longer, of all cameras the mean. Settings are measured apart: one that
-// is encoded slowly makes nobody else's frames late.
+// The longer of depth and colour, each the mean of all cameras. Settings are measured apart: one
+// that is encoded slowly makes nobody else's frames late.
 Duration Streams::made_in(ParticipantId id) const {
     Duration depth{}, color{};
     int cameras = 0;

@@ -6,9 +6,33 @@
 #include <set>
 #include <utility>
 
+#include "geometry/calibration.h"
+
 namespace theatron::session {
+namespace {
+
+// Moves a camera whose place in the room is not known.
+void stand_apart(wire::Camera& camera, double distance_m) {
+    auto calibration = decode_calibration(camera.calibration);
+    if (!calibration || calibration->registered || distance_m == 0)
+        return;
+    calibration->room_from_camera.translation.x += distance_m;
+    camera.calibration = encode_calibration(*calibration);
+}
+
+}  // namespace
 
 // Cameras.
+
+int Streams::free_slot() const {
+    std::set<int> taken;
+    for (const auto& [id, camera] : cameras_)
+        taken.insert(camera.slot);
+    int slot = 0;
+    while (taken.contains(slot))
+        ++slot;
+    return slot;
+}
 
 void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
     assert(has_numbers_for(cameras.size()));
@@ -17,9 +41,12 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
         camera.depth_stream = depth_stream(camera.id);
         camera.color_stream = color_stream(camera.id);
         camera.publisher = publisher;
+        const int slot = free_slot();
+        stand_apart(camera, slot * unregistered_distance_m);
         CameraStreams& streams =
             cameras_.try_emplace(camera.id, camera, numbers_, config_.usual, config_.codecs)
                 .first->second;
+        streams.slot = slot;
         for (auto& [id, receiver] : receivers_)
             if (id != publisher) {
                 set_wish(id, receiver, streams, true);
@@ -131,7 +158,7 @@ void Streams::on_encoding(CameraId id, SettingId setting, bool keeps_up, double 
     const ActiveSetting* active = camera.table(depth).find(setting);
     if (!active)
         return;  // it has been left meanwhile
-    // Of a codec that several cameras are too slow in, once is enough.
+    // Receivers are told once of a codec, however many cameras are too slow in it.
     const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), [&](const auto& entry) {
         return entry.second.is_slow(depth, active->codec);
     });

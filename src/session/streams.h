@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of a session and who gets them: cameras and receivers come and go, each receiver
-// chooses codecs for each camera, each camera is encoded in as few settings as serve everybody.
+// The cameras of a session and their receivers: both come and go, each receiver chooses codecs for
+// each camera, and each camera is encoded in as few settings as serve all of its receivers.
 //
-// A pure state machine; what it wants done is appended to the actions that it was given.
+// A pure state machine; it appends to the actions that it was given.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,12 @@ public:
     Streams(const Streams&) = delete;
     Streams& operator=(const Streams&) = delete;
 
-    // Cameras. Numbers and streams are given here; numbers never come again.
-    // Needs has_numbers_for() them.
+    // Between cameras whose places in the room are not known, along x: so far that none stands in
+    // another's picture.
+    static constexpr double unregistered_distance_m = 12;
+
+    // Cameras. Numbers and streams are given here; numbers never come again. Cameras without a
+    // place in the room are put beside each other. Needs has_numbers_for() them.
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras);
     // The number of the camera that comes next, and of those behind it.
     CameraId next_id(std::size_t further) const { return CameraId(next_camera_ + int(further)); }
@@ -57,8 +61,8 @@ public:
     std::vector<wire::Camera> seen_by(ParticipantId participant) const;
     std::vector<wire::CameraState> states_seen_by(ParticipantId participant) const;
     void on_state(const wire::CameraState& state);
-    // Whether any camera has a region of interest. Without one no depth may be lossy
-    // for the sake of a slow link.
+    // `is_drawn`: some camera has a region of interest. Without one no depth may be lossy for the
+    // sake of a slow link.
     void on_region(bool is_drawn);
     // Encoding keeps up with the camera no longer, or does again: it takes `ms_per_picture` of a
     // core. Those who get the setting are told.
@@ -74,17 +78,17 @@ public:
     // An empty text keeps the codec. No cameras: of all, also of those that come.
     void choose(ParticipantId receiver, const Wish& wish, const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
-    // Of a link, ten times a second.
+    // The measurements of a receiver's link, ten times a second.
     void on_link(ParticipantId receiver, const LinkMeasure& link, TimePoint now);
-    // What this participant was told is lost: all of it again.
+    // Messages to this participant were lost: sends it everything that holds now.
     void tell_again(ParticipantId participant);
     // The step on which this receiver is, for people; empty if it receives nothing.
     std::string step_of(ParticipantId receiver);
 
-    // Media. A frame was encoded, `size` bytes. Who gets it.
+    // Media. A frame was encoded, `size` bytes. Returns its receivers.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
                                         TimePoint now);
-    // Who gets frames of this stream in this setting.
+    // The receivers of this stream in this setting.
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
     // The stream needs a key frame.
     void request_key(StreamId stream, SettingId setting);
@@ -92,8 +96,8 @@ public:
     void request_key(ParticipantId receiver, StreamId stream, SettingId setting);
     void on_tick(TimePoint now);
 
-    // Whether a frame of this camera would have to wait at every receiver. Those that are sent
-    // less when frames are late are not waited for; with no receiver there is none to wait for.
+    // True if a frame of this camera would have to wait at every receiver. Receivers that are sent
+    // less when frames are late do not count as waiting; without any receiver it is false.
     bool all_wait(CameraId camera, const std::function<bool(ParticipantId)>& is_behind) const;
 
 private:
@@ -112,6 +116,7 @@ private:
     void set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth);
     void take_step(ParticipantId id, Receiver& receiver);
     void take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera);
+    int free_slot() const;
     const LadderStep& step_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera);
     // Brings encoders and receivers in line with the tables.
     void apply();

@@ -40,7 +40,8 @@ inline constexpr std::size_t max_encodings = 64;
 // Numbers of things that not every program of a protocol does; a program passes over those that it
 // does not know.
 enum class Feature : std::uint16_t {
-    publish = 1,  // sends cameras
+    publish = 1,     // sends cameras
+    sends_only = 2,  // is sent no cameras of others
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Participants whose cameras join and leave a session; nobody else's camera notices."""
 import contextlib
+import json
 import pathlib
 import random
 import shutil
+import signal
 import tempfile
 import time
 import unittest
@@ -60,6 +62,26 @@ class Publishing(unittest.TestCase):
             with viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"],
                         "--publish", self.cameras["face"]):
                 seen.wait_for(lambda f: camera(f, 2) and camera(f, 3) and camera(f, 3)["frames"] > 5, 20)
+
+    def test_a_machine_without_a_screen_only_sends(self):
+        with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
+            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            with Process("publish", h.greeting["publish_link"], "--camera", self.cameras["face"],
+                         "--name", "cart", "--every", "0.2") as cart:
+                both = seen.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 5, 20)
+                self.assertNotEqual(camera(both, 1)["filter"], "", "filtered as the host's own are")
+                sent = cart.wait_for(lambda f: f["cameras"][0]["encoders"] > 0, 10)
+                self.assertEqual(sent["cameras"][0]["id"], 1)
+                code, out, errors = run("status", h.greeting["link"], "--json")
+                self.assertEqual(code, 0, errors)
+                listed, = json.loads(out)["published"]
+                self.assertEqual((listed["name"], listed["id"], listed["state"]), ("face", 1, "live"))
+                cart.send(signal.SIGTERM)
+                self.assertEqual(cart.end(), 0)
+            seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)
+            code, _, errors = run("publish", h.greeting["link"], "--camera", self.cameras["face"])
+            self.assertEqual(code, 1)
+            self.assertIn("lets nobody send cameras", errors)
 
     def test_a_viewers_link_lets_no_camera_in(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:

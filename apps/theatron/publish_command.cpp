@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron publish
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "cli/camera_option.h"
+#include "cli/seconds_option.h"
+#include "cli/stop_signal.h"
+#include "client/participant_figures.h"
+#include "client/person_id.h"
+#include "commands.h"
+#include "files/json_text.h"
+#include "files/state_folder.h"
+#include "link_argument.h"
+#include "published_cameras.h"
+#include "wire/condition_text.h"
+
+namespace theatron::app {
+namespace {
+
+struct Flags {
+    std::string link;
+    std::string name = "cameras";
+    std::vector<std::string> cameras, filters;
+    std::string places;
+    double seconds = 0, every = 0;
+};
+
+nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
+    std::uint64_t left_out = 0;
+    for (const send::EncoderFigures& encoder : camera.lane.encoders)
+        left_out += encoder.left_out;
+    return {{"id", camera.number ? nlohmann::json(int(*camera.number)) : nlohmann::json()},
+            {"name", camera.lane.name},
+            {"state", wire::text_of(camera.lane.camera.condition)},
+            {"problem", camera.lane.camera.problem},
+            {"filter", camera.lane.filter},
+            {"fps", camera.lane.frames_per_second},
+            {"frames", camera.lane.frames},
+            {"dropped_newest", camera.lane.dropped_newest},
+            {"left_out", left_out},
+            {"encoders", camera.lane.encoders.size()}};
+}
+
+nlohmann::json figures_json(const publish::CameraPublisher& publisher,
+                            const client::Participant::Status& status) {
+    nlohmann::json cameras = nlohmann::json::array();
+    for (const auto& camera : publisher.figures())
+        cameras.push_back(camera_json(camera));
+    return {{"host", status.host_name},
+            {"phase", client::text_of(status.phase)},
+            {"joins", status.joins},
+            {"cameras", cameras}};
+}
+
+std::string status_line(const publish::CameraPublisher& publisher,
+                        const client::Participant::Status& status) {
+    std::string line = client::text_of(status.phase);
+    if (!status.problem.empty())
+        line += ": " + status.problem;
+    for (const auto& camera : publisher.figures()) {
+        char text[160];
+        std::snprintf(text, sizeof(text), "  %s %.1f fps%s", camera.lane.name.c_str(),
+                      camera.lane.frames_per_second,
+                      camera.lane.encoders.empty() ? ", nobody sees it" : "");
+        line += text;
+    }
+    return line;
+}
+
+void run(const Flags& flags) {
+    client::Participant::Options options;
+    options.link = parse_link_argument(flags.link);
+    options.name = flags.name;
+    options.sends_only = true;
+    options.person = client::load_or_make_person_id(files::state_folder());
+    options.remark = [](const std::string& text) { log::say(text); };
+    const auto publisher = open_published(flags.cameras, flags.filters, flags.places);
+    options.publishing = publisher->events();
+
+    cli::catch_stop_signals();
+    client::Participant participant(options);
+    const publish::Publishing publishing(*publisher, participant);
+    const bool live_line = flags.every <= 0 && isatty(STDOUT_FILENO);
+    const TimePoint begin = steady_now();
+    TimePoint next_line{};
+    while (!cli::stop_requested() &&
+           (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
+        std::this_thread::sleep_for(50ms);
+        const client::Participant::Status status = participant.status();
+        if (status.phase == client::Participant::Phase::refused)
+            throw Error(status.problem);
+        if (!status.publish_problem.empty())
+            throw Error(status.publish_problem);
+        if (status.phase == client::Participant::Phase::ended)
+            break;
+        if (steady_now() < next_line)
+            continue;
+        if (flags.every > 0)
+            std::cout << files::json_text(figures_json(*publisher, status)) << std::endl;
+        else if (live_line)
+            std::cout << "\r\033[K" << status_line(*publisher, status) << std::flush;
+        next_line = steady_now() + (flags.every > 0 ? seconds_to_duration(flags.every) : 500ms);
+    }
+    if (live_line)
+        std::cout << "\n";
+}
+
+}  // namespace
+
+void add_publish_command(CLI::App& app) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        app.add_subcommand("publish", "Send cameras of this machine to a session of another");
+    command->footer(
+        "The host prints the link for that. Nothing is received; 'theatron join --publish' sends "
+        "cameras\nand shows the session.\n"
+        "\nExamples:\n"
+        "  theatron publish LINK --camera k4a:0\n"
+        "  theatron publish LINK --camera k4a:0 --camera k4a:1 --places places.json");
+    command->add_option("link", flags->link, "The link for publishers, or @FILE with it")
+        ->required();
+    cli::add_camera_option(*command, flags->cameras)->required();
+    command
+        ->add_option("--filter", flags->filters,
+                     "Filters of depth: off, paper, default, a line of filters or a JSON file; "
+                     "CAMERA=... for one camera, by number from 0 or name")
+        ->allow_extra_args(false);
+    command->add_option("--places", flags->places,
+                        "Where the cameras are in the room: a file that 'theatron register' wrote");
+    command->add_option("--name", flags->name, "Name shown in the session")->capture_default_str();
+    cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    cli::add_seconds_option(*command, flags->every,
+                            "Print figures as a JSON line this often, in seconds", "--every");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cameras of the session, as the host describes them.
+#include <algorithm>
+
+#include "base/steady_clock.h"
+#include "client/participant_shared.h"
+
+namespace theatron::client {
+namespace {
+
+// The session's cameras, with the states that `before` knows.
+std::vector<Participant::Camera> described_cameras(const session::ViewerSession& session,
+                                                   const std::vector<Participant::Camera>& before) {
+    std::vector<Participant::Camera> cameras;
+    for (const wire::Camera& camera : session.cameras()) {
+        const auto calibration = decode_calibration(camera.calibration);
+        const auto known = std::find_if(before.begin(), before.end(), [&](const auto& c) {
+            return c.description.id == camera.id;
+        });
+        cameras.push_back(
+            {camera, calibration.value(),
+             known == before.end() ? wire::CameraState{camera.id, {}, "", ""} : known->state});
+    }
+    return cameras;
+}
+
+}  // namespace
+
+// A connection of its own: numbers of settings begin anew.
+void Participant::on_welcome() {
+    const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
+    std::unique_lock lock(shared_->mutex);
+    shared_->cameras = described_cameras(session_, {});
+    ++shared_->generation;
+    shared_->decoder_generation = generation;
+    shared_->newest.clear();
+    shared_->settings.clear();
+    shared_->status.phase = Phase::joined;
+    shared_->status.problem.clear();
+    shared_->status.publish_problem.clear();
+    shared_->status.host_name = session_.welcome().host_name;
+    shared_->status.delivery = {};
+    shared_->renderer_word = wire::SetRenderer{};
+    const bool again = ++shared_->status.joins > 1;
+    lock.unlock();
+    for (const std::string& problem : session_.left_out())
+        remark(problem);
+    ping(steady_now());
+    // Not where only messages were lost: the host still has them.
+    if (numbers_.empty())
+        offer_cameras();
+    announce();
+    if (again)
+        remark("Connected again.");
+    if (options_.described)
+        options_.described();
+}
+
+void Participant::on_cameras() {
+    std::vector<std::string> news = session_.left_out();
+    decoders_->change_cameras(session_.cameras());
+    {
+        const std::lock_guard lock(shared_->mutex);
+        std::vector<Camera> cameras = described_cameras(session_, shared_->cameras);
+        const auto without = [](const std::vector<Camera>& all, CameraId id) {
+            return std::none_of(all.begin(), all.end(),
+                                [&](const Camera& c) { return c.description.id == id; });
+        };
+        for (const Camera& camera : cameras)
+            if (without(shared_->cameras, camera.description.id))
+                news.push_back("Camera " + camera.description.name + " has joined.");
+        for (const Camera& camera : shared_->cameras)
+            if (without(cameras, camera.description.id))
+                news.push_back("Camera " + camera.description.name + " has left.");
+        shared_->cameras = std::move(cameras);
+        shared_->settings = session_.settings();
+        ++shared_->generation;
+        std::erase_if(shared_->newest,
+                      [&](const auto& entry) { return without(shared_->cameras, entry.first); });
+    }
+    for (const std::string& text : news)
+        remark(text);
+    announce();
+    if (options_.described)
+        options_.described();
+}
+
+void Participant::on_camera_states() {
+    std::vector<std::string> news;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        for (Camera& camera : shared_->cameras) {
+            const auto found = session_.camera_states().find(camera.description.id);
+            if (found == session_.camera_states().end())
+                continue;
+            const wire::CameraCondition before = camera.state.condition;
+            const bool had_problem = !camera.state.problem.empty();
+            camera.state = found->second;
+            using Condition = wire::CameraCondition;
+            const std::string name = "Camera " + camera.description.name;
+            const bool plays_damage =
+                camera.state.condition == Condition::live && !camera.state.problem.empty();
+            if (plays_damage && (!had_problem || before != Condition::live))
+                news.push_back(name + ": " + camera.state.problem);
+            if (camera.state.condition == before)
+                continue;
+            if (camera.state.condition == Condition::ended)
+                news.push_back(name + " has ended; its last picture stays.");
+            else if (camera.state.condition == Condition::failed)
+                news.push_back(name + " has failed: " + camera.state.problem);
+            else if (camera.state.condition == Condition::stale)
+                news.push_back(name + " stands still. " + camera.state.problem);
+            else
+                news.push_back(name + " is live again.");
+        }
+    }
+    for (const std::string& text : news)
+        remark(text);
+}
+
+}  // namespace theatron::client

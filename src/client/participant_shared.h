@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// State of a participant that several threads use.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/participant.h"
+#include "net/clock_sync.h"
+
+namespace theatron::client {
+
+// State shared with other threads, under `mutex`.
+struct Participant::Shared {
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    Status status;
+    std::vector<Camera> cameras;
+    std::uint64_t generation = 0;
+    std::vector<wire::StreamSetting> settings;
+    std::map<CameraId, receive::CameraFramePtr> newest;  // not yet taken
+    std::uint64_t decoder_generation = 0;                // of the cameras that these belong to
+    std::uint64_t connection = 0;                        // counts them
+    std::size_t taken = 0;    // bytes that decoders took, not yet passed to the client
+    bool is_telling = false;  // tell_taken() has been posted
+    std::vector<receive::StreamFigures> figures;
+    bool reset_wanted = false;
+    net::ClockSync clock;
+    net::Client* client = nullptr;  // while one runs
+    bool stopping = false;
+    std::string depth_wish, color_wish;  // codecs to ask for
+    std::optional<wire::ChooseDelivery> delivery_wish;
+    std::optional<wire::SetRenderer> renderer_word;  // not yet taken
+    std::string renderer;
+    std::map<ParticipantId, wire::PersonPose> poses;
+    std::optional<wire::PersonPose> own_pose;              // not yet sent
+    std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
+    std::vector<wire::OfferedCamera> offers;
+    std::size_t media_waiting = 0;                    // for the participant's thread
+    std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
+};
+
+}  // namespace theatron::client

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/host_session.h"
+
+#include "session/host_session_testing.h"
+
+namespace theatron::session {
+namespace {
+
+TEST_F(Host, WelcomesAndStartsWithKeyFrames) {
+    join(alice);
+    const auto actions = session.take_actions();
+    EXPECT_EQ(sent<wire::Welcome>(alice, actions).size(), 1u);
+    const auto settings = sent<wire::Settings>(alice, actions);
+    ASSERT_EQ(settings.size(), 1u);
+    ASSERT_EQ(settings[0].settings.size(), 2u);
+    EXPECT_EQ(settings[0].settings[0].codec, "trvl");
+    EXPECT_EQ(count<action::ChangeSettings>(actions), 1);
+    session.on_tick(now);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 2);
+    EXPECT_EQ(session.receivers(StreamId{0}, settings[0].settings[0].setting), std::vector{alice});
+}
+
+TEST_F(Host, RefusesAWrongTokenWithASentence) {
+    join(alice, "trvl", "guess");
+    const auto actions = session.take_actions();
+    ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("token"), std::string::npos);
+    EXPECT_TRUE(sent<wire::Welcome>(alice, actions).empty());
+    EXPECT_EQ(count<action::Close>(actions), 1);
+    // Nothing that follows counts any more.
+    join(alice);
+    say(alice, wire::Ping{});
+    EXPECT_TRUE(sent<wire::Pong>(alice, session.take_actions()).empty());
+}
+
+TEST_F(Host, RefusesAnUnknownCodecAndANewerProtocol) {
+    join(alice, "bad");
+    EXPECT_EQ(sent<wire::Refused>(alice, session.take_actions())[0].reason,
+              "There is no codec bad.");
+    session.on_connected(bob, now);
+    wire::Join newer;
+    newer.protocol_min = newer.protocol_max = wire::protocol_max + 1;
+    newer.token = "secret";
+    say(bob, newer);
+    EXPECT_NE(sent<wire::Refused>(bob, session.take_actions())[0].reason.find("older"),
+              std::string::npos);
+}
+
+TEST_F(Host, NothingIsDoneForWhoHasNotJoined) {
+    session.on_connected(alice, now);
+    say(alice, wire::ChooseCodecs{"rvl", ""});
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
+    session.on_connected(bob, now);
+    now += Admission::join_deadline + 1s;
+    session.on_tick(now);
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
+}
+
+TEST_F(Host, ParticipantsShareAnEncoderAndChangeItAlone) {
+    join(alice);
+    join(bob);
+    session.take_actions();
+    EXPECT_EQ(session.depth_settings().size(), 1u);
+    say(bob, wire::ChooseCodecs{"rvl", ""});
+    const auto actions = session.take_actions();
+    EXPECT_EQ(session.depth_settings().size(), 2u);
+    EXPECT_TRUE(sent<wire::Settings>(alice, actions).empty());
+    ASSERT_EQ(sent<wire::Settings>(bob, actions).size(), 1u);
+    EXPECT_EQ(session.receivers(StreamId{0}, session.depth_settings()[0].id), std::vector{alice});
+    EXPECT_EQ(session.receivers(StreamId{1}, session.color_settings()[0].id),
+              (std::vector{alice, bob}));
+    session.on_closed(alice);
+    EXPECT_EQ(session.depth_settings().size(), 1u);
+    EXPECT_EQ(session.depth_settings()[0].codec, "rvl");
+}
+
+TEST_F(Host, ABadWishKeepsTheOldCodecAndSaysSo) {
+    join(alice);
+    session.take_actions();
+    say(alice, wire::ChooseCodecs{"bad", ""});
+    const auto settings = sent<wire::Settings>(alice, session.take_actions());
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].note, "There is no codec bad.");
+    EXPECT_EQ(session.depth_settings()[0].codec, "trvl");
+}
+
+TEST_F(Host, AFourthCodecIsServedTheNearestWithANote) {
+    join(alice, "trvl");
+    join(bob, "rvl");
+    join(carol, "zstd");
+    session.take_actions();
+    join(dave, "zstd:level=3");
+    const auto settings = sent<wire::Settings>(dave, session.take_actions());
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].settings[0].codec, "zstd");
+    EXPECT_NE(settings[0].note.find("zstd:level=3"), std::string::npos);
+}
+
+TEST_F(Host, OnlyOwnStreamsMayBeAskedForKeyFrames) {
+    join(alice);
+    session.on_tick(now);
+    session.take_actions();
+    now += 1s;
+    say(alice, wire::RequestKey{StreamId{0}, SettingId{999}});
+    say(alice, wire::RequestKey{StreamId{50}, session.depth_settings()[0].id});
+    session.on_tick(now);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 0);
+    say(alice, wire::RequestKey{StreamId{0}, session.depth_settings()[0].id});
+    session.on_tick(now);
+    EXPECT_EQ(count<action::RequestKey>(session.take_actions()), 1);
+}
+
+TEST_F(Host, TellsJoinersAboutCameras) {
+    session.on_camera({CameraId{0}, wire::CameraCondition::failed, "unplugged"});
+    join(alice);
+    const auto states = sent<wire::CameraState>(alice, session.take_actions());
+    ASSERT_EQ(states.size(), 1u);
+    EXPECT_EQ(states[0].problem, "unplugged");
+}
+
+TEST_F(Host, DamagedMessagesEndTheConnection) {
+    join(alice);
+    session.take_actions();
+    session.on_control(alice, Bytes(20, std::byte{0xff}), now);
+    EXPECT_EQ(count<action::Close>(session.take_actions()), 1);
+}
+
+TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
+    join(alice, "trvl");
+    join(bob, "rvl");
+    join(carol, "zstd");
+    session.take_actions();
+    join_to_record(dave, "strata");
+    auto actions = session.take_actions();
+    EXPECT_EQ(count<action::KeepEverything>(actions), 1);
+    const auto given = sent<wire::Settings>(dave, actions);
+    ASSERT_EQ(given.size(), 1u);
+    EXPECT_EQ(given[0].settings[0].codec, "trvl");
+    EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "it is told";
+
+    // A place becomes free; who asked for what it gets goes; others want other things.
+    session.on_closed(bob);
+    session.on_closed(alice);
+    say(carol, wire::ChooseCodecs{"raw", ""});
+    join(alice, "lz4");
+    join(bob, "ans");
+    session.on_region(true);
+    EXPECT_TRUE(sent<wire::Settings>(dave, session.take_actions()).empty());
+    EXPECT_EQ(session.receivers(StreamId{0}, given[0].settings[0].setting),
+              (std::vector{bob, dave}));
+
+    // It may change its mind itself.
+    session.on_closed(bob);
+    session.take_actions();
+    say(dave, wire::ChooseCodecs{"strata", ""});
+    const auto wished = sent<wire::Settings>(dave, session.take_actions());
+    ASSERT_EQ(wished.size(), 1u);
+    EXPECT_EQ(wished[0].settings[0].codec, "strata");
+}
+
+TEST_F(Host, WhoLostMessagesIsToldEverythingAgain) {
+    join(alice);
+    join(bob);
+    session.on_camera({CameraId{0}, wire::CameraCondition::stale, "It is dark.", ""});
+    session.set_renderer(wire::SetRenderer{"mesh", true});
+    session.take_actions();
+    session.resynchronise(alice);
+    const auto actions = session.take_actions();
+    EXPECT_EQ(sent<wire::Welcome>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::CameraState>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::Settings>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::Delivery>(alice, actions).size(), 1u);
+    EXPECT_EQ(sent<wire::SetRenderer>(alice, actions).size(), 1u);
+    EXPECT_TRUE(sent<wire::Settings>(bob, actions).empty());
+    EXPECT_EQ(count<action::ChangeSettings>(actions), 0) << "nothing is encoded in another way";
+
+    session.resynchronise(ParticipantId{77});
+    EXPECT_TRUE(session.take_actions().empty());
+}
+
+}  // namespace
+}  // namespace theatron::session

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/viewer_session.h"
+
+#include "session/host_session_testing.h"
+
+namespace theatron::session {
+namespace {
+
+// Host and viewer, each fed with the messages of the other.
+TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
+    ViewerSession viewer({"secret", "Dr. A", "trvl", "jpeg"});
+    session.on_connected(alice, now);
+    session.on_control(alice, viewer.begin(), now);
+    std::vector<ViewerSession::Change> changes;
+    const auto deliver = [&] {
+        changes.clear();
+        for (const auto& a : all<action::Send>(session.take_actions()))
+            changes.push_back(viewer.on_control(wire::encode(a.message)));
+    };
+    deliver();
+    using Change = ViewerSession::Change;
+    EXPECT_EQ(changes, (std::vector{Change::welcomed, Change::settings}));
+    EXPECT_EQ(viewer.cameras().size(), 1u);
+    EXPECT_EQ(viewer.settings().size(), 2u);
+
+    session.on_control(alice, viewer.choose("rvl", ""), now);
+    deliver();
+    EXPECT_EQ(changes, std::vector{Change::settings});
+    EXPECT_EQ(viewer.settings()[0].codec, "rvl");
+    EXPECT_EQ(viewer.wishes().depth_codec, "rvl");
+
+    session.on_control(alice, viewer.choose("bad", ""), now);
+    deliver();
+    EXPECT_EQ(viewer.note(), "There is no codec bad.");
+    EXPECT_EQ(viewer.settings()[0].codec, "rvl");
+
+    session.set_renderer({"mesh", true});
+    deliver();
+    EXPECT_EQ(changes, std::vector{Change::renderer});
+    EXPECT_EQ(viewer.renderer_word(), (wire::SetRenderer{"mesh", true}));
+    (void)viewer.begin();
+    EXPECT_EQ(viewer.renderer_word(), wire::SetRenderer{}) << "another host may think otherwise";
+}
+
+TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
+    join(alice);
+    session.on_connected(bob, now);  // has not joined
+    session.take_actions();
+    session.end();
+    session.end();
+    const auto actions = session.take_actions();
+    ASSERT_EQ(actions.size(), 1u);
+    const auto* end = std::get_if<action::End>(&actions[0]);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->participant, alice);
+
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(wire::encode(end->message)), ViewerSession::Change::goodbye);
+    EXPECT_EQ(viewer.goodbye(), "The host has ended the session.");
+    (void)viewer.begin();
+    EXPECT_EQ(viewer.goodbye(), "");
+}
+
+TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(Bytes(7)), ViewerSession::Change::nothing);
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::Refused{""})), ViewerSession::Change::refused);
+    EXPECT_FALSE(viewer.refusal().empty());
+}
+
+}  // namespace
+}  // namespace theatron::session
