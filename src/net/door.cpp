@@ -176,10 +176,14 @@ private:
         http::async_read(*stream_, incoming_, parser_, step([this] {
             const auto& request = parser_.get();
             extend(first_message_deadline, "did not join in time");
-            if (!websocket::is_upgrade(request))
-                return answer(
-                    door_.events.http({std::string(request.target()),
-                                       std::string(request[http::field::authorization])}));
+            if (!websocket::is_upgrade(request)) {
+                const std::string authorization(request[http::field::authorization]);
+                const HttpAnswer answered =
+                    door_.events.http({std::string(request.target()), authorization});
+                if (answered.status == 401 && !authorization.empty())
+                    door_.places.note_wrong_token(address_group(address_), steady_now());
+                return answer(answered);
+            }
             if (path_of(std::string_view(request.target().data(), request.target().size())) !=
                 websocket_path)
                 return answer({.status = 404, .body = "There is nothing here.\n"});
@@ -237,6 +241,8 @@ private:
             std::move(*web_), address_, {first.begin(), first.end()}, door_.events.invited(first)});
         if (visitor->invited)
             door_.places.note_known(address_group(address_));
+        else
+            door_.places.note_wrong_token(address_group(address_), steady_now());
         gone_ = true;
         deadline_.cancel();
         asio::post(door_.inside, [&events = door_.events, visitor] {

@@ -70,6 +70,14 @@ void Places::note_known(const std::string& address) {
             std::ranges::min_element(known_, {}, [](const auto& entry) { return entry.second; }));
 }
 
+void Places::note_wrong_token(const std::string& address, TimePoint now) {
+    if (is_known(address))
+        return;
+    Budget& own = by_address_[address];
+    own.fill(handshakes_per_second_and_address, now);
+    own.left = std::max(own.left - wrong_token_cost, -max_wrong_token_debt);
+}
+
 void Places::want_handshake(Id id) {
     const auto found = entries_.find(id);
     if (found == entries_.end() || found->second.waits)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 namespace theatron::net {
@@ -106,6 +107,48 @@ TEST(Places, AnAddressIsWhatOneNetworkHas) {
     EXPECT_EQ(address_group("::ffff:10.0.0.1"), "10.0.0.1");
     EXPECT_EQ(address_group("2001:db8:1:2:3:4:5:6"), address_group("2001:db8:1:2::9"));
     EXPECT_NE(address_group("2001:db8:1:3::9"), address_group("2001:db8:1:2::9"));
+}
+
+TEST(Places, AnAddressThatShowsWrongTokensWaitsForItsNextTry) {
+    Places places;
+    std::size_t tries = 0;
+    std::optional<Places::Id> connection;
+    for (TimePoint now = start; now < start + 60s; now += 1ms) {
+        if (!connection) {
+            connection = places.enter("10.0.0.2").id;
+            places.want_handshake(*connection);
+        }
+        while (const auto id = places.next_handshake(now)) {
+            ++tries;
+            places.leave(*id);
+            connection.reset();
+            places.note_wrong_token("10.0.0.2", now);
+        }
+    }
+    EXPECT_LE(tries, 130u);
+    EXPECT_GE(tries, 60u);
+
+    // Others do not, nor does an address from which the token came.
+    const TimePoint later = start + 60s;
+    const auto other = places.enter("10.0.0.3");
+    places.want_handshake(other.id);
+    EXPECT_EQ(places.next_handshake(later), other.id);
+    places.note_known("192.168.1.5");
+    for (int i = 0; i < 10; ++i)
+        places.note_wrong_token("192.168.1.5", later);
+    const auto back = places.enter("192.168.1.5");
+    places.want_handshake(back.id);
+    EXPECT_EQ(places.next_handshake(later), back.id);
+}
+
+TEST(Places, ManyWrongTokensHoldUpAnAddressForTwoSecondsAtMost) {
+    Places places;
+    for (int i = 0; i < 1000; ++i)
+        places.note_wrong_token("10.0.0.2", start);
+    const auto honest = places.enter("10.0.0.2");
+    places.want_handshake(honest.id);
+    EXPECT_TRUE(handshakes(places, start, 1s).empty());
+    EXPECT_EQ(handshakes(places, start + 1s, 1s), std::vector{honest.id});
 }
 
 }  // namespace
