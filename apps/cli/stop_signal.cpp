@@ -16,7 +16,7 @@ void catch_stop_signals() {
     const auto stop = [](int) { requested = true; };
     std::signal(SIGINT, stop);
     std::signal(SIGTERM, stop);
-    // Of a command that was started to outlive its terminal (nohup), it stays ignored.
+    // A command that was started to outlive its terminal (nohup) ignores it; that is kept.
     if (std::signal(SIGHUP, stop) == SIG_IGN)
         std::signal(SIGHUP, SIG_IGN);
 }

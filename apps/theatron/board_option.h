@@ -25,7 +25,7 @@ inline void add_board_options(CLI::App& command, BoardFlags& flags) {
             double value = 0;
             constexpr double thinnest = 0.5, thickest = 40;
             const bool is_number = CLI::detail::lexical_cast(text, value);
-            // What is not a number is in no range.
+            // NaN is in no range.
             if (is_number && value >= thinnest && value <= thickest)
                 return "";
             return "'" + text + "' is not a thickness from 0.5 to 40 millimetres";
