@@ -4,6 +4,7 @@
 #include "synthetic/frame_cache.h"
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -193,6 +194,22 @@ private:
     std::size_t written_ = 0;  // used by the caller's thread only
 };
 
+// Drafts of `path` that a process which was killed has left: a living one writes more often.
+void remove_abandoned_drafts(const fs::path& path) {
+    constexpr auto abandoned_after = std::chrono::hours(1);
+    const std::string begin = path.filename().string() + ".";
+    std::error_code problem, ignored;
+    for (fs::directory_iterator at(path.parent_path(), problem), end; !problem && at != end;
+         at.increment(problem)) {
+        const std::string name = at->path().filename().string();
+        if (!name.starts_with(begin) || !name.ends_with(".part"))
+            continue;
+        const auto written = fs::last_write_time(at->path(), ignored);
+        if (!ignored && fs::file_time_type::clock::now() - written > abandoned_after)
+            fs::remove(at->path(), ignored);
+    }
+}
+
 }  // namespace
 
 fs::path default_cache_folder() {
@@ -232,6 +249,7 @@ FrameLoop::FrameLoop(const LoopOptions& options, const Progress& progress)
     if (problem)
         throw Error("Cannot make the cache folder '" + folder.string() + "': " + problem.message() +
                     ".");
+    remove_abandoned_drafts(path_);
     // Another process may render the same loop: each writes a draft, the last rename wins.
     const fs::path unfinished =
         path_.string() + "." +

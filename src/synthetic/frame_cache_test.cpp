@@ -121,5 +121,20 @@ TEST_F(FrameCache, EveryOptionHasItsOwnFile) {
     differs([](LoopOptions& o) { o.frames_per_second = 3; });
 }
 
+TEST_F(FrameCache, RemovesWhatAKilledProcessHasLeft) {
+    const fs::path path = loop_path(options_);
+    fs::create_directories(folder_);
+    const fs::path abandoned = path.string() + ".17.part", in_work = path.string() + ".18.part",
+                   other = folder_ / "notes.part";
+    for (const fs::path& file : {abandoned, in_work, other})
+        files::write_file(file, as_bytes(std::string_view("a draft")));
+    for (const fs::path& file : {abandoned, other})
+        fs::last_write_time(file, fs::file_time_type::clock::now() - 2h);
+    FrameLoop rendered(options_, {});
+    EXPECT_FALSE(fs::exists(abandoned));
+    EXPECT_TRUE(fs::exists(in_work));
+    EXPECT_TRUE(fs::exists(other));
+}
+
 }  // namespace
 }  // namespace theatron::synthetic
