@@ -185,7 +185,7 @@ void choose_delivery(client::Participant& participant, bool latency, double valu
     participant.choose_delivery(goal);
 }
 
-// Of one camera, by number from 0 or name, or of all.
+// For one camera, by number from 0 or name; `camera` empty: for all.
 void choose_codec(client::Participant& participant, bool depth, const std::string& codec,
                   const std::string& camera) {
     const std::string none;

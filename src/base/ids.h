@@ -6,7 +6,7 @@
 
 namespace theatron {
 
-// A camera of the host, numbered from 0 in the order of its configuration.
+// A camera of the session, numbered by the host from 0 in the order of joining.
 enum class CameraId : std::uint16_t {};
 // One image stream of one camera: its depth or its colour.
 enum class StreamId : std::uint16_t {};

@@ -27,12 +27,12 @@ public:
 
     // Callbacks of a participant that sends cameras, on the participant's thread.
     struct Publishing {
-        // The numbers of the cameras of publish(), in their order. With each connection they are
-        // others; none: the connection is lost, or the host took none.
+        // The numbers of the cameras of publish(), in their order. Each connection gives new
+        // numbers; an empty list: the connection is lost, or the host refused the cameras.
         std::function<void(const std::vector<CameraId>&)> published;
-        // How to encode these cameras from now on, exactly so.
+        // The settings of these cameras from now on; a stream without a setting is not encoded.
         std::function<void(const std::vector<wire::StreamSetting>&)> encode;
-        // The next frame of this stream in this setting is to be a key frame.
+        // The next frame of this stream in this setting must be a key frame.
         std::function<void(StreamId, SettingId)> encode_key;
     };
 
@@ -43,7 +43,7 @@ public:
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
         bool records = false;     // as in wire::Join
-        bool sends_only = false;  // is told of no cameras of others, and sent none
+        bool sends_only = false;  // as in wire::Join: gets no cameras of others
         Bytes person;             // likewise; see client/person_id.h
         // Messages for the user: reconnecting, refused, a camera ended. Called
         // from the participant's thread with one line of clean text.
@@ -119,8 +119,8 @@ public:
     void choose_codecs(CameraId camera, const std::string& depth, const std::string& color);
 
     // From any thread: offers these cameras to the session, again after each loss of the
-    // connection; an empty list withdraws them. Options::publishing is told the numbers that the
-    // host gives them.
+    // connection; an empty list withdraws them. The host's numbers for them go to
+    // Options::publishing.
     void publish(std::vector<wire::OfferedCamera> cameras);
     // From any thread: sends a frame of such a camera, encoded as the host asked, with the camera's
     // stream in its header and session times (now()). `message` is header and payload. A frame that
