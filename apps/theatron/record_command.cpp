@@ -258,7 +258,7 @@ void run(const Flags& flags) {
             say("'" + gone.string() +
                 "' was deleted or renamed; the recording goes on in a new file beside it.");
             deleted = true;
-            intake.begin_segment(source->now());
+            intake.begin_segment();
         }
         if (live_line) {
             Missing missing;

@@ -95,7 +95,10 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
             return false;
         if (!header.key)
             entry.gate.close();
-        else if (!begin(header, now))
+        else if (!begin(*std::exchange(pending_, std::nullopt), header, now))
+            return false;
+    } else if (wants_segment_ && header.key && can_begin_with(entry)) {
+        if (!begin(current_, header, now))
             return false;
     }
     const StreamGate::Answer answer = entry.gate.on_frame(header, now.local);
@@ -118,9 +121,17 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
     return false;
 }
 
-// The segment that was described begins with this frame.
-bool Intake::begin(const wire::MediaHeader& header, const Now& now) {
-    Description description = *std::exchange(pending_, std::nullopt);
+// Streams whose frames all are keys can begin anywhere, so they wait for the others.
+bool Intake::can_begin_with(const Entry& entry) const {
+    return entry.gate.has_references() ||
+           std::none_of(entries_.begin(), entries_.end(), [](const auto& other) {
+               return !other.second.ended && !other.second.silent &&
+                      other.second.gate.has_references();
+           });
+}
+
+// A segment of this description begins with this frame.
+bool Intake::begin(Description description, const wire::MediaHeader& header, const Now& now) {
     // Block times count from there, so no earlier than need be and no later than the frame.
     ClockPair clock = now.clock;
     const Duration age = between(header.captured, clock.session);
@@ -139,16 +150,17 @@ bool Intake::begin(const wire::MediaHeader& header, const Now& now) {
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
+    wants_segment_ = false;
     return true;
 }
 
-void Intake::begin_segment(const Now& now) {
+void Intake::begin_segment() {
     const std::lock_guard lock(mutex_);
     if (!recorder_ || !problem_.empty())
         return;
-    recorder_->begin_segment(current_.cameras, now.clock);
+    wants_segment_ = true;
     for (auto& [id, entry] : entries_) {
-        entry.gate.close();
+        entry.gate.want_key();
         ++entry.stream.interruptions;
     }
 }

@@ -48,8 +48,9 @@ public:
     [[nodiscard]] bool take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
                             const std::string& filters, const Now& now);
 
-    // Whatever comes next goes into a new file: the last one is not there any more.
-    void begin_segment(const Now& now);
+    // The last file is not at its name any more: a new one begins with the next key frame, which is
+    // asked for. Until then pictures still go into the last one, which may only be renamed.
+    void begin_segment();
 
     // Of this camera nothing more will come, and nothing is missing.
     void on_end(CameraId camera);
@@ -98,7 +99,8 @@ private:
         bool new_connection = false;
     };
 
-    bool begin(const wire::MediaHeader& header, const Now& now);
+    bool begin(Description description, const wire::MediaHeader& header, const Now& now);
+    bool can_begin_with(const Entry& entry) const;
     void note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now);
 
     const std::filesystem::path file_;
@@ -110,6 +112,7 @@ private:
     std::map<StreamId, Entry> entries_;
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
+    bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;
 };

@@ -224,5 +224,17 @@ TEST_F(IntakeTest, WhatCannotBeCreatedIsAProblemAndNoException) {
     EXPECT_EQ(intake->recorder(), nullptr);
 }
 
+TEST_F(IntakeTest, AFileThatIsGoneFromItsNameCostsNoPicture) {
+    for (int n = 0; n < 10; ++n)
+        send();
+    intake->begin_segment();
+    EXPECT_TRUE(send()) << "a key frame is asked for";
+    for (int n = 0; n < 10; ++n)
+        send();
+    EXPECT_EQ(written(), all(21));
+    EXPECT_EQ(figures().lost, 0u);
+    EXPECT_EQ(intake->recorder()->figures().segments, 2u);
+}
+
 }  // namespace
 }  // namespace theatron::record

@@ -2,6 +2,7 @@
 #include "record/stream_gate.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace theatron::record {
 namespace {
@@ -33,6 +34,11 @@ StreamGate::Answer StreamGate::on_frame(const wire::MediaHeader& header, TimePoi
     if (recorded_.size() > kept_numbers)
         recorded_.pop_front();
     ++figures_.recorded;
+    has_references_ = has_references_ || !header.key;
+    if (const bool wanted = std::exchange(wants_key_, false); wanted && !header.key) {
+        asked_ = now;
+        return {.record = true, .ask_for_key = true};
+    }
     if (!next_key_)
         next_key_ = now + (phase_ > Duration(0) ? phase_ : key_period);
     if (header.key || now < *next_key_)

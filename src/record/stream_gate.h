@@ -40,6 +40,11 @@ public:
     // What follows waits for a key frame: a segment or a connection begins.
     void close();
 
+    // The next frame that refers to another asks for a key frame, although nothing is missing.
+    void want_key() { wants_key_ = true; }
+    // Some frames of the stream refer to others.
+    bool has_references() const { return has_references_; }
+
     struct Figures {
         std::uint64_t recorded = 0;
         // Frames that never came, or without what they refer to. Those before the first key
@@ -55,6 +60,7 @@ private:
 
     Duration phase_;
     bool begun_ = false, open_ = false;
+    bool wants_key_ = false, has_references_ = false;
     std::deque<FrameNumber> recorded_;  // the last ones
     std::optional<FrameNumber> newest_;
     std::optional<TimePoint> asked_;
