@@ -47,7 +47,7 @@ std::string best_color() {
                                                       : video::ColorSetting().text;
 }
 
-// One spelling of what a person wrote. Throws Error with one sentence where it cannot be had here.
+// A codec setting in one spelling. Throws Error with one sentence if this build does not have it.
 std::string checked_color(const std::string& text) {
     const bool automatic = text == video::auto_color;
     const auto parsed = video::parse_color_setting(automatic ? "h264" : text);
@@ -118,7 +118,7 @@ double parse_render_scale(const std::string& text) {
     return scale;
 }
 
-// Draws what came, from one viewpoint, into files.
+// Draws the newest pictures of all cameras from one viewpoint into files.
 struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
         : size(parse_size(flags.size)),
@@ -159,7 +159,7 @@ struct OffscreenPicture {
     viewer::OffscreenView scene;
 };
 
-// A picture is written at the end: what cannot be is said at the beginning.
+// A picture is written at the end; an impossible file name is reported at the beginning.
 void check_picture_file(const std::string& file) {
     if (file.empty())
         return;
@@ -204,8 +204,8 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
     }
 }
 
-// Lines on standard input change what is sent: "depth rvl", "depth rvl 2", "latency 200". False
-// after "quit".
+// Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
+// "quit".
 bool obey(client::Participant& participant, const std::string& line) {
     std::istringstream words(line);
     std::string what, value, camera;

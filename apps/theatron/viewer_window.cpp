@@ -41,8 +41,8 @@ std::string title_of(const viewer::Facts& facts, const std::string& address) {
     return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
 }
 
-// The key for leaving must be pressed twice, so that nobody leaves by accident; once is enough if
-// no session is joined.
+// The key for leaving must be pressed twice, against leaving by accident; once is enough if no
+// session is joined.
 class Leaving {
 public:
     bool pressed(const client::Participant::Status& status, TimePoint now) {

@@ -27,7 +27,7 @@ struct InteractionBench {
 
 // Returns {p50_ms,p99_ms,max_ms,participants,cameras,poses,round_trip_ms:{p50,p99,max},
 // pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}}}: from the sending of a pose to its arrival at the
-// viewer, less the link's delay; and what the pictures got meanwhile. Throws Error.
+// viewer, minus the link's delay; and the pictures' rate and age meanwhile. Throws Error.
 nlohmann::json bench_interaction(const InteractionBench& bench);
 
 }  // namespace theatron::bench

@@ -23,7 +23,7 @@ public:
 
     // `write` is called from the writer's thread only, and may block.
     explicit LineWriter(std::function<void(std::string_view)> write);
-    ~LineWriter();  // writes what waits
+    ~LineWriter();  // writes all lines that wait
 
     // From any thread. Never blocks, never throws.
     void put(std::string line) noexcept;

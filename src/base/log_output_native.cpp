@@ -26,7 +26,7 @@ void write_to_stderr(std::string_view line) {
 }
 
 // Never destroyed: other threads may log until the process ends, and the writing thread may
-// be stuck in a pipe that nobody reads.
+// be blocked by a pipe without a reader.
 LineWriter& writer() {
     static LineWriter* const only = [] {
         auto* made = new LineWriter(write_to_stderr);

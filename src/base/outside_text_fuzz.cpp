@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: what comes out is clean already, of no more characters than asked for, and not
-// longer than three times the input.
+// Any bytes: the output is unchanged by a second pass, has no more characters than allowed, and
+// is at most three times as long as the input.
 #include <cstdint>
 #include <cstdlib>
 

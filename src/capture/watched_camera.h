@@ -45,7 +45,7 @@ public:
     // A call that takes longer hangs; opening a camera may take seconds.
     static constexpr Duration longest_call = 3s, longest_opening = 30s;
 
-    // From any thread: gives up on the thread in step(), and returns the next turn.
+    // From any thread: abandons the thread in step(), and returns the next turn.
     Turn abandon();
 
     // From any thread: the process was suspended, perhaps with its machine, so the time until

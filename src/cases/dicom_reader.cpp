@@ -175,7 +175,7 @@ void read_tags(const Tags& tags, DicomSlice& slice) {
             slice.identifiers.push_back({tag.name, std::move(value)});
 }
 
-// The stored values out of the library's buffer, whatever their type.
+// Copies the stored values, which have type T, out of the library's buffer.
 template <class T>
 void copy_samples(const std::vector<char>& buffer, std::vector<int>& out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -236,7 +236,7 @@ Answer read(int descriptor, DicomSlice& slice) {
     gdcm::ImageReader reader;
     reader.SetStream(stream);
     const bool good = reader.Read();
-    // The library fills up what is missing.
+    // The library fills up missing bytes without an error.
     if (buffer.is_cut_off())
         return Answer::cut_off;
     const gdcm::DataSet& data = reader.GetFile().GetDataSet();

@@ -28,7 +28,7 @@ struct ImportedPart {
     medical::Mesh mesh;
 };
 
-// `manifest`: what a case.json in the source says of its parts; without any, what is usual.
+// `manifest`: the parts as a case.json in the source describes them; without one, defaults apply.
 std::vector<ImportedPart> import_meshes(const std::vector<std::filesystem::path>& files,
                                         const std::optional<medical::Case>& manifest,
                                         const ImportOptions& options,

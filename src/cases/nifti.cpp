@@ -179,7 +179,7 @@ ParsedLabels parse_nifti(ByteView file) {
     if (!(offset >= double(header_size) && offset <= 1 << 20))
         return {{}, "begins its samples at a place that cannot be"};
 
-    // Unpacking runs through the header and what is between once more.
+    // Unpacking begins again at the header and skips all bytes before the samples.
     const auto skipped = std::size_t(offset);
     std::vector<std::uint16_t>& labels = parsed.value.labels;
     const std::size_t count = parsed.value.grid.size();

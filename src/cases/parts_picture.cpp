@@ -25,7 +25,7 @@ public:
     Canvas(Size size, Vec3 center, double mm_per_pixel)
         : size_(size), center_(center), mm_per_pixel_(mm_per_pixel), pixels_(size.area()) {}
 
-    // Keeps what is nearest.
+    // Draws `mesh`; each pixel keeps the nearest surface.
     void draw(const Mesh& mesh, Rgb color) {
         each_pixel(mesh, [&](std::size_t i, double depth, Vec3 normal) {
             if (depth <= pixels_[i].depth)

@@ -155,7 +155,7 @@ std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
         for (const Work& work : left_out)
             if (const auto* message = std::get_if<Message>(&work); message && !message->is_taken)
                 events_.taken(message->connection, message->bytes.size());
-        // None stays as it was: numbers of settings may begin anew.
+        // No decoder is kept: numbers of settings may start again.
         queue(*worker, Cameras{{}, generation_});
         queue(*worker, Cameras{cameras_of(*worker, cameras), generation_});
     }

@@ -37,7 +37,7 @@ public:
     // As in Receiver, in the order of the calls; messages that still wait are dropped.
     // Returns the generation, a number that is new each time.
     std::uint64_t set_cameras(const std::vector<wire::Camera>& cameras);
-    // Some cameras came or left: what waits for the others, and their decoders, stay.
+    // Some cameras came or left: messages that wait for the others, and their decoders, stay.
     void change_cameras(const std::vector<wire::Camera>& cameras);
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 

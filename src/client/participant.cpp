@@ -311,7 +311,7 @@ void Participant::on_control(ByteView message) {
             wire::SetRenderer word = session_.renderer_word();
             {
                 const std::lock_guard lock(shared_->mutex);
-                // Giving the choice back leaves what was said just before.
+                // A command that frees the choice keeps the renderer of the command before it.
                 if (word.renderer.empty() && shared_->renderer_word)
                     word.renderer = shared_->renderer_word->renderer;
                 shared_->renderer_word = std::move(word);

@@ -26,7 +26,7 @@ std::vector<Participant::Camera> described_cameras(const session::ViewerSession&
 
 }  // namespace
 
-// A connection of its own: numbers of settings begin anew.
+// A new connection: numbers of settings may start again.
 void Participant::on_welcome() {
     const std::uint64_t generation = decoders_->set_cameras(session_.cameras());
     std::unique_lock lock(shared_->mutex);

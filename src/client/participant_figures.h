@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of what a participant receives, by camera and together.
+// Figures of the streams that a participant receives, by camera and in total.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where programs keep what outlives them.
+// The folder for files that a program keeps between runs.
 #pragma once
 
 #include <filesystem>

@@ -28,8 +28,8 @@ struct FrameTimes {
     TimePoint presented;
 };
 
-// Colour as the camera gave it: pixels, or a JPEG picture that nobody has
-// decoded. Exactly one of the two is filled, none if there is no colour.
+// Colour from the camera: pixels, or a JPEG picture that is not decoded yet.
+// Exactly one of the two is filled, none if there is no colour.
 struct ColorData {
     Size size;
     ColorImage pixels;

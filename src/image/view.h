@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views of image memory that somebody else owns.
+// Views of image memory that other objects own.
 //
 // A view is a pointer, a size and a stride; copying it copies no pixels. Rows
 // are contiguous, top row first. Views are how every codec and filter takes and

@@ -24,8 +24,8 @@ public:
     // Session time minus local time. Zero if not known.
     Duration offset() const;
 
-    // Largest difference between session time and local + offset(): half of the round trip
-    // of the best exchange, whatever share of it each direction took.
+    // Largest difference between session time and local + offset(): half of the round trip of
+    // the best exchange. It holds for any share of the round trip that each direction took.
     Duration error_bound() const;
 
     Duration round_trip() const;  // of the best exchange kept

@@ -78,7 +78,7 @@ public:
     void keep_everything() { outbox_.keep_everything(); }
     bool is_behind(StreamId stream) const { return outbox_.is_behind(stream); }
     SendingFigures take_figures() { return outbox_.take_figures(now_()); }
-    // To be called a few times a second: gives up a peer that takes nothing.
+    // To be called a few times a second: closes the connection if the peer takes nothing.
     void look();
 
     // Sends the control messages that are queued, then closes. `closed` is called with `why`.
@@ -96,7 +96,7 @@ private:
     void write_later(TimePoint then);
     void finish(const std::string& why);
 
-    // A fault in what is done for this connection ends this connection.
+    // An exception from `work` ends this connection only.
     template <class Work>
     void guarded(Work work) {
         const auto self = shared_from_this();

@@ -61,8 +61,8 @@ public:
     void run();
     void stop();  // from any thread
 
-    // After run() and the thread of `inside` have ended, before `inside` is destroyed: ends what
-    // is pending. Until both answer 0, what remains in one context may belong to the other.
+    // After run() and the thread of `inside` have ended, before `inside` is destroyed: close_all(),
+    // then poll() of both contexts until both return 0: handlers may own the other's sockets.
     void close_all();
     std::size_t poll();
 

@@ -178,7 +178,7 @@ private:
     Flight flight_;
     int dropped_ = 0;
     double ceiling_ = 0;
-    TimePoint paid_until_;  // when the ceiling has made up for what was sent
+    TimePoint paid_until_;  // when the sent bytes are within the ceiling again
     std::optional<TimePoint> ask_again_;
 };
 

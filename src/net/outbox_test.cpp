@@ -381,7 +381,7 @@ TEST(Outbox, TheClassesGoInTheirOrderAndBeforeALargeFrame) {
     EXPECT_TRUE(next_of(outbox).is_media);
 }
 
-// Its link has stopped: what was sent stays on its way.
+// The link has stopped: sent bytes stay in flight.
 TEST(Outbox, APeerThatTakesNothingHasLittleOnItsWayAndThenTheNewest) {
     Outbox outbox;
     TimePoint now = from_us(1'000'000);

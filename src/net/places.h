@@ -29,8 +29,8 @@ public:
     // addresses all together, and a single address.
     static constexpr double handshakes_per_second = 200, handshakes_per_second_and_address = 100;
 
-    // A wrong token takes so many handshakes of its address, half a second's, and at most so many
-    // of those to come, so that whoever is behind the same address is let in before its deadline.
+    // Handshakes that a wrong token costs its address, half a second's, and the largest debt of an
+    // address, so that a participant behind the same address gets in before its deadline.
     static constexpr double wrong_token_cost = 50, max_wrong_token_debt = 150;
 
     enum class Id : std::uint64_t {};
@@ -51,8 +51,8 @@ public:
     void note_known(const std::string& address);
     bool is_known(const std::string& address) const { return known_.contains(address); }
 
-    // A wrong token was shown from this address. A known one is not held up: participants may be
-    // behind it, and whoever guesses there is still bound by handshakes_per_second_and_address.
+    // A wrong token was shown from this address. A known address has no debt: participants may be
+    // behind it, and guesses from there are still limited by handshakes_per_second_and_address.
     void note_wrong_token(const std::string& address, TimePoint now);
 
     // `id` waits for its handshake.

@@ -120,8 +120,8 @@ Server::Server(const Endpoint& endpoint, const Certificate& certificate, Handler
 }
 
 Server::~Server() {
-    // Sockets of one context may be named by what still waits in the other: all is wound up
-    // before either goes.
+    // Handlers that wait in one context may hold sockets of the other: all of them are run before
+    // either context is destroyed.
     impl_->ended = true;
     impl_->door->close_all();
     impl_->timer.cancel();

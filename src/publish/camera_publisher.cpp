@@ -13,7 +13,7 @@
 namespace theatron::publish {
 namespace {
 
-// Why this build cannot encode so; empty: it can.
+// Why this build cannot encode with this codec setting; empty: it can.
 std::string problem_of(bool depth, const std::string& codec) {
     if (depth) {
         const auto parsed = video::parse_depth_setting(codec);
@@ -64,7 +64,7 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
         return capture::open_camera_at(specification, places_);
     };
     options.make_color = color_watch_.make_color();
-    // Lanes count from 0; the host's numbers are put into the headers.
+    // Lanes number cameras from 0; on_media() writes the host's numbers into the headers.
     lanes_.push_back(std::make_unique<send::CameraLane>(
         CameraId(camera), std::move(opened), std::move(events), workers_, std::move(options)));
 }
@@ -116,7 +116,7 @@ void CameraPublisher::end() {
         lane->set_settings({}, {});
 }
 
-// The camera that the host calls so; lanes_.size() if there is none.
+// The index of the camera with this number of the host; lanes_.size() if there is none.
 std::size_t CameraPublisher::camera_with(CameraId number) const {
     const auto found = std::find(numbers_.begin(), numbers_.end(), number);
     return found == numbers_.end() ? lanes_.size() : std::size_t(found - numbers_.begin());
@@ -168,7 +168,7 @@ void CameraPublisher::on_encode_key(StreamId stream, SettingId setting) {
             setting);
 }
 
-// The host's number of the camera and the session's time come into the header.
+// Writes the host's number of the camera and session times into the header, then sends.
 void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& encoded) {
     const std::lock_guard lock(mutex_);
     if (!participant_ || camera >= numbers_.size())

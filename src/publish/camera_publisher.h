@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of a participant: opens them, encodes them as the host asks, and sends them.
+// The cameras of a participant: opens them, encodes them in the host's settings, and sends them.
 //
 //     publish::CameraPublisher publisher({"synthetic"}, "", {});
 //     client::Participant::Options options{...};
@@ -25,8 +25,8 @@ namespace theatron::publish {
 
 class CameraPublisher {
 public:
-    // Opens the cameras; throws Error with one sentence if one cannot be had. `places`: a file with
-    // their places in the room (docs/formats/places.md), empty: none.
+    // Opens the cameras; throws Error with one sentence if one cannot be opened. `places`: a file
+    // with their poses in the room (docs/formats/places.md); empty: the cameras have none.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
                     const capture::Progress& progress);
     ~CameraPublisher();
@@ -42,7 +42,7 @@ public:
     }
 
     struct Figures {
-        std::optional<CameraId> number;  // in the session; nothing: it is in none now
+        std::optional<CameraId> number;  // in the session; nothing: it is not in a session
         send::LaneFigures lane;
     };
     std::vector<Figures> figures() const;
@@ -50,9 +50,9 @@ public:
     // For the options of the participant that sends them; valid as long as the publisher.
     client::Participant::Publishing events();
 
-    // The cameras join the session of this participant, which stays until end().
+    // Offers the cameras to the session of `participant`, which must exist until end() returns.
     void begin(client::Participant& participant);
-    // No more is called of the participant once this has returned.
+    // Withdraws the cameras. `participant` is not used after this has returned.
     void end();
 
 private:
@@ -70,7 +70,7 @@ private:
 
     mutable std::mutex mutex_;  // guards all up to `workers_`
     client::Participant* participant_ = nullptr;
-    std::vector<CameraId> numbers_;          // as the host gave them, by camera; may be empty
+    std::vector<CameraId> numbers_;          // given by the host, by camera; may be empty
     std::vector<wire::CameraState> states_;  // newest, by camera
 
     send::ColorWatch color_watch_;
@@ -78,7 +78,7 @@ private:
     std::vector<std::unique_ptr<send::CameraLane>> lanes_;  // never change
 };
 
-// Begins, and ends when it goes.
+// Calls begin(), and end() when it is destroyed.
 class Publishing {
 public:
     Publishing(CameraPublisher& publisher, client::Participant& participant)

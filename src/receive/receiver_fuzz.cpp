@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A viewer of one camera and a hostile host: media messages (each behind a three-byte
 // length) and settings, the usual codecs and others, with numbers in use, new, 0 and none at all.
-// Nothing is read or written outside, whatever the order; pictures have the calibration's size.
+// No order leads to a read or write outside of memory; pictures have the calibration's size.
 #include <cstdlib>
 
 #include "base/error.h"

@@ -66,7 +66,7 @@ private:
     }
 
     void draw_layers(const CloudFrame& frame) {
-        // Nobody may read what is being drawn.
+        // A texture that is drawn into must not be read.
         bind_layers(0, 0);
         const Size size = frame.target.size;
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

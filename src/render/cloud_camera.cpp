@@ -10,8 +10,8 @@
 namespace theatron::render {
 namespace {
 
-// By way of a buffer that gets new memory each time: neither waits for the GPU to be done with
-// what it still draws from the texture or from the last upload.
+// Uses a buffer that gets new memory each time, so that the call waits neither for drawing from
+// the texture nor for the last upload.
 template <class Image>
 void upload_image(const Buffer& staging, const Texture& texture, Image image, GLenum format,
                   GLenum type) {

@@ -31,19 +31,19 @@ struct CloudCut {
 
 // The head's frame is that of the eye: x right, y down, z forward, between the eyes.
 
-// Where the middle of a body is whose head is there: below the neck, upright whichever way
-// the head is turned.
+// The middle of the body that belongs to this head, in room coordinates: vertically below the
+// neck, for any direction of the head.
 Vec3 body_middle(const Pose& room_from_head);
 
-// How far a body reaches from its middle.
+// Distance from a body's middle to its farthest point.
 inline constexpr double usual_reach_m = 1.1;
 
-// Another person, as their cameras see them: what is further than `reach_m` from the body's middle
-// is the room behind.
+// Keeps another person in their cameras' pictures: points farther than `reach_m` from the body's
+// middle belong to the room and are removed.
 CloudCut other_person(const Pose& room_from_head, double reach_m = usual_reach_m);
 
-// Oneself: the headset, the head and what is so near before the eyes that it hides all else. Hands
-// at work stay.
+// As other_person() for the viewer's own body; also removes the headset, the head and points so
+// near the eyes that they would hide everything else. Hands at work stay.
 CloudCut oneself(const Pose& room_from_head, double reach_m = usual_reach_m);
 
 }  // namespace theatron::render

@@ -171,8 +171,8 @@ bool ColorBalance::update() {
             if (a != b)
                 differences[a * n + b] = compare(*cameras[a], *cameras[b], step);
 
-    // Least squares by relaxation. A weak pull towards 0 keeps what nothing else decides:
-    // the mean, and cameras that share no surface with others.
+    // Least squares by relaxation. A weak pull towards 0 determines the values that no difference
+    // determines: the mean, and cameras that share no surface with others.
     std::vector<Vec3> log_gains(n);
     for (int round = 0; round < 60; ++round)
         for (std::size_t a = 0; a < n; ++a) {

@@ -27,7 +27,7 @@ void ColorVisibility::update(CloudCamera& camera) {
         map.size = size;
     }
     if (needed) {
-        glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+        glBindTexture(GL_TEXTURE_2D, 0);  // a texture that is drawn into must not be read
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
                                map.nearest->name(), 0);

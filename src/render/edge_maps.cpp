@@ -27,7 +27,7 @@ void EdgeMaps::draw(EdgeMap& map, Size depth, bool has_before) {
     map.newest = 1 - map.newest;
     glViewport(0, 0, size.width, size.height);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    // Nobody may read what is being drawn.
+    // A texture that is drawn into must not be read.
     bind_texture(texture_unit::edge_distances, nullptr);
     bind_texture(texture_unit::edges_whole, nullptr);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map.whole->name(),

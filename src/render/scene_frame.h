@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything in a picture except the clouds: the room, organs, people, panels, texts. The viewer
-// owns the description; room, organs and people append to it, anew for each picture. No GL type
+// owns the description; room, organs and people fill it again for each picture. No GL type
 // appears here.
 #pragma once
 

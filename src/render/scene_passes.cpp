@@ -230,7 +230,7 @@ void ScenePasses::prepare(const SceneFrame& frame) {
     Parts& p = *parts_;
     p.make_shadow_map(frame.quality == SceneQuality::high ? 2048 : 1024);
     glActiveTexture(GL_TEXTURE0 + shadow_unit);
-    glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+    glBindTexture(GL_TEXTURE_2D, 0);  // a texture that is drawn into must not be read
     glBindFramebuffer(GL_FRAMEBUFFER, p.shadow_target.name());
     glViewport(0, 0, p.shadow_side, p.shadow_side);
     p.draw_depth(frame, LightView(frame).clip_from_room, false);
@@ -243,7 +243,7 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
     if (occludes) {
         p.make_scene_depth(target.size);
         glActiveTexture(GL_TEXTURE0 + scene_depth_unit);
-        glBindTexture(GL_TEXTURE_2D, 0);  // nobody may read what is being drawn
+        glBindTexture(GL_TEXTURE_2D, 0);  // a texture that is drawn into must not be read
         glBindFramebuffer(GL_FRAMEBUFFER, p.scene_depth_target.name());
         glViewport(0, 0, target.size.width, target.size.height);
         p.draw_depth(frame, projection(view) * matrix(inverse(view.room_from_eye)), true);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int atlas_unit = 2;
 
-// The next letter of UTF-8; what is damaged counts as a question mark.
+// The next code point of UTF-8; a damaged byte sequence becomes a question mark.
 char32_t take_letter(const std::string& text, std::size_t& at) {
     const auto byte = [&](std::size_t i) { return std::uint8_t(text[i]); };
     const std::uint8_t first = byte(at++);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Malicious readers, each in a child of this test program. They attempt what an attacker could who
+// Malicious readers, each in a child of this test program. They try the attacks of somebody who
 // controls a library through the bytes that it reads.
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -13,11 +13,11 @@ namespace theatron::send {
 // The two encodings that automatic colour changes between.
 inline constexpr std::string_view auto_h264 = "h264:crf=20", auto_jpeg = "jpeg:quality=85";
 
-// Says which one it is now, to the encoders of all cameras. From any thread.
+// The codec in use now, shared by the encoders of all cameras. From any thread.
 using AutoColor = std::atomic<bool>;  // true: H.264
 
-// Each picture says in EncodedColor::codec what it is. The first one after a change is a key
-// frame. Where H.264 cannot encode a picture it is JPEG from then on.
+// EncodedColor::codec is the codec of each picture. The first picture after a change is a key
+// frame. After a failure of the H.264 encoder all pictures are JPEG.
 std::unique_ptr<video::ColorEncoder> make_auto_encoder(std::shared_ptr<const AutoColor> is_h264);
 
 }  // namespace theatron::send

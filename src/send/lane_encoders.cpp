@@ -87,7 +87,7 @@ void LaneEncoders::set_settings(const std::vector<LaneSetting>& depth,
     color_ = updated(color_, color, color_stream(camera_), keys,
                      [](Color& encoder, const std::string& codec) {
                          if (codec == video::auto_color) {
-                             // Each picture says what it is.
+                             // Each picture's header names its codec.
                              encoder.parsed.text = codec;
                              return;
                          }

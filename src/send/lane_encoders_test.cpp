@@ -227,7 +227,7 @@ TEST_F(Encoders, NobodyIsToldThatASettingIsTooDearBeforeItIsMeasured) {
     for (int i = 0; i < 5; ++i)
         give_depth();
     set({{cheap, "trvl"}, {other, "ans:delta=1"}});
-    // The threads behind are busy with what others asked for.
+    // The threads behind are busy with requests of others.
     for (int i = 0; i < 2 * KeepingUp::window; ++i)
         give_depth();
     for (int i = 0; i < 10; ++i) {

@@ -32,7 +32,7 @@ public:
 
     struct Taken {
         std::vector<EncodedMedia> media;  // in the order of each stream
-        // Frames of a stream that were dropped since the last call because nobody took them.
+        // Frames of a stream that were dropped since the last call because take() came too late.
         std::map<StreamId, std::uint64_t> dropped;
         // Nothing of these is sent before a key frame.
         std::vector<std::pair<StreamId, SettingId>> broken;

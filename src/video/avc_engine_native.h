@@ -26,8 +26,8 @@ std::unique_ptr<AvcEngine> make_x264(const AvcParams& params);
 bool has_openh264();
 std::unique_ptr<AvcEngine> make_openh264(const AvcParams& params);
 
-// Copies the units that are a picture or its headers into `out`; left out is what encoders say
-// about themselves (x264: some 700 bytes).
+// Copies the NAL units of the picture and its headers into `out`, without the encoder's
+// description of itself (x264: some 700 bytes).
 void keep_picture_units(ByteView stream, Bytes& out);
 
 }  // namespace theatron::video

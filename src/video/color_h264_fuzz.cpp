@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes end in a status or in a picture of the size in their header, and
-// whatever came before, a good key frame decodes afterwards.
+// Any bytes end in a status or in a picture of the size in their header. After any
+// bytes a good key frame can be decoded.
 #include <cstdlib>
 
 #include "video/color_codec.h"

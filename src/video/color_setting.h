@@ -14,7 +14,7 @@ struct JpegParams {
     bool pass = true;               // a camera's own JPEG goes through untouched
 };
 
-// Takes the keys of "jpeg" out of `options`, which keeps what is wrong with them.
+// Takes the keys of "jpeg" out of `options`, which keeps the first problem with them.
 JpegParams take_jpeg_params(Options& options);
 
 // Takes the keys of "h264"; `problem` as for take_avc_params.

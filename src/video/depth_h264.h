@@ -26,7 +26,7 @@ std::string missing_depth_h264_decoder();
 // Unlike other depth codecs it has a state, which is the video library's: frames
 // are encoded and decoded in the order of the stream, each referring to the one
 // before. Any other reference is missing_reference to the decoder, and makes the
-// encoder begin anew. Where the encoder is missing nothing is encoded (0 bytes).
+// encoder write a key frame. If the encoder is missing nothing is encoded (0 bytes).
 std::unique_ptr<codec::DepthCodec> make_depth_h264(const DepthH264Params& params);
 
 }  // namespace theatron::video

@@ -20,7 +20,7 @@ constexpr int levels = 1024;
 constexpr std::size_t header_size = codec::payload_header_size + 2 + 2 + 4;
 
 // The values of the levels: equal steps of the logarithm, since the noise of
-// depth cameras and what can be seen of it grow with distance.
+// depth cameras and the visible error grow with distance.
 class Scale {
 public:
     // Does nothing if it is so already.
@@ -201,8 +201,8 @@ private:
             before_.resize(size);
     }
 
-    // Pixels without measurement keep what was there, which costs nothing, or at a
-    // key frame go on like their neighbours.
+    // Pixels without measurement keep their last level, which costs no bits, or in a
+    // key frame get the level of a neighbour.
     void put_levels(DepthView depth, bool delta) {
         const Size coded = encoder_->size();
         if (!delta)

@@ -116,7 +116,7 @@ Result<BaselineJpeg> put_together(const Frame& frame, const Tables& tables, Byte
             return Status::unsupported;
         jpeg.components[i] = {tables.steps[steps], tables.dc[dc], tables.ac[ac]};
     }
-    // All coefficients at once and to the last bit: what sequential coding has here.
+    // Sequential coding has all coefficients in one scan, with all their bits.
     if (scan.get<std::uint8_t>() != 0 || scan.get<std::uint8_t>() != 63 ||
         scan.get<std::uint8_t>() != 0 || !scan.ok() || !scan.rest().empty())
         return Status::malformed;

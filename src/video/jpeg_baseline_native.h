@@ -45,9 +45,9 @@ struct BaselineJpeg {
     }
 };
 
-// Safe for untrusted input. Unsupported: what read_jpeg_size accepts but our
-// decoder leaves to a library, which is grey and RGB pictures, other subsampling,
-// tables that are not in the picture (Motion JPEG), unusual headers.
+// Safe for untrusted input. Unsupported: pictures that read_jpeg_size accepts but our
+// decoder leaves to a library: grey and RGB pictures, other subsampling, tables that
+// are not in the picture (Motion JPEG), unusual headers.
 Result<BaselineJpeg> read_baseline_jpeg(ByteView jpeg);
 
 // Where the next marker in `coded` begins and what it is. Between coded bytes 0xff

@@ -148,8 +148,8 @@ inline HWY_NOINLINE bool read_one(Bits& in, const JpegHuffmanCode& code, bool is
 // Reads the blocks of the plan from `i` to `last` into zeros, DC as the difference.
 // False if they are damaged or go beyond `limit`.
 //
-// Blocks follow each other without a branch: when one ends, which nothing foretells,
-// the table and the place of what comes next are chosen by arithmetic alone.
+// There is no branch between blocks: the end of a block is unpredictable, so the table
+// and the place of the next coefficient are chosen by arithmetic alone.
 inline bool read_blocks(Bits& all_bits, const Plan& plan, const JpegLookup& lookup, std::size_t i,
                         std::size_t last, const std::uint8_t* limit) {
     Bits in = all_bits;

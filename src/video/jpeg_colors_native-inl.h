@@ -100,7 +100,7 @@ HWY_INLINE hn::Vec<Pixels> joined(ColorVector even, ColorVector odd) {
     return hn::BitCast(Pixels(), hn::Or(low, hn::And(high, hn::Set(u, 0xff00))));
 }
 
-// `luma` with half a step for rounding, plus what more than chroma it takes.
+// luma + chroma * (1 + minus_1 / 32768); `luma` already has half a step for rounding.
 HWY_INLINE ColorVector with(ColorVector luma, ColorVector chroma, std::int16_t minus_1) {
     const auto more = hn::MulFixedPoint15(chroma, hn::Set(Colors(), minus_1));
     return hn::SaturatedAdd(luma, hn::Add(chroma, more));

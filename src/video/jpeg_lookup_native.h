@@ -40,7 +40,7 @@ private:
     }
 
     using Key = std::array<std::byte, 2 * 16 + 2 * 256>;
-    std::array<std::optional<Key>, 3> keys_;  // of what is set
+    std::array<std::optional<Key>, 3> keys_;  // of the tables in entries_
     std::array<Entry, 6 << look> entries_{};
 };
 

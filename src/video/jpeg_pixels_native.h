@@ -11,16 +11,16 @@
 
 namespace theatron::video::jpeg_pixels {
 
-// The inverse DCT is the factorisation of Arai, Agui and Nakajima (1988): what
-// stands before its additions and rotations is multiplied into the steps of
-// quantisation. Between its passes a sample has six bits after the point in 16,
-// which leaves it four times the range of pixels.
+// The inverse DCT is the factorisation of Arai, Agui and Nakajima (1988): its
+// scale factors, which come before additions and rotations, are multiplied into the
+// steps of quantisation. Between its passes a sample has six bits after the point
+// in 16, which leaves it four times the range of pixels.
 inline constexpr int sample_bits = 6;
 
 // Takes samples from around 0 to around 128, and rounds.
 inline constexpr int sample_bias = (128 << sample_bits) + (1 << (sample_bits - 1));
 
-// By position in zigzag order: what a coefficient of 1 and a step of 1 becomes.
+// By position in zigzag order: the scaled value of a coefficient of 1 with a step of 1.
 inline constexpr auto scales = [] {
     constexpr double factor[8] = {1, 1.3870398453221475, 1.3065629648763766, 1.1758756024193588,
                                   1, 0.7856949583871022, 0.5411961001461971, 0.2758993792829431};

@@ -41,8 +41,8 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     return updated;
 }
 
-// Cameras that left, came or were calibrated anew; the others' pictures stay. A camera of another
-// session is another one, whatever its number.
+// Applies cameras that left, joined or have a new calibration; the others keep their pictures. A
+// camera of another session is another camera, even if it has the same number.
 void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cameras) {
     const auto announced = [&](CameraId id) {
         return std::find_if(cameras.begin(), cameras.end(),
@@ -62,7 +62,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         const CameraId id = camera.description.id;
         const auto known = calibrations_.find(id);
         const bool is_new = known == calibrations_.end();
-        // More cannot be drawn; what came first stays.
+        // No more can be drawn; the first ones stay.
         if (is_new && calibrations_.size() == std::size_t(render::max_cameras))
             continue;
         if (!is_new && known->second == camera.calibration)

@@ -243,8 +243,8 @@ double DesktopWindow::text_pixels() const {
     const int display = SDL_GetWindowDisplayIndex(parts_->window);
     if (SDL_GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0)
         dpi = 96;
-    // On a wall a large picture is looked at from far away, whatever its dots per inch. Screens
-    // lie about their size, so neither is believed beyond a factor of three.
+    // A large picture on a wall is viewed from far away; dots per inch do not show that. Screens
+    // report wrong sizes, so each of the two counts for a factor of three at most.
     const double scale =
         std::max({pixels_per_unit, std::min(dpi / 96.0, 3.0), pixels().height / 1200.0});
     return normal * std::clamp(scale, 1.0, 3.0);

@@ -33,7 +33,7 @@ Viewpoint turned(const Viewpoint& from, Vec2 drag) {
         return render::orbited(view, from.pivot, yaw, by_pitch).room_from_eye;
     };
     const Pose wanted = carried(pitch);
-    // A camera may itself hang upside down: then only what makes it worse is refused.
+    // A camera may itself be upside down: then only turns that tilt the view further are refused.
     const double before = uprightness(from.room_from_eye), after = uprightness(wanted);
     const bool too_far = after < least_up && after < before;
     return {too_far ? carried(0) : wanted, from.pivot};

@@ -50,7 +50,7 @@ struct Overlay::Parts {
                       color, words.c_str(), nullptr, wrap);
     }
 
-    // Each draws its part; all use what draw() has set up.
+    // Each draws its part; all use the state that draw() has set up.
     float facts(const std::vector<Fact>& facts) const;
     void message(const std::string& message, const std::string& detail, float bottom) const;
     float notice(const std::string& words, ImU32 color, float top) const;

@@ -49,7 +49,7 @@ void ScaledPicture::show(Size window) const {
 std::optional<double> ScaledPicture::distance_at(Vec2 place) const {
     if (!parts_->target)
         return std::nullopt;
-    // The middle of what is around: single points may be holes or noise.
+    // The median of the points around: single points may be holes or noise.
     constexpr int side = 7;
     const render::DrawTarget from = parts_->target->target();
     const int width = std::min(side, from.size.width), height = std::min(side, from.size.height);

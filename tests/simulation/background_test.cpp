@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recorded background on the generated operating room, where it is known what
-// stands before what.
+// The recorded background on the generated operating room, where the true foreground
+// is known.
 #include "filter/background.h"
 
 #include <gtest/gtest.h>

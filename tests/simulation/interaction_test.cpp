@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// States and voice beside more media than a link carries: how long they wait behind it, and what
-// that costs the media. Outbox, flight and acknowledgements as they are in the program, the link
-// made up.
+// States and voice beside more media than a link carries: how long they wait behind it, and how
+// much media they displace. Outbox, flight and acknowledgements are those of the program, the link
+// is simulated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double measured_s = 10;
 
 struct Waits {
     std::vector<double> state_ms, voice_ms;  // beyond the link's own delay
-    double media_share = 0;                  // of what the link carries
+    double media_share = 0;                  // of the bytes that the link carries
 };
 
 // Twice as much media as the link carries, after the link has been learned.
@@ -114,7 +114,7 @@ TEST(Interaction, WaitsLittleBehindMedia) {
         }
 }
 
-// A fast link whose receiver stands still once: media per second afterwards.
+// A fast link whose receiver stalls once: media bytes per second afterwards.
 double bytes_per_second_after_a_stall(Duration stall) {
     net::Outbox outbox;
     net::Acknowledger acknowledger;

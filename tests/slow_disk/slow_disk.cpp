@@ -9,13 +9,13 @@
 //   well      as without this library; also if the file is missing or empty
 //   stall     every call waits until the file says something else
 //   slow N    every call takes N milliseconds longer
-//   full      a file cannot grow (ENOSPC); what it has can be overwritten
+//   full      a file cannot grow (ENOSPC); its present bytes can be overwritten
 //   error     every call fails (EIO), also syncing
 //   gone      every call fails (ENODEV), also opening: the disk was unplugged
 //
 // Covers write, pwrite, writev, pwritev, fallocate, ftruncate, fdatasync, fsync,
-// sync_file_range and open for writing. Does not see what the C library's stdio
-// writes by itself. Reading is never disturbed.
+// sync_file_range and open for writing. Does not see writes that the C library's
+// stdio makes by itself. Reading is never disturbed.
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
@@ -235,8 +235,8 @@ EXPORTED int sync_file_range(int file, off64_t at, off64_t size, unsigned flags)
     return call(sync_file_range, "sync_file_range", file, -1, at, size, flags);
 }
 
-// The mode is there only with O_CREAT or O_TMPFILE; reading it otherwise gives a number that
-// nobody looks at.
+// The mode argument exists only with O_CREAT or O_TMPFILE; otherwise the number read here is
+// not used.
 #define OPENED(name, folder, ...)                                           \
     va_list rest;                                                           \
     va_start(rest, flags);                                                  \

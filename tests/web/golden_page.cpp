@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the golden scene in a browser and prints each renderer's picture: a line
-// "picture NAME WIDTH HEIGHT HEX", and "problem ..." for whatever went wrong.
+// "picture NAME WIDTH HEIGHT HEX", and "problem ..." for each failure.
 #include <GLES3/gl3.h>
 #include <emscripten/html5.h>
 

@@ -10,12 +10,12 @@
 //   delay_ms=30      from one side to the other
 //   rate_mbit=40     0: no limit
 //   rate=25%         of the last rate_mbit
-//   buffer_ms=500    what waits longer than this for the rate is dropped
+//   buffer_ms=500    packets that wait longer than this for the rate are dropped
 //   loss=1%          of packets
 //   reorder=2%       of packets overtake those that were sent up to 10 ms before
 //
-// A line on standard input is either "begin", from which times count anew, or
-// settings that hold from now on. Before the first one, times count from "ready".
+// A line on standard input is either "begin", which sets the time to 0, or settings
+// that apply from now on. Before the first "begin", times count from "ready".
 // Needs root and /dev/net/tun.
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -169,7 +169,7 @@ public:
         }
     }
 
-    // Serves at the present rate, then delivers what has travelled long enough.
+    // Serves at the present rate, then delivers the packets whose delay is over.
     void move(const Shape& shape, Time now) {
         while (!waiting_.empty()) {
             const double size = double(waiting_.front().size());

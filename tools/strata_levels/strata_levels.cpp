@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes standard levels of Strata (docs/formats/depth_strata.md) from sequences, and
-// measures what tables of levels are worth on a sequence's first frame.
+// measures the size of a sequence's first frame with each table of levels.
 //
 //   strata_levels make FOLDER...              prints a table like the page's
 //   strata_levels measure TABLE... -- FOLDER...  bytes of each first frame, for each table,
@@ -92,7 +92,7 @@ public:
         next_ = std::move(now);
         return sum;
     }
-    // The frame of the last call is what the next delta frame refers to.
+    // The next delta frame refers to the frame of the last call.
     void keep() { std::swap(last_, next_); }
 
 private:
