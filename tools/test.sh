@@ -45,6 +45,10 @@ else
     step "Some threaded modules under TSan" tools/test_tsan.sh base net record send
     step "Every fuzz target for a few seconds" tools/fuzz.sh 5
 fi
+if [ "$all" = --all ]; then
+    step "Cameras that come and go for ten minutes" tools/test_many.sh release 600
+    step "The same for a minute under TSan" tools/test_many.sh tsan 60
+fi
 # Last, so that its closing lines are those of the whole.
 step "Tests" ctest --preset release
 tools/skipped_tests.py build/release build/dev build/tsan

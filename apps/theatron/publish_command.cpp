@@ -54,6 +54,7 @@ nlohmann::json figures_json(const publish::CameraPublisher& publisher,
     return {{"host", status.host_name},
             {"phase", client::text_of(status.phase)},
             {"joins", status.joins},
+            {"dropped_slow", status.media_dropped},
             {"cameras", cameras}};
 }
 

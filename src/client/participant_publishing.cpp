@@ -63,6 +63,7 @@ void Participant::send_media(const wire::MediaHeader& header,
         return;
     if (shared_->media_waiting == max_media_waiting) {
         shared_->broken.insert({header.stream, header.setting});
+        ++shared_->status.media_dropped;
         return;
     }
     ++shared_->media_waiting;
@@ -91,6 +92,10 @@ void Participant::push_media(const wire::MediaHeader& header,
                                                      header.temporal_layer,
                                                      header.key,
                                                      {}});
+    if (pushed.dropped > 0) {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->status.media_dropped += std::uint64_t(pushed.dropped);
+    }
     if (pushed.needs_key)
         missing_keys_.request({header.stream, header.setting});
 }
