@@ -81,7 +81,7 @@ public:
         int joins = 0;             // successful joins; 1 if the connection was never lost
         wire::ChooseDelivery goal;
         std::uint64_t media_dropped = 0;  // frames of send_media() that were too late to be sent
-        std::string publish_problem;  // why the host took no cameras of publish(); empty: it did
+        std::string publish_problem;  // why the host refused the cameras of publish(); else empty
         wire::Delivery delivery;      // the part of the requested data that the host sends
     };
     Status status() const;

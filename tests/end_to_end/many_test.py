@@ -21,16 +21,16 @@ from raw_peer import Link, https_get
 from theatron_process import Process, host, make_recording
 
 SECONDS = float(os.environ.get("THEATRON_MANY_SECONDS", "20"))
-SLOWER = float(os.environ.get("THEATRON_MANY_SLOWER", "1"))  # so many times fewer frames, for sanitizers
+SLOWER = float(os.environ.get("THEATRON_MANY_SLOWER", "1"))  # divides frame rates, multiplies timeouts; for sanitizers
 PUBLISHERS, CAMERAS_EACH = 8, 2
 RATE = 10 / SLOWER
 CODECS = ("strata", "zstd", "rvl")
 LATE_MS = 100
-STALL_S = 0.05  # the machine let nobody run
+STALL_S = 0.05  # a longer wait than asked for means that the machine ran no thread
 
 
 class Stalls(threading.Thread):
-    """Times at which the machine kept a thread with nothing to do from running."""
+    """Times at which the machine was too busy to wake a sleeping thread."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -49,7 +49,7 @@ class Stalls(threading.Thread):
 
 
 class Lines(threading.Thread):
-    """Reads the JSON lines of a process as they come and hands each on with its time."""
+    """Reads the JSON lines of a process and calls take(time, figures) for each."""
 
     def __init__(self, process, take):
         super().__init__(daemon=True)
@@ -65,7 +65,7 @@ class Lines(threading.Thread):
 
 
 class Watched:
-    """What one viewer says of one camera as long as it is there."""
+    """One viewer's figures of one camera while the camera is in the session."""
 
     def __init__(self, now):
         self.begin = self.last = now
@@ -108,8 +108,8 @@ class Viewer:
 
 class Publisher:
     def __init__(self, link, number, cameras):
-        self.left_out = {}  # by camera: frames that an encoder had no time for
-        self.dropped = 0    # that the connection had no time for
+        self.left_out = {}  # by camera: frames without a free encoder
+        self.dropped = 0    # frames that the connection could not send in time
         self.process = Process("publish", link, "--every", "0.5", "--filter", "off", "--name", f"publisher {number}",
                                *(word for camera in cameras for word in ("--camera", camera)))
         self.lines = Lines(self.process, self.take)
@@ -125,7 +125,7 @@ class Publisher:
 
 
 class HostDrops(threading.Thread):
-    """Frames that the host gave up for slow receivers, by camera, as its status says twice a second."""
+    """Frames that the host dropped for slow receivers, by camera; read from its status twice a second."""
 
     def __init__(self, link):
         super().__init__(daemon=True)
@@ -147,7 +147,7 @@ class Many(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_many_"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         recording = make_recording(cls.folder / "pictures", 96, 72, 20)
-        # Each camera has a name of its own, as its folder has.
+        # A camera has the name of its folder, so each needs its own folder.
         cls.cameras = []
         for number in range(PUBLISHERS * CAMERAS_EACH):
             own = cls.folder / f"camera{number}"
@@ -160,7 +160,7 @@ class Many(unittest.TestCase):
         return Publisher(self.host.greeting["publish_link"], number, self.cameras[first:first + CAMERAS_EACH])
 
     def leave(self, number, choice):
-        """By the door or by the window."""
+        """Ends a publisher, with or without a proper end of its connection."""
         publisher = self.publishers.pop(number)
         self.events.append((time.monotonic(), f"{number} leaves"))
         self.note(publisher)
@@ -175,7 +175,7 @@ class Many(unittest.TestCase):
             self.publisher_dropped[camera] = publisher.dropped
 
     def come_and_go(self, choice):
-        """For SECONDS; how often somebody came or left."""
+        """Starts and ends publishers for SECONDS. Returns the number of changes."""
         changes, end = 0, time.monotonic() + SECONDS
         while time.monotonic() < end:
             number = choice.randrange(PUBLISHERS)
@@ -188,7 +188,7 @@ class Many(unittest.TestCase):
                     break
             changes += 1
             self.memory.append((self.host.memory_mb(), [v.process.memory_mb() for v in self.viewers]))
-            time.sleep(SLOWER * choice.uniform(0.3, 1.5))  # what happens at random happens at times
+            time.sleep(SLOWER * choice.uniform(0.3, 1.5))  # the time to the next change is random
         return changes
 
     def wait_for(self, condition, seconds):
@@ -214,7 +214,7 @@ class Many(unittest.TestCase):
                                       for v in self.viewers), 60)
             stalls, self.drops = Stalls(), HostDrops(self.host.greeting["link"])
             changes = self.come_and_go(choice)
-            # All are well at the end, and see the same.
+            # At the end all publishers are connected, and all viewers receive the same cameras.
             self.wait_for(lambda: all(p.is_in() for p in self.publishers.values()), 30)
             there = 1 + CAMERAS_EACH * len(self.publishers)
             self.wait_for(lambda: all(len(v.lines.newest["cameras"]) == there
@@ -228,7 +228,7 @@ class Many(unittest.TestCase):
             self.judge(changes, stalls)
 
     def around(self, begin, end):
-        """The events of this time, for people."""
+        """The events of this time, as text for people."""
         return ", ".join(f"{what} {when - begin:+.1f} s" for when, what in self.events if begin - 2 <= when <= end)
 
     def judge(self, changes, stalls):
