@@ -29,6 +29,7 @@
 #include "link_argument.h"
 #include "participant_json.h"
 #include "published_cameras.h"
+#include "room_lines.h"
 #include "session/renderer_choice.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -128,9 +129,14 @@ struct OffscreenPicture {
         viewer::check_renderer_choice(flags.renderer);
     }
 
-    // Takes over new cameras and frames, and the host's renderer command.
-    void take(client::Participant& participant) {
+    // Takes over new cameras and frames, and the host's renderer command. Others see this person
+    // where the picture is taken from.
+    void take(client::Participant& participant, RoomLines& room) {
         scene.take(participant);
+        if (scene.has_picture() && !stands) {
+            room.stand(scene.view(view, size).room_from_eye * Pose{Quat{0, 1, 0, 0}, {}});
+            stands = true;
+        }
         if (const auto word = participant.take_renderer_word())
             if (const std::string problem = viewer::follow_host(renderer, *word); !problem.empty())
                 std::fprintf(stderr, "%s\n", problem.c_str());
@@ -157,6 +163,7 @@ struct OffscreenPicture {
     viewer::ViewChoice view;
     session::RendererChoice renderer;
     viewer::OffscreenView scene;
+    bool stands = false;
 };
 
 // A picture is written at the end; an impossible file name is reported at the beginning.
@@ -206,7 +213,9 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
 
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
-bool obey(client::Participant& participant, const std::string& line) {
+bool obey(client::Participant& participant, RoomLines& room, const std::string& line) {
+    if (room.obey(line, participant))
+        return true;
     std::istringstream words(line);
     std::string what, value, camera;
     words >> what >> value >> camera;
@@ -220,16 +229,23 @@ bool obey(client::Participant& participant, const std::string& line) {
     else if (!what.empty())
         std::fprintf(stderr,
                      "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-                     "MBIT' or 'quit'.\n");
+                     "MBIT', 'quit', or in the room %s.\n",
+                     RoomLines::help());
     return true;
 }
 
 // Executes the lines that were typed so far. False if one of them ends the program.
-bool obey(client::Participant& participant, InputLines& input) {
+bool obey(client::Participant& participant, RoomLines& room, InputLines& input) {
     while (const auto line = input.next())
-        if (!obey(participant, *line))
+        if (!obey(participant, room, *line))
             return false;
     return !input.closed_by_person();
+}
+
+nlohmann::json json_of(const client::Participant& participant) {
+    nlohmann::json json = participant_json(participant);
+    json["room"] = room_json(participant);
+    return json;
 }
 
 void run(const Flags& flags) {
@@ -245,6 +261,7 @@ void run(const Flags& flags) {
     options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
+    options.keeps_room = true;
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
@@ -284,12 +301,13 @@ void run(const Flags& flags) {
     TimePoint first_frame{}, next_line{};
     bool warm = flags.warmup <= 0;
     InputLines input;
+    RoomLines room;
 
     while (!cli::stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
             first_frame = steady_now();
         if (picture)
-            picture->take(participant);
+            picture->take(participant, room);
         else
             (void)participant.take_frames();
 
@@ -298,8 +316,9 @@ void run(const Flags& flags) {
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)
             break;
-        if (!obey(participant, input))
+        if (!obey(participant, room, input))
             break;
+        room.on_tick(participant);
         const TimePoint now = steady_now();
         if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {
             participant.reset_figures();
@@ -311,7 +330,7 @@ void run(const Flags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(participant_json(participant)) << std::endl;
+            std::cout << files::json_text(json_of(participant)) << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -320,7 +339,7 @@ void run(const Flags& flags) {
     }
     if (live_line)
         std::cout << "\n";
-    const nlohmann::json figures = participant_json(participant);
+    const nlohmann::json figures = json_of(participant);
     if (picture)
         picture->write(flags);
     if (flags.json)

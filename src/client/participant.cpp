@@ -28,6 +28,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::publish);
     if (options.sends_only)
         features.push_back(wire::Feature::sends_only);
+    if (options.keeps_room)
+        features.push_back(wire::Feature::room);
     return features;
 }
 
@@ -135,6 +137,7 @@ void Participant::run() {
             ++shared_->connection;
             shared_->taken = 0;
             shared_->is_telling = false;
+            shared_->is_telling_room = false;
             shared_->poses.clear();
             shared_->own_pose.reset();
             shared_->camera_wishes.clear();  // numbers of cameras may be others
@@ -208,6 +211,15 @@ bool Participant::on_media(Bytes& message) {
 }
 
 void Participant::on_state(const wire::State& state) {
+    if (state.key.topic == wire::StateTopic::object) {
+        {
+            const std::lock_guard lock(shared_->mutex);
+            shared_->room.on_pose(session::ObjectId(state.key.id), state.body);
+        }
+        if (options_.room_changed)
+            options_.room_changed();
+        return;
+    }
     // A later host may send states that this participant does not know.
     const auto pose = state.key.topic == wire::StateTopic::pose
                           ? wire::decode_person_pose(state.body)
@@ -330,6 +342,9 @@ void Participant::on_control(ByteView message) {
             if (options_.publishing.encode_key)
                 options_.publishing.encode_key(session_.encode_key().stream,
                                                session_.encode_key().setting);
+            break;
+        case Change::room:
+            on_room_message();
             break;
         case Change::refused:
         case Change::goodbye:

@@ -16,6 +16,7 @@
 #include "geometry/calibration.h"
 #include "net/client.h"
 #include "session/key_requests.h"
+#include "session/member_room.h"
 #include "session/viewer_session.h"
 #include "wire/person_pose.h"
 
@@ -61,6 +62,10 @@ public:
         // participant's thread or a decoding thread.
         std::function<void()> news;
         Publishing publishing;  // needed for publish()
+        // Keeps the objects of the room: room() and what is below it.
+        bool keeps_room = false;
+        // An object of the room has changed, or a pose has come. From the participant's thread.
+        std::function<void()> room_changed;
     };
 
     // Begins to connect at once, on a thread of its own. Throws Error if name, token and
@@ -142,6 +147,23 @@ public:
     // The newest pose of each other participant that sent one.
     std::map<ParticipantId, wire::PersonPose> poses() const;
 
+    // The room, from any thread. A request and a move have their effect in room() at once; the host
+    // decides, and room() follows. People are objects of kind `person` (session/room_bytes.h).
+    struct Room {
+        ParticipantId self{};
+        std::uint64_t version = 0;  // grows with every change
+        session::RoomObjects objects;
+    };
+    Room room() const;
+    std::uint64_t room_version() const;
+    ParticipantId room_self() const;
+    // Returns the request's number, 0 while the room is not known.
+    std::uint32_t ask_room(const session::Request& request);
+    // The newest pose of an object that this participant holds; false if it does not.
+    bool move_object(session::ObjectId object, const Pose& room_from_object, double scale);
+    // The host's refusals of requests, oldest first.
+    std::optional<std::pair<std::uint32_t, session::Refusal>> take_room_refusal();
+
     // Requests another target latency and ceiling.
     void choose_delivery(const wire::ChooseDelivery& goal);
 
@@ -156,6 +178,8 @@ private:
     void tell_taken();
     void on_state(const wire::State& state);
     void tell_pose();
+    void on_room_message();
+    void tell_room();
     void offer_cameras();
     void on_published();
     void refuse_cameras(const std::string& problem);

@@ -41,6 +41,7 @@ void Participant::on_welcome() {
     shared_->status.host_name = session_.welcome().host_name;
     shared_->status.delivery = {};
     shared_->renderer_word = wire::SetRenderer{};
+    shared_->room.begin(session_.welcome().participant);
     const bool again = ++shared_->status.joins > 1;
     lock.unlock();
     for (const std::string& problem : session_.left_out())

@@ -39,7 +39,9 @@ struct Participant::Shared {
     std::optional<wire::SetRenderer> renderer_word;  // not yet taken
     std::string renderer;
     std::map<ParticipantId, wire::PersonPose> poses;
-    std::optional<wire::PersonPose> own_pose;              // not yet sent
+    std::optional<wire::PersonPose> own_pose;  // not yet sent
+    session::MemberRoom room;
+    bool is_telling_room = false;                          // tell_room() has been posted
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
     std::vector<wire::OfferedCamera> offers;
     std::size_t media_waiting = 0;                    // for the participant's thread

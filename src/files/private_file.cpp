@@ -85,7 +85,8 @@ void open_private_folder(const fs::path& folder) {
                     ".");
 }
 
-std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy) {
+std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy,
+                                             std::size_t max_bytes) {
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
     if (!file.is_open() && errno == ENOENT)
         return std::nullopt;
@@ -103,7 +104,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
                         "; take that away with: chmod 600 " + quoted(path) +
                         ", or delete it if somebody may have read it.");
     }
-    std::string text(max_private_file_bytes + 1, '\0');
+    std::string text(max_bytes + 1, '\0');
     std::size_t size = 0;
     while (size < text.size()) {
         const ssize_t count = read(file.get(), text.data() + size, text.size() - size);
@@ -115,7 +116,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
             break;
         size += std::size_t(count);
     }
-    if (size > max_private_file_bytes)
+    if (size > max_bytes)
         throw Error(quoted(path) + " is too long for a key or a token.");
     text.resize(size);
     return text;

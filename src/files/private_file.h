@@ -20,8 +20,10 @@ void open_private_folder(const std::filesystem::path& folder);
 // In both cases only the owner may write. `secret`: only the owner may read.
 enum class Privacy { secret, readable };
 
-// The text of a file that belongs to this user or root; nullopt if there is no file.
-std::optional<std::string> read_private_file(const std::filesystem::path& path, Privacy privacy);
+// The text of a file that belongs to this user or root; nullopt if there is no file. A file of more
+// than `max_bytes` is refused.
+std::optional<std::string> read_private_file(const std::filesystem::path& path, Privacy privacy,
+                                             std::size_t max_bytes = max_private_file_bytes);
 
 // Atomic and durable: after a crash at any time, `path` has its previous content or all of
 // `text`. A draft left by a crash is replaced.

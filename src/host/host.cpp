@@ -87,6 +87,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     }
 
     const auto state = options.state.empty() ? default_state_folder() : options.state;
+    room_file = std::make_unique<RoomFile>(state / "room");
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
     if (!options.token.empty())
@@ -104,6 +105,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     http_tokens = {token, load_or_make_token(state, "metrics.token")};
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
+    config.room = room_file->load();
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.admission.equal_secrets = net::equal_secrets;

@@ -78,6 +78,7 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
         color_watch.on_tick(lanes, steady_now());
         note_participants();
+        room_file->on_tick(session->room(), steady_now());
     };
     h.http = [this](const net::HttpRequest& request) {
         return answer_http(request, http_tokens, [this] { return figures(); });
@@ -305,9 +306,21 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
     const auto found = session->participants().find(sender);
     if (found == session->participants().end() || !found->second.takes_part())
         return;
+    if (state.key.topic == wire::StateTopic::object)
+        return forward_object_pose(peer, state);
     if (poses.put(sender, state, steady_now()) == session::PoseBoard::Answer::flood)
         server->close(peer, "there were far more poses than a host sends on");
     wait_for_poses();
+}
+
+// A grab does not wait for the tick of people's poses.
+void Host::Impl::forward_object_pose(net::PeerId peer, const wire::State& state) {
+    const auto forward =
+        session->on_object_pose(ParticipantId(std::uint32_t(peer)), state, steady_now());
+    if (forward.is_flood)
+        server->close(peer, "there were far more poses of objects than a host sends on");
+    for (const ParticipantId receiver : forward.receivers)
+        server->send_states(peer_of(receiver), {&state, 1});
 }
 
 void Host::Impl::wait_for_poses() {

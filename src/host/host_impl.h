@@ -12,6 +12,7 @@
 #include "capture/camera_places.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
+#include "host/room_file.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "send/color_watch.h"
@@ -45,6 +46,7 @@ struct Host::Impl {
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;              // lanes; server's thread
     session::PoseBoard poses;                // server's thread
+    std::unique_ptr<RoomFile> room_file;     // server's thread
     std::optional<TimePoint> poses_are_due;  // as the server's alarm is set; server's thread
     // Frames given up per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
@@ -70,8 +72,10 @@ struct Host::Impl {
         // The server's thread uses the lanes: it ends first.
         if (server)
             server->stop();
-        if (thread.joinable())
+        if (thread.joinable()) {
             thread.join();
+            room_file->save(session->room());
+        }
         lanes.clear();
     }
 
@@ -103,6 +107,7 @@ struct Host::Impl {
     void send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers);
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);
+    void forward_object_pose(net::PeerId peer, const wire::State& state);
     void wait_for_poses();
     void send_poses();
     void send_poses_to(ParticipantId receiver,

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "room/facing.h"
+#include "room/mesh_parts.h"
+
 namespace theatron::room {
 namespace {
 
@@ -61,19 +64,8 @@ MeshData wall_meshes(const RoomExtent& e) {
 MeshData mark_mesh() {
     MeshData mesh = render::make_box_mesh({-0.05, -0.02, -0.09}, {0.05, 0.02, -0.005});
     const MeshData lens = render::make_box_mesh({-0.018, -0.018, -0.005}, {0.018, 0.018, 0.005});
-    const auto first = std::uint32_t(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), lens.vertices.begin(), lens.vertices.end());
-    for (const std::uint32_t i : lens.indices)
-        mesh.indices.push_back(first + i);
+    append(mesh, lens, {1, 1, 1}, {});
     return mesh;
-}
-
-// Upright, and turned to the eye about the vertical.
-Pose facing(Vec3 place, Vec3 eye) {
-    const Vec3 away{place.x - eye.x, 0, place.z - eye.z};
-    if (length(away) < 1e-6)
-        return {Quat{0, 1, 0, 0}, place};
-    return look_at(place, place + away, {0, 1, 0});
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ void Admission::admit(Participant& participant, const wire::Join& hello, Role ro
     participant.role = role;
     participant.person = hello.person;
     participant.features.clear();
-    for (const wire::Feature known : {wire::Feature::publish, wire::Feature::sends_only}) {
+    for (const wire::Feature known :
+         {wire::Feature::publish, wire::Feature::sends_only, wire::Feature::room}) {
         const bool is_asked =
             std::find(hello.features.begin(), hello.features.end(), known) != hello.features.end();
         if (is_asked && (known != wire::Feature::publish || role == Role::publisher))

@@ -37,13 +37,17 @@ Kind kind_of(const wire::Unpublish&) {
 Kind kind_of(const wire::CameraState&) {
     return Kind::state;
 }
+Kind kind_of(const wire::RoomRequest&) {
+    return Kind::room;
+}
 
 }  // namespace
 
 HostSession::HostSession(Config config)
     : config_(std::move(config)),
       admission_(config_.admission),
-      streams_(config_.streams, actions_) {
+      streams_(config_.streams, actions_),
+      room_(config_.room, actions_) {
     std::vector<wire::Camera> cameras = config_.cameras;
     for (wire::Camera& camera : cameras)
         camera.session = config_.session;
@@ -78,6 +82,8 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
                 send(id, wire::Published{{}, "Cameras were offered too often; wait a little."});
             else if (message && std::holds_alternative<wire::Unpublish>(*message))
                 carry_out(id, std::get<wire::Unpublish>(*message), now);
+            else if (message && std::holds_alternative<wire::RoomRequest>(*message))
+                room_.refuse(id, std::get<wire::RoomRequest>(*message));
             else if (message)
                 Admission::keep_for_later(*participant, std::move(*message));
             break;
@@ -108,6 +114,8 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
     tell_renderer(id);
+    room_.join(id, {participant.role, participant.records, participant.name},
+               participant.has(wire::Feature::room));
 }
 
 void HostSession::describe_session(ParticipantId id) {
@@ -160,6 +168,10 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, 
     streams_.set_goal(id, goal);
 }
 
+void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
+    room_.on_request(id, request);
+}
+
 void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
     RequestBudget& budget = participant.budget;
     if (!participant.late_codecs.empty() && budget.grant_later(Kind::codecs, now))
@@ -186,6 +198,7 @@ void HostSession::on_closed(ParticipantId id) {
     renderers_.forget(id);
     streams_.remove(streams_.of(id));
     streams_.leave(id);
+    room_.leave(id);
     set_budgets();
 }
 
@@ -207,6 +220,7 @@ void HostSession::resynchronise(ParticipantId id) {
     describe_session(id);
     tell_renderer(id);
     streams_.tell_again(id);
+    room_.send_snapshot(id);
 }
 
 void HostSession::end() {
@@ -265,6 +279,7 @@ void HostSession::refuse(ParticipantId id, std::string reason) {
     send(id, wire::Refused{reason});
     admission_.find(id)->closing = true;
     streams_.leave(id);
+    room_.leave(id);
     actions_.push_back(action::Close{id, std::move(reason)});
 }
 

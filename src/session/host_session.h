@@ -13,6 +13,7 @@
 #include "base/time.h"
 #include "session/admission.h"
 #include "session/host_actions.h"
+#include "session/host_room.h"
 #include "session/renderer_wishes.h"
 #include "session/streams.h"
 #include "wire/control.h"
@@ -37,6 +38,7 @@ public:
                                             // streams are given, from 0 on
         CheckCodec check_depth, check_color;
         Streams::Config streams;
+        RoomSnapshot room;  // as it was left
     };
 
     // Cameras of one publisher at once.
@@ -65,6 +67,13 @@ public:
     // or a setting that is gone, is ignored.
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
+
+    // A pose of an object in the room has come.
+    HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
+                                     TimePoint now) {
+        return room_.on_pose(participant, state, now);
+    }
+    const HostRoom& room() const { return room_; }
 
     // The condition of the host's own cameras, and measurements of encoding them.
     void on_camera(const wire::CameraState& state) { streams_.on_state(state); }
@@ -117,6 +126,7 @@ private:
     void carry_out(ParticipantId id, const wire::Publish& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Unpublish& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::CameraState& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::RoomRequest& message, TimePoint now);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     std::string problem_of(ParticipantId id, const wire::Publish& offer,
                            const std::vector<wire::Camera>& cameras) const;
@@ -131,6 +141,7 @@ private:
     std::vector<Action> actions_;
     Admission admission_;
     Streams streams_;
+    HostRoom room_;
     RendererWishes renderers_;
 };
 

@@ -40,9 +40,10 @@ public:
         report,
         publish,  // cameras that come or leave
         state,    // how a camera is
+        room,     // a change of the room
         other,    // what the host does not know or does not expect
     };
-    static constexpr std::size_t kinds = 8;
+    static constexpr std::size_t kinds = 9;
 
     struct Limit {
         double per_second = 0;
@@ -51,7 +52,7 @@ public:
     // Of key requests these are for each stream; a viewer repeats one after 700 ms, a recorder asks
     // for one every 1.5 s.
     static constexpr std::array<Limit, kinds> limits{
-        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {2, 20}, {20, 80}, {5, 20}}};
+        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {2, 20}, {20, 80}, {40, 200}, {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 

@@ -101,6 +101,12 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         goodbye_ = goodbye->reason.empty() ? "The session has ended." : goodbye->reason;
         return Change::goodbye;
     }
+    if (std::holds_alternative<wire::RoomSnapshot>(*message) ||
+        std::holds_alternative<wire::RoomChange>(*message) ||
+        std::holds_alternative<wire::RoomDecision>(*message)) {
+        room_ = std::move(*message);
+        return joined_ ? Change::room : Change::nothing;
+    }
     return Change::nothing;
 }
 

@@ -46,6 +46,7 @@ public:
         published,   // published(): the answer to what was offered
         encode,      // encode(): how to encode the cameras that this participant publishes
         encode_key,  // encode_key(): a key frame of one of them is wanted
+        room,        // room(): a message for a SharedRoom
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: what is damaged or not understood is nothing.
@@ -84,6 +85,8 @@ public:
     const wire::Published& published() const { return published_; }
     const wire::Encode& encode() const { return encode_; }
     const wire::EncodeKey& encode_key() const { return encode_key_; }
+    // RoomSnapshot, RoomChange or RoomDecision.
+    const wire::ToParticipant& room() const { return room_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -106,6 +109,7 @@ private:
     wire::Published published_;
     wire::Encode encode_;
     wire::EncodeKey encode_key_;
+    wire::ToParticipant room_;
 };
 
 }  // namespace theatron::session

@@ -119,8 +119,10 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
 const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
-    if (choice_.shown)
+    if (choice_.shown) {
         room_.add_to(frame_, view);
+        meeting_.add_to(frame_, view);
+    }
     if (frame_.empty())
         return nullptr;
     if (!passes_) {

@@ -10,6 +10,7 @@
 #include "render/room_picture.h"
 #include "room/virtual_room.h"
 #include "viewer/head_text.h"
+#include "viewer/meeting.h"
 
 namespace theatron::viewer {
 
@@ -32,6 +33,12 @@ public:
     // joins or leaves changes no other camera's picture; beyond render::max_cameras none is added.
     // Throws Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
+
+    // Takes over people and shared objects that have changed. True if something looks different.
+    bool take_meeting(const client::Participant& participant) {
+        return choice_.shown && meeting_.take(participant);
+    }
+    Meeting& meeting() { return meeting_; }
 
     // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
     void set_depth_step(int step);
@@ -64,6 +71,7 @@ private:
     std::vector<SeenPerson> people_;
     render::CloudSet clouds_;
     room::VirtualRoom room_;
+    Meeting meeting_;
     render::SceneFrame frame_;                     // of the picture that is drawn
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;

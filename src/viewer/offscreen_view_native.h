@@ -18,7 +18,14 @@ public:
         : scene_(room, std::move(people)) {}
 
     // Takes over new cameras and frames. Throws as LiveScene does.
-    void take(client::Participant& participant) { (void)scene_.take(participant); }
+    void take(client::Participant& participant) {
+        (void)scene_.take(participant);
+        (void)scene_.take_meeting(participant);
+    }
+    // Needs has_picture(); throws Error if the view cannot be had.
+    render::CameraView view(const ViewChoice& view, Size size) const {
+        return view.resolve(scene_.calibrations(), scene_.newest(), size);
+    }
 
     bool has_picture() const { return scene_.has_picture(); }
     std::size_t cameras() const { return scene_.calibrations().size(); }

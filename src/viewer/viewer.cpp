@@ -11,6 +11,8 @@
 namespace theatron::viewer {
 namespace {
 
+constexpr Duration pose_interval = std::chrono::milliseconds(15);
+constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
 constexpr Duration notice_shown = std::chrono::seconds(5);
 // A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
@@ -37,8 +39,13 @@ void Viewer::note(const std::string& text, TimePoint now) {
     notice_until_ = now + notice_shown;
 }
 
-void Viewer::on_input(const xr::WindowInput& input, std::optional<double> grabbed_m, Size picture,
+void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
                       TimePoint now) {
+    if (eye_.is_placed())
+        handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
+                           eye_.view(picture), scene_.meeting(), participant_);
+    if (const std::string text = handling_.take_note(); !text.empty())
+        note(text, now);
     scene_changed_ = scene_changed_ || input.redraw;
     for (const xr::KeyPress& key : input.keys)
         on_key(key, picture, now);
@@ -88,6 +95,10 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             }
             break;
         }
+        case xr::Action::new_brick:
+        case xr::Action::give:
+        case xr::Action::remove:
+            break;  // of objects: handling.h
         case xr::Action::leave:
         case xr::Action::full_screen:
             break;  // of the window, not of the scene
@@ -148,10 +159,25 @@ bool Viewer::step(Size picture, TimePoint now) {
     // A host that came back may have fewer cameras than before.
     if (eye_.follow(cameras(), status.joins == 1, picture, now))
         scene_changed_ = true;
+    if (scene_.take_meeting(participant_))
+        scene_changed_ = true;
+    send_pose(picture, now);
     if (first_picture_at_ == TimePoint{} && scene_.has_picture())
         first_picture_at_ = now;
     participant_.tell_renderer(way().renderer);
     return scene_changed_ && eye_.is_placed();
+}
+
+// Others see this person where the eye is. A pose that stays is repeated, so that it is not old.
+void Viewer::send_pose(Size picture, TimePoint now) {
+    if (!eye_.is_placed())
+        return;
+    const Pose eye = eye_.view(picture).room_from_eye;
+    if (now - pose_sent_ < (eye == sent_pose_ ? pose_repeated_after : pose_interval))
+        return;
+    pose_sent_ = now;
+    sent_pose_ = eye;
+    participant_.send_pose(pose_of_eye(eye, participant_.session_time(now)));
 }
 
 std::string Viewer::camera_text(CameraId camera) const {

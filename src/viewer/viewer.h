@@ -14,6 +14,7 @@
 #include "session/renderer_choice.h"
 #include "viewer/eye.h"
 #include "viewer/facts.h"
+#include "viewer/handling.h"
 #include "viewer/live_scene.h"
 #include "viewer/renderer_text.h"
 #include "xr/drawing_pace.h"
@@ -36,9 +37,9 @@ public:
     // `participant` must outlive the viewer.
     Viewer(Options options, client::Participant& participant);
 
-    // Keys that concern the scene, and steering. `grabbed_m` is the distance of the surface at
-    // input.grabbed, along the view's axis, if there is one.
-    void on_input(const xr::WindowInput& input, std::optional<double> grabbed_m, Size picture,
+    // Keys that concern the scene, objects of the room, and steering. `grabbed_m` is the distance
+    // of the surface at input.grabbed, along the view's axis, if there is one.
+    void on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
                   TimePoint now);
 
     // Takes over the session's changes. `picture` is the size of the target in pixels. True if the
@@ -74,6 +75,7 @@ private:
     void choose_depth_codec();
     void follow_host(TimePoint now);
     void choose_pace();
+    void send_pose(Size picture, TimePoint now);
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
@@ -81,6 +83,9 @@ private:
     client::Participant& participant_;
     LiveScene scene_;
     Eye eye_;
+    Handling handling_;
+    TimePoint pose_sent_;
+    Pose sent_pose_;
 
     session::RendererChoice choice_;
     std::string working_renderer_;

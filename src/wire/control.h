@@ -33,6 +33,10 @@ inline constexpr std::size_t max_sentence = 500;           // a reason, a proble
 inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
 inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
 inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
+// Bytes of a room in one message: of a request, a changed object, a part of a snapshot.
+inline constexpr std::size_t max_room_request_size = 4352;
+inline constexpr std::size_t max_room_object_size = 4352;
+inline constexpr std::size_t max_room_part_size = 48 * 1024;
 inline constexpr std::size_t max_streams = 2 * max_cameras;
 // Of all cameras of one publisher together.
 inline constexpr std::size_t max_encodings = 64;
@@ -42,6 +46,7 @@ inline constexpr std::size_t max_encodings = 64;
 enum class Feature : std::uint16_t {
     publish = 1,     // sends cameras
     sends_only = 2,  // is sent no cameras of others
+    room = 3,        // keeps the objects of the room (session/room_replica.h)
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
@@ -179,6 +184,18 @@ struct ChooseDelivery {
     static void fields(auto& m, auto&& field) {
         field(m.target_latency_ms);
         field(m.max_kbit_per_s);
+    }
+};
+
+// A request to change the room. The host answers with RoomDecision, before that with the changes.
+// Number 0 without a request asks for a snapshot.
+struct RoomRequest {
+    std::uint32_t number = 0;  // counts this participant's requests from 1
+    Bytes request;             // session/room_bytes.h
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.request, max_room_request_size);
     }
 };
 
@@ -359,6 +376,46 @@ struct SetRenderer {
     }
 };
 
+// All objects of the room, in `parts` messages. RoomChange counts on from `revision`.
+struct RoomSnapshot {
+    std::uint64_t revision = 0;
+    std::uint16_t part = 0, parts = 1;
+    Bytes objects;              // session/room_bytes.h
+    std::uint32_t decided = 0;  // the receiver's newest request that the host has decided on
+
+    static void fields(auto& m, auto&& field) {
+        field(m.revision);
+        field(m.part);
+        field(m.parts);
+        field(m.objects, max_room_part_size);
+        field(m.decided);
+    }
+};
+
+// An object of the room is new or has changed; without bytes it is gone.
+struct RoomChange {
+    std::uint64_t revision = 0;
+    std::uint32_t object = 0;
+    Bytes now;  // one object as in RoomSnapshot
+
+    static void fields(auto& m, auto&& field) {
+        field(m.revision);
+        field(m.object);
+        field(m.now, max_room_object_size);
+    }
+};
+
+// The host has decided on this participant's request of this number.
+struct RoomDecision {
+    std::uint32_t number = 0;
+    std::uint8_t refusal = 0;  // session::Refusal
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.refusal);
+    }
+};
+
 // The session is over; `reason` is one sentence for the user. The host closes the connection,
 // and coming back is of no use.
 struct Goodbye {
@@ -369,10 +426,10 @@ struct Goodbye {
 
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
-                            Unpublish, CameraState>;
-using ToParticipant =
-    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
-                 CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey>;
+                            Unpublish, CameraState, RoomRequest>;
+using ToParticipant = std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer,
+                                   Refused, Goodbye, CamerasAdded, CamerasRemoved, Published,
+                                   Encode, EncodeKey, RoomSnapshot, RoomChange, RoomDecision>;
 
 Bytes encode(const ToHost& message);
 Bytes encode(const ToParticipant& message);

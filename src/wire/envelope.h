@@ -36,7 +36,8 @@ inline constexpr std::size_t max_untold = 8 * 1024;
 
 // What a state is about. Receivers pass over topics that they do not know.
 enum class StateTopic : std::uint8_t {
-    pose = 1,  // wire/person_pose.h; the id is the participant's
+    pose = 1,    // wire/person_pose.h; the id is the participant's
+    object = 2,  // of an object that somebody holds (session/room_bytes.h); the id is the object's
 };
 
 // The name of a state: a newer state with the same key replaces an older one.

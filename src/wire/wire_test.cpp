@@ -348,7 +348,7 @@ TEST(Control, EveryMessageRoundTrips) {
 
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
-    const Bytes known = encode(EncodeKey{StreamId{1}, SettingId{1}});
+    const Bytes known = encode(RoomDecision{1, 1});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {

@@ -76,6 +76,12 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::next_depth_codec};
         case SDLK_v:
             return KeyPress{Action::next_color_codec};
+        case SDLK_n:
+            return KeyPress{Action::new_brick};
+        case SDLK_g:
+            return KeyPress{Action::give};
+        case SDLK_DELETE:
+            return KeyPress{Action::remove};
         case SDLK_r:
         case SDLK_HOME:
             return KeyPress{Action::own_view};
@@ -213,8 +219,12 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
             SDL_GetWindowSize(window, &width, &height);
             input.grabbed = Vec2{(event.button.x + 0.5) / std::max(width, 1),
                                  (event.button.y + 0.5) / std::max(height, 1)};
+            input.grabbed_left = event.button.button == SDL_BUTTON_LEFT;
             break;
         }
+        case SDL_MOUSEBUTTONUP:
+            input.released = input.released || event.button.button == SDL_BUTTON_LEFT;
+            break;
         case SDL_MOUSEWHEEL: {
             const double clicks = event.wheel.preciseY;
             const bool flipped = event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED;

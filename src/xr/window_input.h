@@ -19,6 +19,9 @@ enum class Action {
     next_renderer,
     next_depth_codec,
     next_color_codec,
+    new_brick,    // an object to handle together
+    give,         // what the mouse holds, to the nearest person
+    remove,       // what the mouse holds
     own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };
@@ -35,6 +38,8 @@ struct WindowInput {
     // The place where a turn or a slide began, if one did: shares of the window's width and
     // height from its top left corner.
     std::optional<Vec2> grabbed;
+    bool grabbed_left = false;  // it began with the left button
+    bool released = false;      // the left button
     Steering steering;
 };
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The room's objects in a file of the host's state folder (docs/formats/room.md), so that they are
+// still there after a restart. A thread of its own writes: a slow disk delays nobody.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "base/time.h"
+#include "session/host_room.h"
+
+namespace theatron::host {
+
+Bytes encode_room(const session::RoomSnapshot& room);
+// Safe for untrusted input. Status::malformed, also where the checksum is another one.
+Result<session::RoomSnapshot> decode_room(ByteView bytes);
+
+class RoomFile {
+public:
+    // At least between two times that the file is written.
+    static constexpr Duration interval = std::chrono::seconds(1);
+
+    // Begins the thread.
+    explicit RoomFile(std::filesystem::path path);
+    // Writes what is not yet written.
+    ~RoomFile();
+
+    // The room as it was left; an empty one without a file. A damaged file is logged and kept as
+    // `room.damaged`. Throws Error where the file cannot be read.
+    session::RoomSnapshot load();
+
+    // From one thread, several times a second: writes the room if it has changed.
+    void on_tick(const session::HostRoom& room, TimePoint now);
+    // The same at once.
+    void save(const session::HostRoom& room);
+
+private:
+    void run();
+
+    const std::filesystem::path path_;
+    std::uint64_t saved_revision_ = 0;
+    TimePoint saved_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<Bytes> waiting_;  // guarded by mutex_, as is stopping_
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// People in the room without a camera: a flying head with a face and a name, and hands. The face
+// shows where a person looks, a hand's finger where it points.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "render/camera_view.h"
+#include "render/scene_frame.h"
+
+namespace theatron::room {
+
+// Poses as in wire/person_pose.h: y up, -z forward, metres.
+struct RoomPerson {
+    ParticipantId id{};
+    std::string name;
+    std::optional<Pose> head, left_hand, right_hand;
+    bool is_stale = false;  // its poses are old: it is drawn half transparent
+};
+
+// The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring
+// numbers have different colours, also for colour-blind eyes (Okabe and Ito, 2008). Linear.
+Vec3 color_of(ParticipantId id);
+
+// Needs the GL context current in which it was made.
+class People {
+public:
+    People();
+
+    // Appends everybody but those whose head the eye is inside of. Names face the eye.
+    void add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& people,
+                const render::CameraView& view) const;
+
+private:
+    render::SceneMesh skin_, eyes_, pupils_, hand_;
+};
+
+}  // namespace theatron::room

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bytes of a room's objects, of requests and of poses (docs/formats/room.md): on the wire, in
+// the host's state folder and in recordings.
+#pragma once
+
+#include <string>
+
+#include "base/status.h"
+#include "session/admission.h"
+#include "session/room_object.h"
+
+namespace theatron::session {
+
+// An object needs so many bytes beside its properties.
+inline constexpr std::size_t object_bytes = 91;
+
+// Appends an object, or all of a room.
+void append_object(ObjectId id, const RoomObject& object, Bytes& out);
+Bytes encode_objects(const RoomObjects& objects);
+Bytes encode_request(const Request& request);
+Bytes encode_object_pose(const ObjectPose& pose);
+
+// All are safe for untrusted input: Status::malformed for bytes that are too few or too many,
+// numbers that are not finite, and kinds that are not known. At most `max_objects` objects.
+Result<RoomObjects> decode_objects(ByteView bytes, std::size_t max_objects);
+Result<Request> decode_request(ByteView bytes);
+Result<ObjectPose> decode_object_pose(ObjectId object, ByteView bytes);
+
+// The properties of a person object.
+struct PersonFacts {
+    Role role = Role::viewer;
+    bool records = false;
+    std::string name;
+    bool operator==(const PersonFacts&) const = default;
+};
+Bytes encode_person(const PersonFacts& facts);
+// The name is clean text (base/outside_text.h).
+Result<PersonFacts> decode_person(ByteView properties);
+
+}  // namespace theatron::session

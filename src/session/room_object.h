@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The objects of a shared room, the requests of participants to change them, and the changes that
+// the host decides on.
+//
+// All state of a room is objects: people, bricks, organs, screens, marks. Poses are in the room's
+// frame, in metres.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "base/time.h"
+#include "geometry/vec.h"
+
+namespace theatron::session {
+
+// Given by the host, from 1, never reused in a session.
+enum class ObjectId : std::uint32_t {};
+
+enum class ObjectKind : std::uint8_t { person = 1, brick, organ, screen, mark };
+constexpr bool is_known(ObjectKind kind) {
+    return kind >= ObjectKind::person && kind <= ObjectKind::mark;
+}
+
+// One time that a participant held an object: who, and the number of the request that began it.
+// Poses and the end of a grip name it, so that they never count for another one.
+struct Grip {
+    ParticipantId holder{};  // 0: nobody holds the object
+    std::uint32_t number = 0;
+
+    bool operator==(const Grip&) const = default;
+};
+
+struct RoomObject {
+    ObjectKind kind{};
+    ParticipantId creator{};
+    Grip grip;
+    TimePoint moved_at;  // session time of the newest pose of this grip
+    Pose room_from_object;
+    double scale = 1;
+    // Meaning by kind; the host does not look inside.
+    Bytes properties;
+
+    bool operator==(const RoomObject&) const = default;
+};
+
+using RoomObjects = std::map<ObjectId, RoomObject>;
+
+// Numbers of requests are below this bit. With it, the number of a grip is that of the request
+// which gave the object to its holder.
+inline constexpr std::uint32_t given_grip = std::uint32_t(1) << 31;
+
+// What a participant asks for. `number` counts its requests from 1, in the order of sending.
+namespace request {
+struct Create {
+    ObjectKind kind{};
+    Pose room_from_object;
+    double scale = 1;
+    Bytes properties;
+};
+struct Remove {
+    ObjectId object{};
+};
+struct Grab {
+    ObjectId object{};
+};
+// Ends the grip that request `grip` began and leaves the object there.
+struct Release {
+    ObjectId object{};
+    std::uint32_t grip = 0;
+    Pose room_from_object;
+    double scale = 1;
+};
+// Gives the object to another participant without letting it go.
+struct HandOver {
+    ObjectId object{};
+    std::uint32_t grip = 0;
+    ParticipantId to{};
+};
+struct SetProperties {
+    ObjectId object{};
+    Bytes properties;
+};
+}  // namespace request
+using Request = std::variant<request::Create, request::Remove, request::Grab, request::Release,
+                             request::HandOver, request::SetProperties>;
+
+// The pose of an object that is held. Only the newest one of a grip counts, so it may be lost.
+struct ObjectPose {
+    ObjectId object{};
+    Grip grip;
+    TimePoint at;  // session time that the pose is for
+    Pose room_from_object;
+    double scale = 1;
+};
+
+// What the host decided, in this order for every participant.
+struct RoomChange {
+    std::uint64_t revision = 0;  // one more than that of the change before
+    ObjectId object{};
+    std::optional<RoomObject> now;  // none: the object is gone
+};
+struct RoomSnapshot {
+    std::uint64_t revision = 0;
+    RoomObjects objects;
+    // The receiver's newest request that the host has decided on; earlier answers may be lost.
+    std::uint32_t decided = 0;
+};
+
+enum class Refusal : std::uint8_t {
+    none,
+    no_such_object,
+    held_by_another,
+    not_held_by_you,
+    role,  // the participant's role does not allow it
+    no_such_participant,
+    too_many,   // objects, or bytes of properties
+    malformed,  // a pose that is not finite, a scale out of range, an unknown kind
+    too_often,  // more requests than a host answers
+};
+
+// FNV-1a over all fields; equal rooms have equal hashes on every machine.
+std::uint64_t hash_of(const RoomObjects& objects);
+
+}  // namespace theatron::session

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/room_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace theatron::session {
+namespace {
+
+bool is_sound(const Pose& pose, double scale) {
+    const Vec3 p = pose.translation;
+    for (const double coordinate : {p.x, p.y, p.z})
+        if (!(std::abs(coordinate) <= RoomState::max_coordinate_m))
+            return false;
+    const Quat q = pose.rotation;
+    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    return std::abs(norm - 1) < 1e-3 && scale >= RoomState::min_scale &&
+           scale <= RoomState::max_scale;
+}
+
+}  // namespace
+
+RoomState::RoomState(const RoomSnapshot& snapshot)
+    : revision_(snapshot.revision), objects_(snapshot.objects) {
+    std::erase_if(objects_,
+                  [](const auto& entry) { return entry.second.kind == ObjectKind::person; });
+    for (auto& [id, object] : objects_) {
+        object.grip = {};
+        newest_id_ = std::max(newest_id_, std::uint32_t(id));
+    }
+}
+
+RoomChange RoomState::changed(ObjectId object) {
+    const auto found = objects_.find(object);
+    return {++revision_, object,
+            found == objects_.end() ? std::nullopt : std::optional(found->second)};
+}
+
+RoomChange RoomState::on_joined(ParticipantId participant, Bytes properties) {
+    participants_.insert(participant);
+    const ObjectId person{++newest_id_};
+    objects_[person] = {ObjectKind::person, participant, {}, {}, {}, 1, std::move(properties)};
+    return changed(person);
+}
+
+bool RoomState::has_room_for(std::size_t bytes, std::size_t before) const {
+    std::size_t all = bytes;
+    for (const auto& [id, object] : objects_)
+        all += object.properties.size();
+    return bytes <= max_property_bytes && all - before <= max_property_bytes_of_all;
+}
+
+std::vector<RoomChange> RoomState::on_left(ParticipantId participant) {
+    participants_.erase(participant);
+    std::vector<RoomChange> changes;
+    for (auto entry = objects_.begin(); entry != objects_.end();) {
+        const auto [id, object] = *entry;
+        const bool is_its_person =
+            object.kind == ObjectKind::person && object.creator == participant;
+        if (!is_its_person && object.grip.holder != participant) {
+            ++entry;
+            continue;
+        }
+        if (is_its_person)
+            entry = objects_.erase(entry);
+        else
+            (entry++)->second.grip = {};
+        changes.push_back(changed(id));
+    }
+    return changes;
+}
+
+RoomState::Decision RoomState::on_request(ParticipantId from, std::uint32_t number,
+                                          const Request& request, bool may_change) {
+    Decision decision;
+    if (!may_change)
+        decision.refusal = Refusal::role;
+    else if (number == 0 || number >= given_grip)
+        decision.refusal = Refusal::malformed;
+    else
+        decision.refusal =
+            std::visit([&](const auto& wanted) { return apply(from, number, wanted); }, request);
+    if (decision.refusal == Refusal::none)
+        decision.changes.push_back(changed(touched_));
+    return decision;
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Create& request) {
+    if (!is_known(request.kind) || !is_sound(request.room_from_object, request.scale))
+        return Refusal::malformed;
+    if (request.kind == ObjectKind::person)
+        return Refusal::role;
+    const auto own = std::count_if(objects_.begin(), objects_.end(),
+                                   [&](const auto& entry) { return entry.second.creator == from; });
+    if (objects_.size() >= max_objects || std::size_t(own) >= max_objects_of_one ||
+        !has_room_for(request.properties.size(), 0))
+        return Refusal::too_many;
+    touched_ = ObjectId(++newest_id_);
+    objects_[touched_] = {request.kind,      from, {}, {}, request.room_from_object, request.scale,
+                          request.properties};
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Remove& request) {
+    const auto found = objects_.find(request.object);
+    if (found == objects_.end())
+        return Refusal::no_such_object;
+    if (found->second.kind == ObjectKind::person)
+        return Refusal::role;
+    const ParticipantId holder = found->second.grip.holder;
+    if (holder != ParticipantId{} && holder != from)
+        return Refusal::held_by_another;
+    objects_.erase(found);
+    touched_ = request.object;
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t number, const request::Grab& request) {
+    const auto found = objects_.find(request.object);
+    if (found == objects_.end() || found->second.kind == ObjectKind::person)
+        return Refusal::no_such_object;
+    RoomObject& object = found->second;
+    if (object.grip.holder != ParticipantId{} && object.grip.holder != from)
+        return Refusal::held_by_another;
+    object.grip = {from, number};
+    object.moved_at = {};
+    touched_ = request.object;
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Release& request) {
+    const auto found = objects_.find(request.object);
+    if (found == objects_.end())
+        return Refusal::no_such_object;
+    RoomObject& object = found->second;
+    if (object.grip != Grip{from, request.grip})
+        return Refusal::not_held_by_you;
+    if (!is_sound(request.room_from_object, request.scale))
+        return Refusal::malformed;
+    object.grip = {};
+    object.room_from_object = request.room_from_object;
+    object.scale = request.scale;
+    touched_ = request.object;
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t number,
+                         const request::HandOver& request) {
+    const auto found = objects_.find(request.object);
+    if (found == objects_.end())
+        return Refusal::no_such_object;
+    RoomObject& object = found->second;
+    if (object.grip != Grip{from, request.grip})
+        return Refusal::not_held_by_you;
+    if (participants_.count(request.to) == 0)
+        return Refusal::no_such_participant;
+    object.grip = {request.to, number | given_grip};
+    object.moved_at = {};
+    touched_ = request.object;
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId, std::uint32_t, const request::SetProperties& request) {
+    const auto found = objects_.find(request.object);
+    if (found == objects_.end())
+        return Refusal::no_such_object;
+    RoomObject& object = found->second;
+    if (object.kind == ObjectKind::person)
+        return Refusal::role;
+    if (!has_room_for(request.properties.size(), object.properties.size()))
+        return Refusal::too_many;
+    object.properties = request.properties;
+    touched_ = request.object;
+    return Refusal::none;
+}
+
+bool RoomState::on_pose(ParticipantId from, const ObjectPose& pose) {
+    const auto found = objects_.find(pose.object);
+    if (found == objects_.end() || pose.grip.holder != from || found->second.grip != pose.grip ||
+        !is_sound(pose.room_from_object, pose.scale))
+        return false;
+    RoomObject& object = found->second;
+    if (pose.at <= object.moved_at)
+        return false;
+    object.moved_at = pose.at;
+    object.room_from_object = pose.room_from_object;
+    object.scale = pose.scale;
+    return true;
+}
+
+}  // namespace theatron::session

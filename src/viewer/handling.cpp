@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/handling.h"
+
+#include <utility>
+
+namespace theatron::viewer {
+namespace {
+
+namespace request = session::request;
+
+std::string text_of(session::Refusal refusal) {
+    switch (refusal) {
+        case session::Refusal::held_by_another:
+            return "Somebody else holds this";
+        case session::Refusal::role:
+            return "Your link lets you look only";
+        case session::Refusal::too_many:
+            return "The room holds no more objects";
+        case session::Refusal::too_often:
+            return "That was too much at once; try again";
+        case session::Refusal::no_such_participant:
+            return "That person has left";
+        default:
+            return "";
+    }
+}
+
+// Depth along the view's axis.
+double depth_of(Vec3 place, const render::CameraView& view) {
+    return (inverse(view.room_from_eye) * place).z;
+}
+
+}  // namespace
+
+void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
+                        const render::CameraView& view, Meeting& meeting,
+                        client::Participant& participant) {
+    while (const auto refusal = participant.take_room_refusal())
+        if (const std::string text = text_of(refusal->second); !text.empty())
+            note_ = text;
+    if (input.grabbed && input.grabbed_left)
+        grab(*input.grabbed, surface_m, view, meeting, participant);
+    // Removed by somebody, given away, or refused by the host.
+    if (held_) {
+        const session::RoomObject* object = meeting.find(held_->object);
+        if (!object || object->grip.holder != participant.room_self())
+            held_.reset();
+    }
+    if (held_) {
+        input.grabbed.reset();
+        held_->pointer.x += std::exchange(input.steering.turn.x, 0) / aspect;
+        held_->pointer.y += std::exchange(input.steering.turn.y, 0);
+        const double clicks = std::exchange(input.steering.approach, 0);
+        held_->grasp.point(render::ray_through(view, held_->pointer));
+        if (input.steering.fast)
+            held_->grasp.turn(clicks);
+        else
+            held_->grasp.approach(clicks);
+        (void)participant.move_object(held_->object, held_->grasp.room_from_object(), held_->scale);
+    }
+    for (const xr::KeyPress& key : input.keys)
+        on_key(key.action, view, meeting, participant);
+    if (held_ && input.released)
+        release(meeting, participant);
+}
+
+void Handling::grab(Vec2 pointer, std::optional<double> surface_m, const render::CameraView& view,
+                    Meeting& meeting, client::Participant& participant) {
+    const render::PickRay ray = render::ray_through(view, pointer);
+    const auto hit = meeting.pick(ray, view);
+    if (!hit || (surface_m && *surface_m < depth_of(hit->picked.place, view)))
+        return;
+    const session::RoomObject* object = meeting.find(hit->object);
+    if (!object)
+        return;
+    if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
+        note_ = meeting.name_of(object->grip.holder) + " holds this";
+        return;
+    }
+    const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
+    if (grip == 0)
+        return;
+    held_ = Held{hit->object, grip, Grasp(object->room_from_object, ray, hit->picked.place),
+                 pointer, object->scale};
+    (void)meeting.take(participant);
+}
+
+void Handling::release(const Meeting& meeting, client::Participant& participant) {
+    const Pose pose = meeting.resting(held_->object, held_->grasp.room_from_object());
+    participant.ask_room(request::Release{held_->object, held_->grip, pose, held_->scale});
+    held_.reset();
+}
+
+void Handling::on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
+                      client::Participant& participant) {
+    if (action == xr::Action::new_brick) {
+        const Vec3 ahead = view.room_from_eye * Vec3{0, 0, new_brick_distance_m};
+        participant.ask_room(request::Create{
+            session::ObjectKind::brick, {{}, ahead}, 1, room::encode_brick({4, 2, next_color_++})});
+    } else if (action == xr::Action::remove && held_) {
+        participant.ask_room(request::Remove{held_->object});
+        held_.reset();
+    } else if (action == xr::Action::give && held_) {
+        const auto to = meeting.nearest_person(held_->grasp.room_from_object().translation);
+        if (!to) {
+            note_ = "Nobody is near who could take this";
+            return;
+        }
+        participant.ask_room(request::HandOver{held_->object, held_->grip, *to});
+        note_ = "Given to " + meeting.name_of(*to);
+        held_.reset();
+    } else if ((action == xr::Action::give || action == xr::Action::remove) && !held_) {
+        note_ = "Hold an object with the left mouse button first";
+    }
+}
+
+std::string Handling::take_note() {
+    return std::exchange(note_, "");
+}
+
+}  // namespace theatron::viewer

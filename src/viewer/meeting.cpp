@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/meeting.h"
+
+#include <algorithm>
+
+#include "room/facing.h"
+#include "session/room_bytes.h"
+
+namespace theatron::viewer {
+namespace {
+
+constexpr double label_above_m = 0.12, label_height_m = 0.03, letter_width = 0.8;
+
+std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
+    if (!part)
+        return std::nullopt;
+    const auto& [w, x, y, z] = part->rotation;
+    return Pose{{w, x, y, z}, {part->position[0], part->position[1], part->position[2]}};
+}
+
+bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
+    return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
+           a.right_hand == b.right_hand && a.is_stale == b.is_stale;
+}
+
+}  // namespace
+
+std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
+                                        const std::map<ParticipantId, wire::PersonPose>& poses,
+                                        TimePoint now) {
+    std::vector<room::RoomPerson> people;
+    for (const auto& [id, object] : room.objects) {
+        if (object.kind != session::ObjectKind::person || object.creator == room.self)
+            continue;
+        const auto facts = session::decode_person(object.properties);
+        room::RoomPerson person;
+        person.id = object.creator;
+        person.name = facts ? facts->name : "";
+        if (const auto pose = poses.find(person.id); pose != poses.end()) {
+            person.head = pose_of(pose->second.head);
+            person.left_hand = pose_of(pose->second.left_hand);
+            person.right_hand = pose_of(pose->second.right_hand);
+            person.is_stale = now - pose->second.time > Meeting::stale_after;
+        }
+        people.push_back(std::move(person));
+    }
+    return people;
+}
+
+wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time) {
+    // A person looks along -z with y up.
+    const Pose head = room_from_eye * Pose{Quat{0, 1, 0, 0}, {}};
+    wire::PersonPose pose;
+    pose.time = time;
+    const Vec3& p = head.translation;
+    const Quat& q = head.rotation;
+    pose.head = wire::PartPose{{float(p.x), float(p.y), float(p.z)},
+                               {float(q.w), float(q.x), float(q.y), float(q.z)}};
+    return pose;
+}
+
+bool Meeting::take(const client::Participant& participant) {
+    bool changed = false;
+    if (const std::uint64_t version = participant.room_version(); version != version_) {
+        version_ = version;
+        room_ = participant.room();
+        changed = true;
+    }
+    std::vector<room::RoomPerson> people = people_of(room_, participant.poses(), participant.now());
+    if (!std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same)) {
+        people_ = std::move(people);
+        changed = true;
+    }
+    return changed;
+}
+
+const render::SceneMesh& Meeting::mesh_of(const room::Brick& brick) {
+    const std::tuple key{brick.studs_x, brick.studs_z};
+    const auto found = bricks_.find(key);
+    return found != bricks_.end()
+               ? found->second
+               : bricks_.emplace(key, render::SceneMesh(room::make_brick_mesh(brick)))
+                     .first->second;
+}
+
+void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) {
+    const Vec3 eye = view.room_from_eye.translation;
+    for (const auto& [id, object] : room_.objects) {
+        if (object.kind != session::ObjectKind::brick)
+            continue;
+        const auto brick = room::decode_brick(object.properties);
+        if (!brick)
+            continue;
+        const bool is_held = object.grip.holder != ParticipantId{};
+        render::SurfaceLook look{room::color_of(ParticipantId{brick->color}), 0, 0.35};
+        frame.objects.push_back({&mesh_of(*brick), object.room_from_object, look, false,
+                                 render::ObjectId(std::uint32_t(id))});
+        if (!is_held || object.grip.holder == room_.self)
+            continue;
+        const std::string text = name_of(object.grip.holder) + " holds this";
+        Pose place =
+            room::facing(object.room_from_object.translation + Vec3{0, label_above_m, 0}, eye);
+        place.translation =
+            place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
+        frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});
+    }
+    if (people_.empty())
+        return;
+    if (!avatars_)
+        avatars_ = std::make_unique<room::People>();
+    avatars_->add_to(frame, people_, view);
+}
+
+std::optional<Meeting::Hit> Meeting::pick(const render::PickRay& ray,
+                                          const render::CameraView& view) {
+    render::SceneFrame frame;
+    add_to(frame, view);
+    const auto picked = render::pick(frame, ray);
+    if (!picked)
+        return std::nullopt;
+    return Hit{session::ObjectId(std::uint32_t(picked->id)), *picked};
+}
+
+const session::RoomObject* Meeting::find(session::ObjectId object) const {
+    const auto found = room_.objects.find(object);
+    return found == room_.objects.end() ? nullptr : &found->second;
+}
+
+Pose Meeting::resting(session::ObjectId object, const Pose& released) const {
+    const session::RoomObject* moved = find(object);
+    const auto brick = moved && moved->kind == session::ObjectKind::brick
+                           ? room::decode_brick(moved->properties)
+                           : std::nullopt;
+    if (!brick)
+        return released;
+    std::vector<room::PlacedBrick> others;
+    for (const auto& [id, other] : room_.objects)
+        if (id != object && other.kind == session::ObjectKind::brick)
+            if (const auto placed = room::decode_brick(other.properties))
+                others.push_back({*placed, other.room_from_object});
+    return room::snapped(*brick, released, others);
+}
+
+std::optional<ParticipantId> Meeting::nearest_person(Vec3 place) const {
+    std::optional<ParticipantId> nearest;
+    double distance = 0;
+    for (const room::RoomPerson& person : people_)
+        for (const auto& part : {person.head, person.left_hand, person.right_hand})
+            if (part && (!nearest || length(part->translation - place) < distance)) {
+                nearest = person.id;
+                distance = length(part->translation - place);
+            }
+    return nearest;
+}
+
+std::string Meeting::name_of(ParticipantId id) const {
+    for (const room::RoomPerson& person : people_)
+        if (person.id == id)
+            return person.name;
+    return "";
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The people and objects that participants of a session share, as one of them sees these.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "client/participant.h"
+#include "render/pick.h"
+#include "room/bricks.h"
+#include "room/people.h"
+
+namespace theatron::viewer {
+
+// Use from one thread, with the same GL context current.
+class Meeting {
+public:
+    // A person that has sent no pose for so long has a view that is old.
+    static constexpr Duration stale_after = std::chrono::seconds(2);
+
+    // Takes over what is new. True if something looks different.
+    bool take(const client::Participant& participant);
+
+    void add_to(render::SceneFrame& frame, const render::CameraView& view);
+
+    // The nearest object that a ray meets, of those that can be held.
+    struct Hit {
+        session::ObjectId object{};
+        render::Picked picked;
+    };
+    std::optional<Hit> pick(const render::PickRay& ray, const render::CameraView& view);
+
+    // Null if there is none of this number.
+    const session::RoomObject* find(session::ObjectId object) const;
+    // The pose that an object takes if it is released at `released`: bricks snap together.
+    Pose resting(session::ObjectId object, const Pose& released) const;
+    // The other person whose head or hand is nearest to a place of the room.
+    std::optional<ParticipantId> nearest_person(Vec3 place) const;
+    // The name of a participant; empty if it is not in the room.
+    std::string name_of(ParticipantId id) const;
+
+    const std::vector<room::RoomPerson>& people() const { return people_; }
+
+private:
+    const render::SceneMesh& mesh_of(const room::Brick& brick);
+
+    std::uint64_t version_ = 0;
+    client::Participant::Room room_;
+    std::vector<room::RoomPerson> people_;
+    std::unique_ptr<room::People> avatars_;  // made when somebody is there
+    std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
+};
+
+// People as room objects and poses tell of them, without `self`. `now` is session time.
+std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
+                                        const std::map<ParticipantId, wire::PersonPose>& poses,
+                                        TimePoint now);
+
+// The pose of a person who sees what a camera at `room_from_eye` (z forward, y down) sees.
+wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time);
+
+}  // namespace theatron::viewer

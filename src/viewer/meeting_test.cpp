@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/meeting.h"
+
+#include <gtest/gtest.h>
+
+#include "session/room_bytes.h"
+#include "viewer/grasp.h"
+
+namespace theatron::viewer {
+namespace {
+
+constexpr ParticipantId self{1}, anna{2}, ben{3};
+
+client::Participant::Room room_of(const std::vector<ParticipantId>& people) {
+    client::Participant::Room room;
+    room.self = self;
+    for (const ParticipantId id : people) {
+        session::RoomObject person;
+        person.kind = session::ObjectKind::person;
+        person.creator = id;
+        person.properties = session::encode_person({{}, false, "person"});
+        room.objects[session::ObjectId(10 + std::uint32_t(id))] = person;
+    }
+    return room;
+}
+
+TEST(Meeting, IsOfTheOthersWithTheirPoses) {
+    wire::PersonPose pose;
+    pose.time = TimePoint(10s);
+    pose.head = wire::PartPose{{1, 2, 3}, {1, 0, 0, 0}};
+    const auto people = people_of(room_of({self, anna, ben}), {{anna, pose}}, TimePoint(11s));
+    ASSERT_EQ(people.size(), 2u);
+    EXPECT_EQ(people[0].id, anna);
+    EXPECT_EQ(people[0].name, "person");
+    EXPECT_EQ(people[0].head->translation, (Vec3{1, 2, 3}));
+    EXPECT_FALSE(people[0].is_stale);
+    EXPECT_FALSE(people[1].head) << "it is in, but nobody knows where";
+    EXPECT_TRUE(people_of(room_of({anna}), {{anna, pose}}, TimePoint(13s))[0].is_stale);
+}
+
+TEST(Meeting, AnEyeIsAHeadThatLooksTheSameWay) {
+    const Pose eye = look_at({0, 1.6, 2}, {0, 1, 0}, {0, 1, 0});
+    const wire::PersonPose pose = pose_of_eye(eye, TimePoint(1s));
+    const auto people = people_of(room_of({anna}), {{anna, pose}}, TimePoint(1s));
+    const Pose& head = *people.at(0).head;
+    EXPECT_LT(length(rotate(head.rotation, {0, 0, -1}) - rotate(eye.rotation, {0, 0, 1})), 1e-6);
+    EXPECT_GT(rotate(head.rotation, {0, 1, 0}).y, 0.9) << "upright";
+}
+
+TEST(Grasp, KeepsAnObjectUnderThePointer) {
+    const Pose object{rotation_about({0, 1, 0}, 0.5), {0.1, 1, -2}};
+    const render::PickRay ray{{0, 1, 0}, {0, 0, -1}};
+    Grasp grasp(object, ray, {0, 1, -1.9});
+    EXPECT_LT(length(grasp.room_from_object().translation - object.translation), 1e-12);
+    grasp.point({{0, 1, 0}, {1, 0, 0}});
+    const Vec3 moved = grasp.room_from_object().translation;
+    EXPECT_LT(length(moved - Vec3{1.9 + 0.1, 1, -0.1}), 1e-12);
+    grasp.approach(3);
+    EXPECT_LT(grasp.room_from_object().translation.x, moved.x);
+    grasp.approach(1000);
+    EXPECT_NEAR(grasp.room_from_object().translation.x, Grasp::least_distance_m + 0.1, 1e-12);
+}
+
+TEST(Grasp, TurnsAnObjectAboutThePlaceWhereItIsHeld) {
+    const Vec3 held{0, 1, -2};
+    const Pose object{{}, {0.1, 1, -2}};
+    Grasp grasp(object, {{0, 1, 0}, {0, 0, -1}}, held);
+    grasp.turn(6);  // 90 degrees
+    const Pose turned = grasp.room_from_object();
+    EXPECT_LT(length(turned.translation - Vec3{0, 1, -2.1}), 1e-9);
+    EXPECT_LT(length(rotate(turned.rotation, {1, 0, 0}) - Vec3{0, 0, -1}), 1e-9);
+}
+
+}  // namespace
+}  // namespace theatron::viewer

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Participants in one room: everybody sees who is in, where people are, and what somebody holds."""
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+
+from raw_peer import STATES, RawPeer
+from theatron_process import Process, host, make_recording, read_png
+
+ROOM = 3         # wire::Feature
+OBJECT_POSE = 2  # wire::StateTopic
+
+
+def member(link, name, *options):
+    return Process("join", link, "--name", name, "--every", "0.1", *options)
+
+
+def people(figures):
+    return sorted(person["name"] for person in figures["room"]["people"])
+
+
+def brick(figures, number=None):
+    found = [o for o in figures["room"]["objects"] if number in (None, o["id"])]
+    return found[0] if found else None
+
+
+class Room(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_room_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        camera = f"folder:{make_recording(self.folder / 'box')},loop=1,preload=1"
+        self.start = lambda: host(self.folder / "state", camera)
+
+    def test_people_meet_hold_hand_over_and_let_go(self):
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Zoë") as zoe:
+            for person in (anna, zoe):
+                person.wait_for(lambda f: people(f) == ["Anna", "Zoë"], 20)
+            anna.say("brick 0.5 1 0.25")
+            number = brick(zoe.wait_for(brick, 10))["id"]
+            anna.say(f"grab {number}")
+            anna.say("move 0.5 1.5 0.25 30")
+            held = zoe.wait_for(lambda f: brick(f)["held_by"] and brick(f)["position"][1] == 1.5, 10)
+            self.assertEqual(brick(held)["held_by"], self.number(anna))
+            zoe.say(f"grab {number}")
+            anna.say("give Zoë")
+            anna.wait_for(lambda f: brick(f)["held_by"] == self.number(zoe), 10)
+            # The hash is of everything: both have the same room.
+            self.assertEqual(*(p.wait_for(lambda f: brick(f)["held_by"] == self.number(zoe), 10)["room"]["hash"]
+                               for p in (anna, zoe)))
+            zoe.process.kill()
+            left = anna.wait_for(lambda f: people(f) == ["Anna"], 10)
+            self.assertEqual(brick(left)["held_by"], 0)
+            self.assertEqual(brick(left)["position"], [0.5, 1.5, 0.25])
+
+    @staticmethod
+    def number(person):
+        return person.newest_json()["room"]["self"]
+
+    def test_the_room_is_still_there_after_the_host_is_started_again(self):
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: people(f), 20)
+            anna.say("brick 1 2 3")
+            anna.wait_for(brick, 10)
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+        with self.start() as h, member(h.greeting["link"], "Ben") as ben:
+            again = ben.wait_for(people, 20)
+            self.assertEqual(brick(again)["position"], [1, 2, 3])
+            self.assertEqual(people(again), ["Ben"])
+
+    def test_a_person_is_drawn_where_it_stands(self):
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(people, 20)
+
+            def picture(name):
+                with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240",
+                             "--seconds", "1.5", "--json") as viewer:
+                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                return read_png(self.folder / name)
+
+            alone = picture("alone.png")
+            # In front of the camera, which is at the room's origin in this recording or looks at it.
+            anna.say("stand 0 0.05 -0.8 0 0.1 0")
+            anna.wait_for(lambda f: True, 10)
+            together = picture("together.png")
+            self.assertNotEqual(alone, together)
+
+    def test_what_a_hostile_member_sends_harms_nobody(self):
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(people, 20)
+            anna.say("brick 0 1 0")
+            number = brick(anna.wait_for(brick, 10))["id"]
+            anna.say(f"grab {number}")
+            anna.say("move 0 1.25 0")
+            anna.wait_for(lambda f: brick(f)["position"][1] == 1.25, 10)
+            with RawPeer(h.greeting["link"]) as stranger:
+                stranger.join(depth_codec="raw", color_codec="raw", features=[ROOM])
+                stranger.receive_control("RoomSnapshot")
+                place = struct.pack("<8d", 1, 0, 0, 0, 9, 9, 9, 1)
+                for kind, request in (("junk", b"\xff" * 30), ("grab", struct.pack("<BI", 3, number)),
+                                      ("release", struct.pack("<BII", 4, number, 1) + place),
+                                      ("remove", struct.pack("<BI", 2, number)),
+                                      ("nan", struct.pack("<BB", 1, 2) + struct.pack("<8d", *[float("nan")] * 8) + b"\0\0")):
+                    stranger.send_control("RoomRequest", number=1, request=list(request))
+                    self.assertNotEqual(stranger.receive_control("RoomDecision")[1].get("refusal", 0), 0, kind)
+                # A pose of the object that Anna holds.
+                body = struct.pack("<IIq", 1, 2, self.now_us(stranger)) + place
+                stranger.send(bytes([STATES, OBJECT_POSE]) + struct.pack("<IH", number, len(body)) + body)
+                stranger.send_control("RoomRequest", number=2, request=list(struct.pack("<BI", 3, number)))
+                stranger.receive_control("RoomDecision")
+            self.assertEqual(brick(anna.newest_json())["position"], [0, 1.25, 0])
+
+    @staticmethod
+    def now_us(peer):
+        peer.send_control("Ping", sent_us=1)
+        return peer.receive_control("Pong")[1]["sent_us"]
+
+
+if __name__ == "__main__":
+    unittest.main()
