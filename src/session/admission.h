@@ -58,9 +58,6 @@ public:
         std::string name;
         Bytes person;                         // as in wire::Join
         std::vector<wire::Feature> features;  // those of Join that hold here
-        bool has(wire::Feature feature) const {
-            return std::find(features.begin(), features.end(), feature) != features.end();
-        }
         Role role = Role::viewer;
         bool records = false;                    // as in wire::Join
         std::size_t max_media = 0;               // bytes of its largest media message so far

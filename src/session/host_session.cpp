@@ -114,8 +114,10 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
     tell_renderer(id);
-    room_.join(id, {participant.role, participant.records, participant.name},
-               participant.has(wire::Feature::room));
+    // A program that only sends cameras is nobody in the room.
+    if (!participant.has(wire::Feature::sends_only))
+        room_.join(id, {participant.role, participant.records, participant.name},
+                   participant.has(wire::Feature::room));
 }
 
 void HostSession::describe_session(ParticipantId id) {
