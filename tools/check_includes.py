@@ -74,7 +74,7 @@ def main():
         if not module:
             problems.append(f"{file.relative_to(ROOT)}: its folder is no module and no program")
             continue
-        # Tests may use what stands beside the product: other modules' readers of files.
+        # Tests may use code beside the product: other modules' readers of files.
         allowed = closure(module, modules)
         if file.stem.endswith(("_test", "_bench")):
             continue

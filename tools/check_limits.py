@@ -13,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = "docs/limits.md"
 
-# Where a bound protects against somebody else.
+# Folders whose bounds protect against other programs' input.
 FOLDERS = ("src/wire", "src/net", "src/session", "src/receive", "src/record", "src/sandbox", "src/files", "src/host", "src/client", "src/export", "apps/cli", "apps/theatron")
 BOUND = re.compile(r"^(max|most|longest|least)_|_(limit|deadline|patience|timeout)$|^give_up")
 NO_BOUNDS = {("src/record/segment_files.cpp", "least_digits"), ("src/record/segment_files.cpp", "most_digits")}

@@ -13,7 +13,7 @@ import time
 from care_test import metrics
 from theatron_process import Process, host, make_recording
 
-# The longest fault lasts 3 s, and what comes back is found at most 2 s later; the rest is for busy machines.
+# The longest fault lasts 3 s, and a camera that returns is found at most 2 s later; the rest is for busy machines.
 LONGEST_STALE = 6.5
 
 

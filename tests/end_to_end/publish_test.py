@@ -155,7 +155,7 @@ class Publishing(unittest.TestCase):
                 else:
                     others[which] = viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"])
                     stack.callback(others[which].__exit__)
-                time.sleep(0.7)  # what happens at random happens at times
+                time.sleep(0.7)  # time between two changes
             for one, first in zip(watching, before):
                 figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others), 15)
                 for number in (0, 1):
@@ -165,7 +165,7 @@ class Publishing(unittest.TestCase):
                     self.assertGreater(camera(figures, number)["fps"], 1)
             self.assertEqual(stay.newest_json()["joins"], 1)
             recorder.process.terminate()
-            # Where a camera joins, a segment begins, with key frames; what is missing until then is counted (3).
+            # When a camera joins, a segment begins, with key frames; pictures before them are missing (exit code 3).
             self.assertIn(recorder.end(), (0, 3), recorder.errors)
         code, out, errors = run("inspect", file)
         self.assertIn(code, (0, 3), errors)

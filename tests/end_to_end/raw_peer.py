@@ -399,7 +399,7 @@ class FakeHost:
                                   b"Connection: Upgrade\r\nSec-WebSocket-Accept: " + accept + b"\r\n\r\n")
                 self.guests += 1
                 self.script(_Guest(encrypted, rest, masks=False))
-        except Exception as fault:  # told to the test, which alone knows what is expected
+        except Exception as fault:  # the test decides which faults are expected
             self.faults.append(fault)
 
     def close(self):

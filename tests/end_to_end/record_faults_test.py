@@ -283,7 +283,7 @@ class RecordFaults(unittest.TestCase):
                 self.begun(recorder)
                 h.process.kill()
                 h.process.wait()
-                # Its machine was started anew as well: the clock goes back.
+                # Its machine was restarted as well: the clock goes back.
                 with host(self.state, self.camera, listen=f"127.0.0.1:{port}"):
                     self.begun(recorder, second)
                     figures = self.ends(recorder, INCOMPLETE)

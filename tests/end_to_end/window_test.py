@@ -19,7 +19,7 @@ class Window(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_window_"))
-        # One picture again and again: what changes on the screen is what the person did.
+        # One picture is repeated, so that all changes on the screen are caused by input.
         recording = make_recording(cls.folder / "box", frames=1)
         cls.camera = f"folder:{recording},loop=1,preload=1"
         cls.state = cls.folder / "state"

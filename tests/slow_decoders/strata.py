@@ -12,7 +12,7 @@ TAIL = LAG * (LANES - 1)  # steps from lane 0 to lane 31
 DELTA, BLEND, RANKS, BOUNDED = 1, 2, 4, 8
 ACTIVITY = (1, 2, 3, 6, 12, 24, 48, 96, 192)
 TOKEN_LOW, TOKEN_HIGH = 2, 50
-# Bits that follow each token, and what is put in front of them.
+# The number of bits that follow each token, and the bits in front of them.
 EXTRA_BITS = [15 if t in (TOKEN_LOW, TOKEN_HIGH) else (t - 18) // 2 - 1 if t >= 27 else 0 for t in range(51)]
 
 

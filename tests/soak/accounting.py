@@ -18,7 +18,7 @@ class Window:
     end: float
     kind: str
     streams: frozenset = frozenset()  # empty: all
-    camera_side: bool = False         # the camera did not deliver; whatever was sent must still be there
+    camera_side: bool = False         # the camera did not deliver; all sent pictures must still be there
 
     def covers(self, stream, at):
         return self.begin <= at <= self.end and (not self.streams or stream in self.streams)

@@ -8,7 +8,7 @@ CAMERAS = 4
 FAULTY = (2, 3)
 FAULTS_EVERY_S = 15
 FAULTS_FROM_S = 2.0  # after the host began
-# After a fault the host opens the camera again, at most 5 s later, and pictures are judged anew.
+# Time after a fault in which pictures may be missing: the host opens the camera again at most 5 s later, and checks it afresh.
 RECOVERY_S = {"silence": 2.5, "lost_frames": 0.5, "repeat": 2.5, "time_jump": 4.0, "unplugged": 5.5, "hang": 4.0}
 KINDS = ("silence", "lost_frames", "repeat", "time_jump", "unplugged", "hang")
 MASK = (1 << 64) - 1

@@ -17,7 +17,7 @@ class Examiner:
 
     def __init__(self, folder, stage, content, keep):
         self.folder, self.stage, self.content, self.keep = folder, stage, content, keep
-        self.files = {}  # name: what was found
+        self.files = {}  # name: findings
         self.compared = 0
         self.hashes = folder / "known.json"
         self.hashes.write_text(json.dumps(examine.known_hashes(stage.source, folder)))

@@ -7,10 +7,10 @@ from accounting import Accountant, Entry, linear_fit, longest_recovery, share_ou
 from explanations import cost_of, windows_of
 from stage import possible_kinds
 
-WARM_UP_S = 20     # until a process has taken what it needs
-LONG_LIVED_S = 90  # a slope of less says nothing
+WARM_UP_S = 20     # until a process has allocated its usual memory
+LONG_LIVED_S = 90  # the slope of a shorter time is meaningless
 GROWTH_MIB = 32    # allowed beyond the warm-up
-NEAR_S = 5         # faults before a finding that are told with it
+NEAR_S = 5         # faults so long before a finding are reported with it
 SHOWN_POINTS = 60  # of a process's memory over time
 LEAST_OUTSIDE = 0.2
 LONG_RUN_S = 300

@@ -19,7 +19,7 @@ class Picture(typing.NamedTuple):
     frame: int
     reference: int
     captured_us: int
-    begins_chain: bool  # the first of its stream behind a place where the recorder began anew
+    begins_chain: bool  # the first picture of its stream in a segment
 
     @property
     def is_key(self):

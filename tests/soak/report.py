@@ -4,7 +4,7 @@ import json
 import sys
 import time
 
-LINE_EVERY_S = 10  # where nobody looks on
+LINE_EVERY_S = 10  # if the output is no terminal
 
 
 class Progress:
