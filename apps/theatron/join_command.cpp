@@ -129,8 +129,8 @@ struct OffscreenPicture {
         viewer::check_renderer_choice(flags.renderer);
     }
 
-    // Takes over new cameras and frames, and the host's renderer command. Others see this person
-    // where the picture is taken from.
+    // Takes over new cameras and frames, and the host's renderer command. The picture's viewpoint
+    // is this person's head for others.
     void take(client::Participant& participant, RoomLines& room) {
         scene.take(participant);
         if (scene.has_picture() && !stands) {

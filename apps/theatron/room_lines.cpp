@@ -25,7 +25,7 @@ bool read(std::istream& words, Vec3& place) {
     return true;
 }
 
-// A head or a hand at `place` that looks or points at `at`: y up, -z forward.
+// The pose of a head or a hand at `place` that looks or points at `at`: y up, -z forward.
 Pose towards(Vec3 place, Vec3 at) {
     return look_at(place, at, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `theatron join` without a window does in the room for lines on standard input: scripts and
-// tests stand, point and handle objects with these.
+// Commands of `theatron join` without a window, one per line of standard input, with which scripts
+// and tests stand, point and handle objects in the room.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,18 +14,18 @@ namespace theatron::app {
 // Use from one thread.
 class RoomLines {
 public:
-    // The lines, for a person.
+    // A text for the user that lists the commands.
     static const char* help();
 
     // Carries out a line: "stand X Y Z AT_X AT_Y AT_Z", "point X Y Z AT_X AT_Y AT_Z",
     // "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "release", "give NAME", "remove".
-    // False if it is none of these. What is wrong with it is printed.
+    // False if it is none of these. A sentence on a wrong line is printed.
     bool obey(const std::string& line, client::Participant& participant);
 
-    // A person from now on. Metres of the room.
+    // Gives the participant a head. Metres; y up, -z forward.
     void stand(const Pose& room_from_head) { pose_.head = part_of(room_from_head); }
 
-    // Several times a second: poses are repeated, so that they are not old.
+    // Call it several times a second: repeats the poses, so that they do not become stale.
     void on_tick(client::Participant& participant);
 
 private:
@@ -43,8 +43,8 @@ private:
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","people":[{"id","name","records"}],"objects":[{"id","kind","held_by","position",
-// "scale"}]}
+// {"hash","self","people":[{"id","name","records"}],"objects":[{"id","kind","held_by","position",
+// "scale"}]}; `position` in metres, `held_by` 0 if no participant holds the object.
 nlohmann::json room_json(const client::Participant& participant);
 
 }  // namespace theatron::app

@@ -62,9 +62,9 @@ public:
         // participant's thread or a decoding thread.
         std::function<void()> news;
         Publishing publishing;  // needed for publish()
-        // Keeps the objects of the room: room() and what is below it.
+        // Keeps the objects of the room; needed for room() and the functions below it.
         bool keeps_room = false;
-        // An object of the room has changed, or a pose has come. From the participant's thread.
+        // An object of the room or its pose has changed. Called from the participant's thread.
         std::function<void()> room_changed;
     };
 
@@ -147,8 +147,8 @@ public:
     // The newest pose of each other participant that sent one.
     std::map<ParticipantId, wire::PersonPose> poses() const;
 
-    // The room, from any thread. A request and a move have their effect in room() at once; the host
-    // decides, and room() follows. People are objects of kind `person` (session/room_bytes.h).
+    // The room, from any thread. A request or a move changes room() at once; a refusal of the host
+    // takes that back. People are objects of kind `person` (session/room_bytes.h).
     struct Room {
         ParticipantId self{};
         std::uint64_t version = 0;  // grows with every change
@@ -157,11 +157,11 @@ public:
     Room room() const;
     std::uint64_t room_version() const;
     ParticipantId room_self() const;
-    // Returns the request's number, 0 while the room is not known.
+    // Sends a request to the host. Returns its number; 0 while the room is not known.
     std::uint32_t ask_room(const session::Request& request);
-    // The newest pose of an object that this participant holds; false if it does not.
+    // Moves an object (metres) that this participant holds. False if it does not hold it.
     bool move_object(session::ObjectId object, const Pose& room_from_object, double scale);
-    // The host's refusals of requests, oldest first.
+    // The oldest refusal of a request not taken yet, with the request's number; if any.
     std::optional<std::pair<std::uint32_t, session::Refusal>> take_room_refusal();
 
     // Requests another target latency and ceiling.

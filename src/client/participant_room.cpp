@@ -16,7 +16,7 @@ void Participant::on_room_message() {
         options_.room_changed();
 }
 
-// Sends what waits for the host.
+// Sends the requests and poses that wait.
 void Participant::tell_room() {
     std::vector<wire::RoomRequest> requests;
     std::map<session::ObjectId, Bytes> poses;

@@ -12,7 +12,7 @@ namespace {
 constexpr double snap_distance_m = 0.025;
 const double snap_cosine = std::cos(radians_of(20) / 2);
 constexpr double stud_radius_m = 0.012, stud_height_m = 0.009;
-// A line of shadow between bricks that stand side by side.
+// A gap between neighbouring bricks, so that their border is visible.
 constexpr double gap_m = 0.0004;
 
 Vec3 half_size(const Brick& brick) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes put together from simpler ones.
+// Meshes composed of simpler ones.
 #pragma once
 
 #include "render/scene_frame.h"

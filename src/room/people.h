@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// People in the room without a camera: a flying head with a face and a name, and hands. The face
-// shows where a person looks, a hand's finger where it points.
+// Avatars of people without a camera: a floating head with a face and a name, and hands. The face
+// shows the direction in which a person looks, a hand's finger where it points.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ class People {
 public:
     People();
 
-    // Appends everybody but those whose head the eye is inside of. Names face the eye.
+    // Appends all people except those whose head surrounds the eye. Names face the eye.
     void add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& people,
                 const render::CameraView& view) const;
 

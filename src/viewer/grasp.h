@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An object that the mouse holds: it stays under the pointer, in its distance, as it is turned.
+// An object that the mouse holds: it stays under the pointer, with its distance and orientation.
 //
-// Pure.
+// Uses no clock and no GL.
 #pragma once
 
 #include "geometry/vec.h"
@@ -15,10 +15,10 @@ public:
     static constexpr double approach_per_click = 0.9;  // of the distance
     static constexpr double turn_per_click = 15;       // degrees about the vertical
 
-    // Taken at `place`, which `ray` meets.
+    // Holds the object at `place` (room, metres), which is on `ray`.
     Grasp(const Pose& room_from_object, const render::PickRay& ray, Vec3 place);
 
-    // The pointer is on another ray; a positive click comes closer.
+    // Moves to another ray; nearer by positive clicks; turns left by positive clicks.
     void point(const render::PickRay& ray) { ray_ = ray; }
     void approach(double clicks);
     void turn(double clicks);
@@ -28,7 +28,7 @@ public:
 private:
     render::PickRay ray_;
     double distance_m_;
-    Pose place_from_object_;  // about the place where it is held, with the room's axes
+    Pose place_from_object_;  // origin where it is held, axes of the room
 };
 
 }  // namespace theatron::viewer

@@ -40,7 +40,7 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
             note_ = text;
     if (input.grabbed && input.grabbed_left)
         grab(*input.grabbed, surface_m, view, meeting, participant);
-    // Removed by somebody, given away, or refused by the host.
+    // The object was removed or given away, or the host refused the grip.
     if (held_) {
         const session::RoomObject* object = meeting.find(held_->object);
         if (!object || object->grip.holder != participant.room_self())

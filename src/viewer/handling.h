@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person does with the objects of the room by mouse and keyboard: hold, move, turn, give,
-// put back.
+// Handling of the room's objects by mouse and keyboard: create, hold, move, turn, give, release,
+// remove.
 #pragma once
 
 #include <optional>
@@ -16,17 +16,17 @@ namespace theatron::viewer {
 // Use from one thread.
 class Handling {
 public:
-    // Before it, a new brick appears.
+    // A new brick appears at this distance in front of the eye.
     static constexpr double new_brick_distance_m = 0.8;
 
-    // Takes what concerns objects out of `input`; the rest steers the eye. `surface_m` is the
-    // distance of the cloud at input.grabbed, along the view's axis: an object behind it is not
-    // held. `aspect` is the picture's width over its height.
+    // Removes the input for objects from `input`; the rest steers the eye. `surface_m` is the
+    // distance of the cloud at input.grabbed, along the view's axis: an object behind it cannot be
+    // grabbed. `aspect` is the picture's width divided by its height.
     void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant);
 
-    // A sentence for the person since the last call; may be empty.
+    // The newest sentence for the user since the last call; may be empty.
     std::string take_note();
 
 private:

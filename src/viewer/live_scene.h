@@ -34,7 +34,7 @@ public:
     // Throws Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
-    // Takes over people and shared objects that have changed. True if something looks different.
+    // Takes over people and shared objects that have changed. True if the picture changes.
     bool take_meeting(const client::Participant& participant) {
         return choice_.shown && meeting_.take(participant);
     }

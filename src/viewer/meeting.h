@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The people and objects that participants of a session share, as one of them sees these.
+// The people and shared objects of a session's room, as one participant sees them.
 #pragma once
 
 #include <map>
@@ -18,28 +18,28 @@ namespace theatron::viewer {
 // Use from one thread, with the same GL context current.
 class Meeting {
 public:
-    // A person that has sent no pose for so long has a view that is old.
+    // The pose of a person is stale if it is older than this.
     static constexpr Duration stale_after = std::chrono::seconds(2);
 
-    // Takes over what is new. True if something looks different.
+    // Takes over new objects, people and poses. True if the picture changes.
     bool take(const client::Participant& participant);
 
     void add_to(render::SceneFrame& frame, const render::CameraView& view);
 
-    // The nearest object that a ray meets, of those that can be held.
+    // The nearest object that can be held on a ray.
     struct Hit {
         session::ObjectId object{};
         render::Picked picked;
     };
     std::optional<Hit> pick(const render::PickRay& ray, const render::CameraView& view);
 
-    // Null if there is none of this number.
+    // Null if there is no object with this number. Valid until take().
     const session::RoomObject* find(session::ObjectId object) const;
-    // The pose that an object takes if it is released at `released`: bricks snap together.
+    // The pose of an object after its release at `released`: bricks snap together.
     Pose resting(session::ObjectId object, const Pose& released) const;
     // The other person whose head or hand is nearest to a place of the room.
     std::optional<ParticipantId> nearest_person(Vec3 place) const;
-    // The name of a participant; empty if it is not in the room.
+    // The name of another participant; empty if it is not in the room.
     std::string name_of(ParticipantId id) const;
 
     const std::vector<room::RoomPerson>& people() const { return people_; }
@@ -50,16 +50,16 @@ private:
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;
-    std::unique_ptr<room::People> avatars_;  // made when somebody is there
+    std::unique_ptr<room::People> avatars_;  // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
 };
 
-// People as room objects and poses tell of them, without `self`. `now` is session time.
+// All people of the room except room.self, with their newest poses. `now` is session time.
 std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
                                         const std::map<ParticipantId, wire::PersonPose>& poses,
                                         TimePoint now);
 
-// The pose of a person who sees what a camera at `room_from_eye` (z forward, y down) sees.
+// The pose of a person whose view is that of a camera at `room_from_eye` (z forward, y down).
 wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time);
 
 }  // namespace theatron::viewer

@@ -22,7 +22,7 @@ public:
         (void)scene_.take(participant);
         (void)scene_.take_meeting(participant);
     }
-    // Needs has_picture(); throws Error if the view cannot be had.
+    // Needs has_picture(); throws Error if the view is impossible.
     render::CameraView view(const ViewChoice& view, Size size) const {
         return view.resolve(scene_.calibrations(), scene_.newest(), size);
     }

@@ -168,7 +168,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     return scene_changed_ && eye_.is_placed();
 }
 
-// Others see this person where the eye is. A pose that stays is repeated, so that it is not old.
+// Sends the pose of the eye as this person's head, again before an unchanged pose is stale.
 void Viewer::send_pose(Size picture, TimePoint now) {
     if (!eye_.is_placed())
         return;

@@ -19,9 +19,9 @@ enum class Action {
     next_renderer,
     next_depth_codec,
     next_color_codec,
-    new_brick,    // an object to handle together
-    give,         // what the mouse holds, to the nearest person
-    remove,       // what the mouse holds
+    new_brick,    // creates a shared object
+    give,         // gives the held object to the nearest person
+    remove,       // removes the held object
     own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Participants in one room: everybody sees who is in, where people are, and what somebody holds."""
+"""Participants in one room: all see the same people, their poses, and the held objects."""
 import pathlib
 import shutil
 import struct
@@ -46,7 +46,7 @@ class Room(unittest.TestCase):
             zoe.say(f"grab {number}")
             anna.say("give Zoë")
             anna.wait_for(lambda f: brick(f)["held_by"] == self.number(zoe), 10)
-            # The hash is of everything: both have the same room.
+            # The hash covers all objects: both have the same room.
             self.assertEqual(*(p.wait_for(lambda f: brick(f)["held_by"] == self.number(zoe), 10)["room"]["hash"]
                                for p in (anna, zoe)))
             zoe.process.kill()
