@@ -20,6 +20,7 @@
 #include "files/png_file.h"
 #include "host/host.h"
 #include "participant_json.h"
+#include "scripted_people.h"
 #include "viewer/offscreen_view_native.h"
 
 namespace theatron::app {
@@ -60,7 +61,9 @@ void run(const Flags& flags) {
     join.link = net::parse_link(host.link());
     join.name = "demo viewer";
     join.remark = [](const std::string& text) { log::say(text); };
+    join.keeps_room = true;
     client::Participant viewer(join);
+    ScriptedPeople people(join.link);
 
     constexpr Size size{1280, 720};
     viewer::OffscreenView scene;
@@ -71,13 +74,15 @@ void run(const Flags& flags) {
 
     std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
               << "  " << flags.program << " join '" << host.link() << "'\n\n"
+              << "Two scripted people are in it, who point, hold a brick and hand it over.\n"
               << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
     bool announced = false;
     while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
-        viewer.wait_for_frame(50ms);
+        viewer.wait_for_frame(20ms);
+        people.on_tick();
         scene.take(viewer);
         const TimePoint now = steady_now();
         if (scene.has_picture() && now >= next_picture) {
@@ -108,8 +113,8 @@ void run(const Flags& flags) {
 
 void add_demo_command(CLI::App& app) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* command =
-        app.add_subcommand("demo", "See it work: a generated room, streamed to a viewer");
+    CLI::App* command = app.add_subcommand(
+        "demo", "See it work: a generated room with two scripted people, streamed to a viewer");
     command->footer("Example: theatron demo --seconds 20 --out pictures");
     cli::add_camera_option(*command, flags->cameras,
                            "Other cameras than the generated ones; repeat for more");

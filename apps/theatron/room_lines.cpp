@@ -53,10 +53,8 @@ const char* RoomLines::help() {
            "'grab NUMBER', 'move X Y Z [DEGREES]', 'release', 'give NAME', 'remove' (metres)";
 }
 
-wire::PartPose RoomLines::part_of(const Pose& pose) {
-    const Vec3& p = pose.translation;
-    const Quat& q = pose.rotation;
-    return {{float(p.x), float(p.y), float(p.z)}, {float(q.w), float(q.x), float(q.y), float(q.z)}};
+void RoomLines::stand(const Pose& room_from_head) {
+    pose_.head = viewer::part_of(room_from_head);
 }
 
 bool RoomLines::obey(const std::string& line, client::Participant& participant) {
@@ -80,7 +78,7 @@ bool RoomLines::change(const std::string& what, std::istream& words,
         if (!read(words, place) || !read(words, at) || length(at - place) < 1e-6 ||
             length(cross(at - place, {0, 1, 0})) < 1e-6)
             return false;
-        (what == "stand" ? pose_.head : pose_.right_hand) = part_of(towards(place, at));
+        (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
         sent_ = {};
         return true;
     }

@@ -23,13 +23,12 @@ public:
     bool obey(const std::string& line, client::Participant& participant);
 
     // Gives the participant a head. Metres; y up, -z forward.
-    void stand(const Pose& room_from_head) { pose_.head = part_of(room_from_head); }
+    void stand(const Pose& room_from_head);
 
     // Call it several times a second: repeats the poses, so that they do not become stale.
     void on_tick(client::Participant& participant);
 
 private:
-    static wire::PartPose part_of(const Pose& room_from_part);
     bool change(const std::string& what, std::istream& words, client::Participant& participant);
 
     struct Held {

@@ -47,15 +47,17 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
     return people;
 }
 
+wire::PartPose part_of(const Pose& pose) {
+    const Vec3& p = pose.translation;
+    const Quat& q = pose.rotation;
+    return {{float(p.x), float(p.y), float(p.z)}, {float(q.w), float(q.x), float(q.y), float(q.z)}};
+}
+
 wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time) {
     // A person looks along -z with y up.
-    const Pose head = room_from_eye * Pose{Quat{0, 1, 0, 0}, {}};
     wire::PersonPose pose;
     pose.time = time;
-    const Vec3& p = head.translation;
-    const Quat& q = head.rotation;
-    pose.head = wire::PartPose{{float(p.x), float(p.y), float(p.z)},
-                               {float(q.w), float(q.x), float(q.y), float(q.z)}};
+    pose.head = part_of(room_from_eye * Pose{Quat{0, 1, 0, 0}, {}});
     return pose;
 }
 

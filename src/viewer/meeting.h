@@ -59,6 +59,9 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
                                         const std::map<ParticipantId, wire::PersonPose>& poses,
                                         TimePoint now);
 
+// Poses of heads and hands for messages: y up, -z forward.
+wire::PartPose part_of(const Pose& room_from_part);
+
 // The pose of a person whose view is that of a camera at `room_from_eye` (z forward, y down).
 wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time);
 
