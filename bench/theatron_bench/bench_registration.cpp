@@ -196,7 +196,7 @@ std::optional<Detection> one_view(LatticeDetector& detector, synthetic::DepthSen
         mean.add(std::as_const(depth).view());
     }
     const DepthImage image = mean.mean();
-    return detector.detect(image.view());
+    return detector.detect(image.view(), FitEffort::measure);
 }
 
 // The mean error over the working volume of the second camera, or nothing if it was not solved.

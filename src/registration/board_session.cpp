@@ -95,7 +95,8 @@ bool BoardSession::finish(std::size_t index, const Pose& last) {
     camera.mean = camera.window->mean.mean();
     const TimePoint begin = camera.window->begin, end = camera.window->end;
     camera.window.reset();
-    const auto found = camera.mean_detector.detect(std::as_const(camera.mean).view());
+    const auto found =
+        camera.mean_detector.detect(std::as_const(camera.mean).view(), FitEffort::measure);
     if (!found)
         return false;
     views_.push_back({int(index), place_for(index, begin, end), *found});

@@ -35,7 +35,7 @@ LatticeDetector::LatticeDetector(const CameraModel& camera, double depth_unit_mm
     sparse_.inverse_m.resize(sparse_.size.area());
 }
 
-std::optional<Detection> LatticeDetector::detect(DepthView depth) {
+std::optional<Detection> LatticeDetector::detect(DepthView depth, FitEffort effort) {
     assert(depth.size == camera_.size);
     sparse_.rays = &sparse_rays_;
     for (int y = 0; y < sparse_.size.height; ++y) {
@@ -62,7 +62,7 @@ std::optional<Detection> LatticeDetector::detect(DepthView depth) {
         const auto match = match_lattice(lookup, plane, target_);
         if (!match || (best && best->match.agreement >= match->agreement))
             continue;
-        const auto fit = fit_lattice(lookup, rays_, *match, target_);
+        const auto fit = fit_lattice(lookup, rays_, *match, target_, effort);
         if (!fit || fit->edge_rms > largest_edge_rms)
             continue;
         best = Detection{fit->camera_from_face * inverse(board_from_face(target_, match->face)),

@@ -25,7 +25,7 @@ public:
     LatticeDetector(const CameraModel& camera, double depth_unit_mm, const LatticeTarget& target);
 
     // `depth` has the camera's size. Nothing where the board is not seen well enough.
-    std::optional<Detection> detect(DepthView depth);
+    std::optional<Detection> detect(DepthView depth, FitEffort effort = FitEffort::find);
 
 private:
     CameraModel camera_;

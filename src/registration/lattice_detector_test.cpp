@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "registration/frame_mean.h"
 #include "registration/modelled_camera_test.h"
 
 namespace theatron::registration {
@@ -76,6 +77,28 @@ TEST_F(LatticeDetection, StatesAnUncertaintyThatHolds) {
     const double normalised = std::sqrt(squares / (3 * boards));
     EXPECT_GT(normalised, 0.3);
     EXPECT_LT(normalised, 2);
+}
+
+TEST_F(LatticeDetection, MeasuresTheEdgesOfAMeanOfManyFramesToHalfAMillimetre) {
+    synthetic::DepthSensor sensor(noise_alone(), camera_.size, 7);
+    for (const double tilt : {-45, 45}) {
+        const Pose pose = board_pose(2, {0, 0}, 5, tilt, 9);
+        BoardScene scene(camera_.size, 4);
+        scene.add(target_, pose, rays_);
+        FrameMean mean(camera_.size);
+        for (std::uint32_t frame = 0; frame < 12; ++frame) {
+            const DepthImage depth = scene.seen_by(sensor, frame);
+            mean.add(depth.view());
+        }
+        const DepthImage image = mean.mean();
+        LatticeDetector detector(camera_, 1.0 / FrameMean::finer, target_);
+        const auto found = detector.detect(image.view(), FitEffort::measure);
+        ASSERT_TRUE(found);
+        const Pose truth = pose * board_from_face(target_, found->match.face);
+        const Pose& by_edges = found->fit.camera_from_face_by_edges;
+        EXPECT_LT(length(by_edges.translation - truth.translation), 0.0005) << tilt;
+        EXPECT_LT(angle_between(by_edges, truth), 0.0007) << tilt;
+    }
 }
 
 TEST_F(LatticeDetection, FindsABoardOfWhichAPersonHidesAPart) {

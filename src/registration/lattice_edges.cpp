@@ -7,11 +7,8 @@
 namespace theatron::registration {
 namespace {
 
-// As docs/synthetic_sensor.md models mixed pixels: light that a pixel gets from the next and the
-// one after, how far a farther surface can pull a measurement, and what pull is given up.
-constexpr double next_light = 0.20, second_light = 0.012;
+using namespace mixed_light;
 constexpr double own_width = 1;
-constexpr double farthest_pull_m = 0.3, given_up_m = 0.032;
 
 }  // namespace
 
@@ -75,7 +72,7 @@ double apparent_edge_px(const PixelBlur& blur, const EdgeLight& light, const Edg
 }
 
 struct SeenEdges::Viewpoint {
-    Vec3 eye;
+    Vec3 eye, ahead;  // ahead: the camera's axis
     double pitch, thickness_m, board_reach_m;
     PixelBlur along_u, along_v;
 };
@@ -96,6 +93,7 @@ SeenEdges::SeenEdges(const LatticeTarget& target, Face face, const Pose& camera_
         return PixelBlur({-line.y / n, line.x / n});
     };
     const Viewpoint from{inverse(pose).translation,
+                         rotate(conjugate(pose.rotation), {0, 0, 1}),
                          pitch,
                          target.thickness_m,
                          board_reach_m,
@@ -134,12 +132,15 @@ SeenEdges::Sides SeenEdges::seen(const Rect& drawn, bool is_hole, const Viewpoin
         const double wall = across * from.thickness_m / (eye.z + from.thickness_m);
         const double sign = (i < 2) == is_hole ? 1 : -1;
         const double wall_m = std::max(0.0, -sign * wall);
+        // The face's own light here.
+        const double cos_face = eye.z / distance, depth = dot(line, from.ahead);
+        const double per_face = depth * depth / cos_face;
         const auto place_with = [&](double background) {
-            return near[i] +
-                   sign * pixel_m *
-                       apparent_edge_px(along_u ? from.along_u : from.along_v,
-                                        {wall_m / pixel_m, std::abs(across) / eye.z, background},
-                                        {from.board_reach_m, eye.z / distance, from.thickness_m});
+            return near[i] + sign * pixel_m *
+                                 apparent_edge_px(along_u ? from.along_u : from.along_v,
+                                                  {wall_m / pixel_m, std::abs(across) / eye.z,
+                                                   background * per_face},
+                                                  {from.board_reach_m, cos_face, from.thickness_m});
         };
         constexpr double step = 0.2;
         sides.place[i] = place_with(light[i]);

@@ -15,6 +15,13 @@
 
 namespace theatron::registration {
 
+// As docs/synthetic_sensor.md models mixed pixels: light that a pixel gets from the next and the
+// one after, how far a farther surface can pull a measurement, and what pull is given up.
+namespace mixed_light {
+inline constexpr double next_light = 0.20, second_light = 0.012;
+inline constexpr double farthest_pull_m = 0.3, given_up_m = 0.032;
+}  // namespace mixed_light
+
 struct EdgeParams {
     double outline_growth_m = 0, hole_growth_m = 0;  // of the board, outwards and into its holes
     double log_background = 0;  // light of what is behind, against what was expected
@@ -26,8 +33,8 @@ struct Coverage {
     std::array<double, 3> by_params{};  // in the order of EdgeParams
 };
 
-// Light per area of what is behind an edge, in that of the face. Sides in the order left, bottom,
-// right, top.
+// Light that a pixel gets from what is behind an edge, in that of the board's surface seen squarely
+// one metre away. Sides in the order left, bottom, right, top.
 struct BackgroundLight {
     std::array<double, 4> outline{};
     std::array<double, LatticeTarget::columns * LatticeTarget::rows> cells{};  // row by row

@@ -7,6 +7,10 @@
 #include <cmath>
 #include <vector>
 
+#include "registration/background_depth.h"
+#include "registration/edge_prediction.h"
+#include "registration/plane_evidence.h"
+
 namespace theatron::registration {
 namespace {
 
@@ -23,10 +27,8 @@ constexpr double ramp_pixels = 3;
 constexpr double moves_in_round_m = 0.003;
 constexpr double free_of_edges_pixels = 3;  // pixels that show the plane alone
 constexpr int least_plane_pixels = 200, least_edge_pixels = 100;
-constexpr double mixed_m = 0.04;        // pulled off the board by what is behind it, no further
-constexpr double farthest_m = 0.04;     // from the match
-constexpr double light_reach_m = 0.03;  // around edges; the light of what is behind counts there
-constexpr double background_reflectivity = 0.6;  // in that of the board
+constexpr double mixed_m = 0.04;     // pulled off the board by what is behind it, no further
+constexpr double farthest_m = 0.04;  // from the match
 // Deviations of what is known beforehand.
 constexpr double prior_growth_m = 0.002, prior_log_background = 0.7;
 constexpr double prior_turn = 0.2, prior_shift_m = 0.2;  // keep far views solvable
@@ -37,48 +39,27 @@ constexpr double pixels_per_measurement = 8, edge_pixels_per_measurement = 4;
 // Errors of the edges that no number of pixels lowers: what the model of coverage leaves out.
 constexpr double unmodelled_pixels = 0.02;
 
+constexpr int measuring_steps = 16;
+constexpr double measured_growth_m = 0.0003;  // as prior_growth_m, for a computed image
+// A pose whose image differs more is not used, and others are trusted by how much theirs differ:
+// variance in that of a fitted pose.
+constexpr double largest_measured_rms = 0.22;
+double measured_variance(double rms) {
+    return 0.15 * std::pow(std::max(rms, 0.08) / 0.1, 4);
+}
+
 constexpr int pose_count = 6, param_count = 9;
 using VectorAll = Eigen::Matrix<double, param_count, 1>;
 using MatrixAll = Eigen::Matrix<double, param_count, param_count>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 // A pixel near the board.
 struct Spot {
     Vec3 ray;               // camera frame, z = 1
     double ramp_u, ramp_v;  // along the face, over which coverage goes from 0 to 1, metres
+    int x, y;               // pixel
+    bool is_before_dark;    // too little light comes back from behind
     double shown;           // 1: board, 0: what is behind, 0.5: not measured
 };
-
-struct PixelWindow {
-    int left, top, right, bottom;
-};
-
-PixelWindow window_of(const DepthLookup& lookup, const Pose& camera_from_face,
-                      const LatticeTarget& target) {
-    const Rect r = outline(target);
-    PixelWindow w{lookup.depth.size.width, lookup.depth.size.height, 0, 0};
-    constexpr double rim = 0.03;
-    constexpr int steps = 8;  // lenses bend straight edges
-    for (int i = 0; i <= steps; ++i)
-        for (int j = 0; j <= steps; ++j) {
-            const Vec3 p =
-                camera_from_face * Vec3{r.left - rim + (r.width() + 2 * rim) * i / steps,
-                                        r.bottom - rim + (r.height() + 2 * rim) * j / steps, 0};
-            const auto pixel = project(*lookup.camera, p);
-            if (!pixel)
-                continue;
-            w.left = std::min(w.left, int(pixel->x) - 2);
-            w.right = std::max(w.right, int(pixel->x) + 3);
-            w.top = std::min(w.top, int(pixel->y) - 2);
-            w.bottom = std::max(w.bottom, int(pixel->y) + 3);
-        }
-    return {std::max(w.left, 0), std::max(w.top, 0), std::min(w.right, lookup.depth.size.width),
-            std::min(w.bottom, lookup.depth.size.height)};
-}
-
-Vec3 axis_of(const Pose& pose, int i) {
-    return rotate(pose.rotation, {i == 0 ? 1.0 : 0, i == 1 ? 1.0 : 0, i == 2 ? 1.0 : 0});
-}
 
 Pose stepped(const Pose& pose, const Eigen::Ref<const Vector6>& step) {
     const Vec3 turn{step[0], step[1], step[2]};
@@ -87,88 +68,12 @@ Pose stepped(const Pose& pose, const Eigen::Ref<const Vector6>& step) {
     return pose * Pose{rotation, {step[3], step[4], step[5]}};
 }
 
-// What the measured plane says about a pose close to `pose`: information and its product with the
-// step towards it.
-struct PlaneSays {
-    Matrix6 information = Matrix6::Zero();
-    Vector6 pull = Vector6::Zero();
-};
-
-PlaneSays plane_says(const Plane& plane, const Matrix3& q_covariance, const Pose& pose,
-                     const LatticeTarget& target, const DepthTrust& trust) {
-    const Vec3 normal = axis_of(pose, 2);
-    Eigen::Matrix<double, 3, 6> by_pose = Eigen::Matrix<double, 3, 6>::Zero();
-    Eigen::Matrix3d rays;
-    Eigen::Vector3d longer, depths;  // measured minus expected
-    int i = 0;
-    for (const Vec3& place : depth_places(target)) {
-        const Vec3 p = pose * place;
-        const Vec3 ray = p * (1 / p.z);
-        depths[i] = 1 / plane.inverse_depth({float(ray.x), float(ray.y)});
-        longer[i] = depths[i] - p.z;
-        // A small motion of the face moves the point of this ray along the ray.
-        const double per_normal = 1 / dot(normal, ray);
-        by_pose(i, 0) = place.y * per_normal;
-        by_pose(i, 1) = -place.x * per_normal;
-        by_pose(i, 5) = per_normal;
-        rays.row(i) << ray.x, ray.y, 1;
-        ++i;
-    }
-    const Eigen::Vector3d squares = depths.array().square();
-    Eigen::Matrix3d covariance =
-        squares.asDiagonal() * rays * q_covariance * rays.transpose() * squares.asDiagonal();
-    covariance.array() += trust.common_m * trust.common_m;
-    covariance.diagonal().array() += trust.slow_m * trust.slow_m;
-    const Eigen::Matrix3d information = covariance.inverse();
-    return {by_pose.transpose() * information * by_pose,
-            by_pose.transpose() * information * longer};
-}
-
-// How far away the background is beyond each edge of the outline, and through each hole.
-class BackgroundDepth {
-public:
-    void add(const FacePattern& pattern, Vec2 p, double z_m) {
-        const FacePattern::Inside inside = pattern.inside(p.x, p.y);
-        if (inside.edge() > light_reach_m)
-            return;
-        const bool is_beyond = inside.outline < 0;
-        Mean& own = is_beyond ? beyond_[std::size_t(pattern.side_beyond(p.x, p.y))]
-                              : through_[std::size_t(pattern.nearest_cell(p.x, p.y))];
-        for (Mean* mean : {&own, &all_}) {
-            mean->sum += z_m;
-            ++mean->n;
-        }
-    }
-
-    // Expected for a face at `z_m`, whose normal has this cosine to the line of sight.
-    BackgroundLight light(double z_m, double cos_face) const {
-        const auto light_of = [&](const Mean& mean) {
-            constexpr int enough = 10;
-            const Mean& used = mean.n >= enough ? mean : all_;
-            const double behind_m = used.n > 0 ? used.sum / used.n : 2 * z_m;
-            return background_reflectivity * (z_m / behind_m) * (z_m / behind_m) / cos_face;
-        };
-        BackgroundLight result;
-        std::transform(beyond_.begin(), beyond_.end(), result.outline.begin(), light_of);
-        std::transform(through_.begin(), through_.end(), result.cells.begin(), light_of);
-        return result;
-    }
-
-private:
-    struct Mean {
-        double sum = 0;
-        int n = 0;
-    };
-    Mean all_;
-    std::array<Mean, 4> beyond_{};
-    std::array<Mean, FacePattern::cell_count> through_{};
-};
-
 class Fit {
 public:
     Fit(const DepthLookup& depth, const Image<Ray>& rays, const LatticeMatch& match,
-        const LatticeTarget& target, const DepthTrust& trust)
+        const LatticeTarget& target, FitEffort effort, const DepthTrust& trust)
         : depth_(depth),
+          effort_(effort),
           rays_(rays),
           target_(target),
           pattern_(target, match.face),
@@ -192,6 +97,13 @@ public:
         if (!fit_edges(edges_from_here(), last_steps) || is_far_from_match())
             return {};
         fill_covariance();
+        if (effort_ == FitEffort::measure) {
+            const LatticeFit found = result_;
+            if (measure_edges())
+                fill_measured_covariance();
+            else
+                result_ = found;
+        }
         return result_;
     }
 
@@ -296,72 +208,158 @@ private:
                 pose,
                 pixel_pitch(),
                 board_reach_m(length(eye)),
-                background_.light(pose.translation.z, eye.z / length(eye)),
+                background_.light(pose.translation.z),
                 result_.edges.log_background};
+    }
+
+    // The least squares of the edges about `pose`.
+    struct Normal {
+        MatrixAll a = MatrixAll::Zero();
+        VectorAll b = VectorAll::Zero();
+        double square = 0;
+        int n = 0;
+    };
+
+    // `residual_of` says how much more of the board a spot shows than it should; `seen` how that
+    // changes with the pose.
+    template <class Residual>
+    Normal normal_equations(const SeenEdges& seen, const Pose& pose,
+                            const Residual& residual_of) const {
+        Normal sums;
+        const Pose face_from_camera = inverse(pose);
+        for (const Spot& s : spots_) {
+            const Vec3 d = rotate(face_from_camera.rotation, s.ray);
+            const double t = -face_from_camera.translation.z / d.z;
+            const double u = face_from_camera.translation.x + d.x * t;
+            const double v = face_from_camera.translation.y + d.y * t;
+            const Coverage c = seen.at(u, v, s.ramp_u, s.ramp_v, result_.edges);
+            if (c.by_u == 0 && c.by_v == 0)
+                continue;
+            const double residual = residual_of(s, c);
+            // The face moves by (turn x p + shift); the ray meets it where its z is 0 again.
+            const double slide = -(c.by_u * d.x + c.by_v * d.y) / d.z;
+            VectorAll j;
+            j << -slide * v, slide * u, c.by_u * v - c.by_v * u, -c.by_u, -c.by_v, -slide,
+                c.by_params[0], c.by_params[1], c.by_params[2];
+            sums.a.selfadjointView<Eigen::Lower>().rankUpdate(j);
+            sums.b += residual * j;
+            sums.square += residual * residual;
+            ++sums.n;
+        }
+        sums.a.triangularView<Eigen::StrictlyUpper>() = sums.a.transpose();
+        const double weight = 1 / (share_sigma * share_sigma * edge_pixels_per_measurement);
+        sums.a *= weight;
+        sums.b *= weight;
+        return sums;
+    }
+
+    static void step_params(EdgeParams& params, const VectorAll& p) {
+        params.outline_growth_m += p[6];
+        params.hole_growth_m += p[7];
+        params.log_background += p[8];
     }
 
     bool fit_edges(const SeenEdges& seen, int steps) {
         Pose& pose = result_.camera_from_face;
-        EdgeParams& params = result_.edges;
         for (int step = 0; step < steps; ++step) {
-            MatrixAll a = MatrixAll::Zero();
-            VectorAll b = VectorAll::Zero();
-            double square = 0;
-            int n = 0;
-            const Pose face_from_camera = inverse(pose);
-            for (const Spot& s : spots_) {
-                const Vec3 d = rotate(face_from_camera.rotation, s.ray);
-                const double t = -face_from_camera.translation.z / d.z;
-                const double u = face_from_camera.translation.x + d.x * t;
-                const double v = face_from_camera.translation.y + d.y * t;
-                const Coverage c = seen.at(u, v, s.ramp_u, s.ramp_v, params);
-                if (c.by_u == 0 && c.by_v == 0)
-                    continue;
-                const double residual = s.shown - c.share;
-                // The face moves by (turn x p + shift); the ray meets it where its z is 0 again.
-                const double slide = -(c.by_u * d.x + c.by_v * d.y) / d.z;
-                VectorAll j;
-                j << -slide * v, slide * u, c.by_u * v - c.by_v * u, -c.by_u, -c.by_v, -slide,
-                    c.by_params[0], c.by_params[1], c.by_params[2];
-                a.selfadjointView<Eigen::Lower>().rankUpdate(j);
-                b += residual * j;
-                square += residual * residual;
-                ++n;
-            }
-            if (n < least_edge_pixels)
+            Normal sums = normal_equations(
+                seen, pose, [](const Spot& s, const Coverage& c) { return s.shown - c.share; });
+            if (sums.n < least_edge_pixels)
                 return false;
-            a.triangularView<Eigen::StrictlyUpper>() = a.transpose();
-            const double weight = 1 / (share_sigma * share_sigma * edge_pixels_per_measurement);
-            a *= weight;
-            b *= weight;
-            add_priors(a, b, params);
-            edge_information_ = a;
-            edge_pull_ = b;
+            add_priors(sums, result_.edges, prior_growth_m);
+            edge_information_ = sums.a;
+            edge_pull_ = sums.b;
             const PlaneSays plane =
                 plane_says(result_.plane, result_.plane_covariance, pose, target_, trust_);
-            a.topLeftCorner<6, 6>() += plane.information;
-            b.head<6>() += plane.pull;
-            const VectorAll p = a.ldlt().solve(b);
+            sums.a.topLeftCorner<6, 6>() += plane.information;
+            sums.b.head<6>() += plane.pull;
+            const VectorAll p = sums.a.ldlt().solve(sums.b);
             if (!p.allFinite() || p.head<3>().norm() > 0.2)
                 return false;
             last_step_ = p.head<6>();
             pose = stepped(pose, p.head<6>());
-            params.outline_growth_m += p[6];
-            params.hole_growth_m += p[7];
-            params.log_background += p[8];
-            result_.edge_pixels = n;
-            result_.edge_rms = std::sqrt(square / n);
+            step_params(result_.edges, p);
+            result_.edge_pixels = sums.n;
+            result_.edge_rms = std::sqrt(sums.square / sums.n);
         }
         return true;
     }
 
-    static void add_priors(MatrixAll& a, VectorAll& b, const EdgeParams& params) {
+    // What is measured around a pixel: of 49, how many not at all, and how many behind the board.
+    struct Around {
+        int unseen = 0, behind = 0;
+    };
+    Around around(int x, int y) const {
+        constexpr int arm = 3;
+        Around sums;
+        for (int j = y - arm; j <= y + arm; ++j)
+            for (int i = x - arm; i <= x + arm; ++i) {
+                const bool is_in =
+                    i >= 0 && j >= 0 && i < depth_.depth.size.width && j < depth_.depth.size.height;
+                const int units = is_in ? depth_.depth.row(j)[i] : 0;
+                sums.unseen += units == 0;
+                sums.behind += units * depth_.metres_per_unit *
+                                   result_.plane.inverse_depth(rays_.view().row(y)[x]) >
+                               1.05;
+            }
+        return sums;
+    }
+
+    // Only the border between the board and all else counts: a dark background is often not
+    // measured. Moves the pose by edges until an image that is computed for it shows the same
+    // edges.
+    bool measure_edges() {
+        Pose& pose = result_.camera_from_face_by_edges;
+        result_.camera_from_face = pose;
+        const SeenEdges seen = edges_from_here();
+        find_spots(seen, {0, 0, 0});
+        constexpr int outside_of_light = 36, dark = 6;  // of 49 pixels
+        std::erase_if(spots_,
+                      [&](const Spot& s) { return around(s.x, s.y).unseen > outside_of_light; });
+        // A dark background is often not measured, also far from edges.
+        for (Spot& s : spots_)
+            s.is_before_dark = around(s.x, s.y).behind < dark;
+        result_.edges.outline_growth_m = result_.edges.hole_growth_m = 0;
+        const PixelWindow w = window_of(depth_, pose, target_);
+        EdgePrediction prediction(target_, face_, rays_, w);
+        // The image changes in steps of pixels, so the last pose need not be the best one.
+        LatticeFit best = result_;
+        best.edge_rms = 1;
+        for (int step = 0; step < measuring_steps; ++step) {
+            prediction.compute(pose, background_, result_.edges, board_reach_m(0), mixed_m);
+            Normal sums =
+                normal_equations(seen, pose, [&](const Spot& s, const Coverage&) -> double {
+                    const double expected = prediction.shown(s.x, s.y);
+                    return s.is_before_dark ? (s.shown == 1) - (expected == 1) : s.shown - expected;
+                });
+            if (sums.n < least_edge_pixels)
+                return false;
+            add_priors(sums, result_.edges, measured_growth_m);
+            const double rms = std::sqrt(sums.square / sums.n);
+            if (rms < best.edge_rms) {
+                best.camera_from_face_by_edges = pose;
+                best.edges = result_.edges;
+                best.edge_rms = rms;
+                best.edge_pixels = sums.n;
+                edge_information_ = sums.a;
+            }
+            const VectorAll p = MatrixAll(sums.a + weak_prior()).ldlt().solve(sums.b);
+            if (!p.allFinite() || p.head<3>().norm() > 0.05 || p.segment<3>(3).norm() > 0.05)
+                break;
+            pose = stepped(pose, p.head<6>());
+            step_params(result_.edges, p);
+        }
+        result_ = best;
+        return best.edge_rms < largest_measured_rms;
+    }
+
+    static void add_priors(Normal& sums, const EdgeParams& params, double growth_m) {
         const double values[3] = {params.outline_growth_m, params.hole_growth_m,
                                   params.log_background};
         for (int i = 0; i < 3; ++i) {
-            const double sigma = i < 2 ? prior_growth_m : prior_log_background;
-            a(pose_count + i, pose_count + i) += 1 / (sigma * sigma);
-            b[pose_count + i] -= values[i] / (sigma * sigma);
+            const double sigma = i < 2 ? growth_m : prior_log_background;
+            sums.a(pose_count + i, pose_count + i) += 1 / (sigma * sigma);
+            sums.b[pose_count + i] -= values[i] / (sigma * sigma);
         }
     }
 
@@ -411,6 +409,9 @@ private:
                 spots_.push_back({{rays[x].x, rays[x].y, 1},
                                   ramp(right.x - here.x, under.x - here.x),
                                   ramp(right.y - here.y, under.y - here.y),
+                                  x,
+                                  y,
+                                  false,
                                   shown});
             }
         }
@@ -418,14 +419,29 @@ private:
 
     double pixel_pitch() const { return 2 / (depth_.camera->fx + depth_.camera->fy); }
 
-    // Poses and covariances; growth and walls are left out of them as unknown.
-    void fill_covariance() {
+    static MatrixAll weak_prior() {
         MatrixAll prior = MatrixAll::Zero();
         for (int i = 0; i < pose_count; ++i) {
             const double sigma = i < 3 ? prior_turn : prior_shift_m;
             prior(i, i) = 1 / (sigma * sigma);
         }
-        const MatrixAll inverse_information = (edge_information_ + prior).inverse();
+        return prior;
+    }
+
+    void fill_measured_covariance() {
+        result_.edge_covariance =
+            (edge_information_ + weak_prior()).inverse().topLeftCorner<6, 6>() *
+            measured_variance(result_.edge_rms);
+        const PlaneSays plane = plane_says(result_.plane, result_.plane_covariance,
+                                           result_.camera_from_face_by_edges, target_, trust_);
+        result_.covariance = (result_.edge_covariance.inverse() + plane.information).inverse();
+        result_.camera_from_face =
+            stepped(result_.camera_from_face_by_edges, result_.covariance * plane.pull);
+    }
+
+    // Poses and covariances; growth and walls are left out of them as unknown.
+    void fill_covariance() {
+        const MatrixAll inverse_information = (edge_information_ + weak_prior()).inverse();
         result_.edge_covariance = inverse_information.topLeftCorner<6, 6>();
         const Vector6 to_edges = (inverse_information * edge_pull_).head<6>();
         result_.camera_from_face_by_edges =
@@ -444,6 +460,7 @@ private:
     }
 
     const DepthLookup& depth_;
+    FitEffort effort_;
     const Image<Ray>& rays_;
     const LatticeTarget& target_;
     const FacePattern pattern_;
@@ -460,15 +477,10 @@ private:
 
 }  // namespace
 
-std::array<Vec3, 3> depth_places(const LatticeTarget& target) {
-    const double x = target.width_m * 0.35, y = target.height_m * 0.35;
-    return {Vec3{-x, -y, 0}, Vec3{x, -y, 0}, Vec3{0, y, 0}};
-}
-
 std::optional<LatticeFit> fit_lattice(const DepthLookup& depth, const Image<Ray>& rays,
                                       const LatticeMatch& match, const LatticeTarget& target,
-                                      const DepthTrust& trust) {
-    return Fit(depth, rays, match, target, trust).run();
+                                      FitEffort effort, const DepthTrust& trust) {
+    return Fit(depth, rays, match, target, effort, trust).run();
 }
 
 }  // namespace theatron::registration

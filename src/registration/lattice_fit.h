@@ -46,10 +46,15 @@ struct DepthTrust {
 // the image are taken as independent.
 std::array<Vec3, 3> depth_places(const LatticeTarget& target);
 
+// `measure` also compares the image with one that is computed for the pose, pixel by pixel, so that
+// neither the pixels' grid nor the model of edges shifts the result. It takes about 20 ms more, and
+// pays for means of many frames.
+enum class FitEffort : std::uint8_t { find, measure };
+
 // `rays` has a ray for each pixel of `depth`. Nothing if the fit runs away from `match`, or if too
 // few pixels remain.
 std::optional<LatticeFit> fit_lattice(const DepthLookup& depth, const Image<Ray>& rays,
                                       const LatticeMatch& match, const LatticeTarget& target,
-                                      const DepthTrust& trust = {});
+                                      FitEffort effort, const DepthTrust& trust = {});
 
 }  // namespace theatron::registration
