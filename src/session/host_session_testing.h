@@ -12,6 +12,27 @@
 
 namespace theatron::session {
 
+// All actions of one type.
+template <class T>
+std::vector<T> actions_of(const std::vector<Action>& actions) {
+    std::vector<T> result;
+    for (const Action& a : actions)
+        if (const auto* wanted = std::get_if<T>(&a))
+            result.push_back(*wanted);
+    return result;
+}
+
+// All messages of one type that are sent to a participant.
+template <class T>
+std::vector<T> messages_to(ParticipantId id, const std::vector<Action>& actions) {
+    std::vector<T> result;
+    for (const auto& a : actions_of<action::Send>(actions))
+        if (a.participant == id)
+            if (const auto* message = std::get_if<T>(&a.message))
+                result.push_back(*message);
+    return result;
+}
+
 inline constexpr ParticipantId alice{1}, bob{2}, carol{3}, dave{4};
 
 class Host : public ::testing::Test {
@@ -61,24 +82,13 @@ protected:
     void say(ParticipantId id, const wire::ToHost& message) {
         session.on_control(id, wire::encode(message), now);
     }
-    // Everything of one type that is sent to a participant.
     template <class T>
     std::vector<T> sent(ParticipantId id, const std::vector<Action>& actions) {
-        std::vector<T> result;
-        for (const auto& a : all<action::Send>(actions))
-            if (a.participant == id)
-                if (const auto* m = std::get_if<T>(&a.message))
-                    result.push_back(*m);
-        return result;
+        return messages_to<T>(id, actions);
     }
-    // Everything of one type that is to be done.
     template <class T>
     static std::vector<T> all(const std::vector<Action>& actions) {
-        std::vector<T> result;
-        for (const Action& a : actions)
-            if (const auto* wanted = std::get_if<T>(&a))
-                result.push_back(*wanted);
-        return result;
+        return actions_of<T>(actions);
     }
     template <class T>
     static int count(const std::vector<Action>& actions) {

@@ -129,13 +129,20 @@ Refusal RoomState::apply(ParticipantId from, std::uint32_t number, const request
     return Refusal::none;
 }
 
-Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Release& request) {
-    const auto found = objects_.find(request.object);
+std::pair<Refusal, RoomObject*> RoomState::find_held(ObjectId object, const Grip& grip) {
+    const auto found = objects_.find(object);
     if (found == objects_.end())
-        return Refusal::no_such_object;
-    RoomObject& object = found->second;
-    if (object.grip != Grip{from, request.grip})
-        return Refusal::not_held_by_you;
+        return {Refusal::no_such_object, nullptr};
+    if (found->second.grip != grip)
+        return {Refusal::not_held_by_you, nullptr};
+    return {Refusal::none, &found->second};
+}
+
+Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Release& request) {
+    const auto [refusal, held] = find_held(request.object, {from, request.grip});
+    if (!held)
+        return refusal;
+    RoomObject& object = *held;
     if (!is_sound(request.room_from_object, request.scale))
         return Refusal::malformed;
     object.grip = {};
@@ -147,12 +154,10 @@ Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Relea
 
 Refusal RoomState::apply(ParticipantId from, std::uint32_t number,
                          const request::HandOver& request) {
-    const auto found = objects_.find(request.object);
-    if (found == objects_.end())
-        return Refusal::no_such_object;
-    RoomObject& object = found->second;
-    if (object.grip != Grip{from, request.grip})
-        return Refusal::not_held_by_you;
+    const auto [refusal, held] = find_held(request.object, {from, request.grip});
+    if (!held)
+        return refusal;
+    RoomObject& object = *held;
     if (participants_.count(request.to) == 0)
         return Refusal::no_such_participant;
     object.grip = {request.to, number | given_grip};

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "session/room_object.h"
 
@@ -49,6 +50,8 @@ private:
     RoomChange changed(ObjectId object);
     // True if an object may have so many bytes of properties instead of `before`.
     bool has_room_for(std::size_t bytes, std::size_t before) const;
+    // The object, if this grip holds it.
+    std::pair<Refusal, RoomObject*> find_held(ObjectId object, const Grip& grip);
     Refusal apply(ParticipantId from, std::uint32_t number, const request::Create& request);
     Refusal apply(ParticipantId from, std::uint32_t number, const request::Remove& request);
     Refusal apply(ParticipantId from, std::uint32_t number, const request::Grab& request);

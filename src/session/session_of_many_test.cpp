@@ -6,6 +6,7 @@
 
 #include "geometry/calibration.h"
 #include "session/host_session.h"
+#include "session/host_session_testing.h"
 
 namespace theatron::session {
 namespace {
@@ -67,21 +68,12 @@ protected:
     }
     template <class T>
     std::vector<T> all() const {
-        std::vector<T> result;
-        for (const Action& a : actions)
-            if (const auto* wanted = std::get_if<T>(&a))
-                result.push_back(*wanted);
-        return result;
+        return actions_of<T>(actions);
     }
-    // Everything of one kind that is sent to a participant, in the actions taken last.
+    // In the actions taken last.
     template <class T>
     std::vector<T> sent(ParticipantId id) const {
-        std::vector<T> result;
-        for (const auto& a : all<action::Send>())
-            if (a.participant == id)
-                if (const auto* m = std::get_if<T>(&a.message))
-                    result.push_back(*m);
-        return result;
+        return messages_to<T>(id, actions);
     }
     // What a participant gets of a stream, as it was told in the actions taken last.
     std::string codec_of(ParticipantId id, StreamId stream) const {
