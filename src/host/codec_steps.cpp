@@ -26,8 +26,8 @@ constexpr double raw_size = 18;
 constexpr Size h264_steps[] = {{6, 0.5}, {12, 0.25}};
 constexpr int coarsest_crf = 40;
 
-// Loss outside the region of interest: what the eye overlooks in a cloud of points,
-// and growing with the noise of a time-of-flight sensor.
+// Loss outside the region of interest: invisible in a cloud of points, and growing
+// with the noise of a time-of-flight sensor.
 constexpr const char* loss = "max_error_mm=4,noise_scaled=2";
 
 double jpeg_size(int quality) {

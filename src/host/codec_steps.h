@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the codecs of this build can send less, for session/ladder.h.
+// The codecs of this build with fewer bytes, for the steps of session/ladder.h.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace theatron::host {
 
-// `auto_is_h264`: what automatic colour is just now.
+// `auto_is_h264`: the current choice of automatic colour.
 session::CodecSteps codec_steps(std::shared_ptr<const send::AutoColor> auto_is_h264);
 
 }  // namespace theatron::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --filter of the host: which filters run on which camera, from presets, lines or
-// small files that may change while it runs.
+// --filter of the host: the filters of each camera, from presets, lines or small
+// files that may change while it runs.
 #pragma once
 
 #include <filesystem>
@@ -39,13 +39,13 @@ public:
     // Throws Error with one sentence.
     LoadedFilter load();
 
-    // What the file says now, if it has changed since the last call of load() or
-    // changed(). Throws Error if it says something wrong; then once.
+    // The filter in the file if the file has changed since the last call of load() or
+    // changed(). Throws Error if its content is wrong, once for each change.
     std::optional<LoadedFilter> changed();
 
 private:
     std::string text_;
-    std::filesystem::path file_;  // empty: text_ says it all
+    std::filesystem::path file_;  // empty: text_ is no file
     std::filesystem::file_time_type written_{};
 };
 

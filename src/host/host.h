@@ -23,16 +23,16 @@ struct HostOptions {
     std::vector<std::string> filters;  // filter_choice.h
     net::Endpoint listen;
     std::string name = "operating room";
-    std::string link_host;        // what the link says; empty: found out
-    std::string token;            // empty: kept in the state folder
-    Duration link_lifetime{};     // the links let nobody in after it; 0: they always do
+    std::string link_host;        // the link's host; empty: this machine's address
+    std::string token;            // empty: from the state folder
+    Duration link_lifetime{};     // the links become invalid after it; 0: never
     std::filesystem::path state;  // keys and token; empty: the user's state folder
 };
 
-// Works from construction to destruction, on threads of its own.
+// Runs from construction to destruction, on threads of its own.
 class Host {
 public:
-    // Opens everything; throws Error with one sentence if something cannot be had.
+    // Opens cameras and port. Throws Error with one sentence if one of them cannot be opened.
     Host(const HostOptions& options, const capture::Progress& progress);
     ~Host();
 
@@ -41,22 +41,22 @@ public:
     std::string publish_link() const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
-    // Those whose place in the room nobody knows. They stand side by side, 12 m apart.
+    // The cameras without a known place in the room. They are placed side by side, 12 m apart.
     std::vector<std::string> unregistered_cameras() const;
 
-    // The part of a camera's depth image, in its pixels, that stays exact whatever the
-    // links carry, from the next frame on; empty: all of it. From any thread. Throws
-    // Error with one sentence if it has too many parts or lies outside the image.
+    // The part of a camera's depth image, in its pixels, that stays exact on any link,
+    // from the next frame on; empty: all of it. From any thread. Throws Error with one
+    // sentence if it has too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
 
-    // How a participant should draw, by number or name, or all of them (empty). Throws Error with
-    // one sentence if nobody is meant.
+    // Sets the renderer of a participant, by number or name, or of all (empty). Throws Error with
+    // one sentence if there is no such participant.
     void set_renderer(const std::string& who, const wire::SetRenderer& word);
 
-    // Takes over filter files that were changed. Log lines tell.
+    // Loads filter files again that have changed, and logs it.
     void follow_filter_files();
 
-    // What went on so far: cameras with stages, participants, drops.
+    // Figures since the start: cameras with stages, participants, drops.
     HostFigures figures() const;
     // One line of the same for people.
     std::string status_line() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes on in a host, for people, scripts and monitoring (docs/metrics.md).
+// Figures of a running host, for people, scripts and monitoring (docs/metrics.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,18 +15,18 @@ namespace theatron::host {
 struct HostFigures {
     std::string name;
     double seconds = 0;           // since the host began
-    std::string automatic_color;  // what it is now, and why
+    std::string automatic_color;  // its current choice, and why
     struct Camera {
         send::LaneFigures lane;
-        std::uint64_t dropped_slow = 0;  // given up because a receiver was too slow
+        std::uint64_t dropped_slow = 0;  // dropped because a receiver was too slow
     };
     std::vector<Camera> cameras;
     struct Participant {
         ParticipantId id{};
         std::string name;
-        std::string sent;                         // how much of what it asked for
+        std::string sent;                         // the part of its request that it gets
         std::vector<wire::StreamReport> streams;  // its newest report
-        std::string renderer;                     // how it draws; empty: unknown
+        std::string renderer;                     // as it reports it; empty: unknown
         std::uint64_t refused = 0;                // requests that came too often
     };
     std::vector<Participant> participants;
@@ -51,7 +51,7 @@ nlohmann::json to_json(const HostFigures& figures);
 // The text format of Prometheus, version 0.0.4.
 std::string to_prometheus(const HostFigures& figures);
 
-// A table of what to_json() gave, perhaps on another machine; fields may be missing.
+// A table of the output of to_json(), perhaps of another version; fields may be missing.
 std::string to_table(const nlohmann::json& figures);
 
 }  // namespace theatron::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a host tells over HTTP to those who show a token, /status and /metrics, and how to ask for
-// it.
+// The host's HTTP pages /status and /metrics, which need a token, and a client
+// for /status.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@
 
 namespace theatron::host {
 
-// `tokens`: any of these will do, in the header
-// "Authorization: Bearer TOKEN" or in the query as token=TOKEN.
+// A request needs one of `tokens`, in the header "Authorization: Bearer TOKEN" or in
+// the query as token=TOKEN.
 net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<std::string>& tokens,
                             const std::function<HostFigures()>& figures);
 
-// What a host, perhaps on another machine, answers to /status: see to_json(). Its texts are clean
-// (base/outside_text.h). Throws Error, also at an answer that is nested more deeply than any
-// host's.
+// Asks a host, perhaps on another machine, for /status: see to_json(). Its texts are clean
+// (base/outside_text.h). Throws Error, also for an answer that is nested more deeply than a host's
+// ever is.
 inline constexpr int max_status_depth = 16;
 inline constexpr std::size_t max_status_text = 1000;  // characters of one text in it
 nlohmann::json status_of_host(const net::Link& link);

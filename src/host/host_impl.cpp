@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens on the server's thread.
+// The part of a host that runs on the server's thread.
 #include "host/host_impl.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace theatron::host {
 namespace {
 
-// For participants who do not take the word that the session is over.
+// Time for participants to receive the Goodbye.
 constexpr Duration goodbye_patience = std::chrono::seconds(1);
 
 std::string hex_text(ByteView bytes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inside of a Host: what its threads share.
+// The implementation of a Host: the state that its threads share.
 #pragma once
 
 #include <condition_variable>
@@ -32,23 +32,23 @@ struct Host::Impl {
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     send::ColorWatch color_watch;       // on the thread of the server
-    std::vector<FilterSource> filters;  // by camera; used by who owns the host
+    std::vector<FilterSource> filters;  // by camera; used by the owner of the host
     std::vector<Size> depth_sizes;      // by camera; the same way
     std::thread thread;
     send::MediaQueue media;  // from the lanes to the server's thread
     std::mutex states_mutex;
     std::map<CameraId, wire::CameraState> new_states;  // the same way; the newest of each
-    // Where peers come from; server's thread.
+    // Addresses of peers; server's thread.
     std::map<net::PeerId, std::string> addresses;
     LineLimit joins, changes;  // of log lines; server's thread
     LineLimit strangers;       // the door's thread
-    // Which cameras have a region of interest; server's thread.
+    // The cameras with a region of interest; server's thread.
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;              // lanes; server's thread
     session::PoseBoard poses;                // server's thread
     std::unique_ptr<RoomFile> room_file;     // server's thread
-    std::optional<TimePoint> poses_are_due;  // as the server's alarm is set; server's thread
-    // Frames given up per camera because a receiver was too slow; server's thread.
+    std::optional<TimePoint> poses_are_due;  // time of the server's alarm; server's thread
+    // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
@@ -60,7 +60,7 @@ struct Host::Impl {
 
     std::atomic<std::uint64_t> turned_away = 0;  // strangers
 
-    std::set<net::PeerId> leaving;  // told that the session is over; server's thread
+    std::set<net::PeerId> leaving;  // a Goodbye was sent to them; server's thread
     std::mutex goodbye_mutex;
     std::condition_variable goodbye_changed;
     bool all_left = false;  // guarded by goodbye_mutex
@@ -117,7 +117,7 @@ struct Host::Impl {
 
     void note_left(net::PeerId peer);
 
-    // Tells everybody that the session is over, and waits a little for them to be gone.
+    // Sends a Goodbye to all participants, and waits a little until they have left.
     void say_goodbye();
 
     // From any thread.

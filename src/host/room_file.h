@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The room's objects in a file of the host's state folder (docs/formats/room.md), so that they are
-// still there after a restart. A thread of its own writes: a slow disk delays nobody.
+// The room's objects in a file of the host's state folder (docs/formats/room.md), so that a
+// restart keeps them. An own thread writes, so that a slow disk delays no participant.
 #pragma once
 
 #include <condition_variable>
@@ -16,21 +16,21 @@
 namespace theatron::host {
 
 Bytes encode_room(const session::RoomSnapshot& room);
-// Safe for untrusted input. Status::malformed, also where the checksum is another one.
+// Safe for untrusted input. Status::malformed for damaged bytes and for a wrong checksum.
 Result<session::RoomSnapshot> decode_room(ByteView bytes);
 
 class RoomFile {
 public:
-    // At least between two times that the file is written.
+    // Shortest time between two writes of the file.
     static constexpr Duration interval = std::chrono::seconds(1);
 
-    // Begins the thread.
+    // Starts the thread.
     explicit RoomFile(std::filesystem::path path);
-    // Writes what is not yet written.
+    // Writes a room that still waits.
     ~RoomFile();
 
-    // The room as it was left; an empty one without a file. A damaged file is logged and kept as
-    // `room.damaged`. Throws Error where the file cannot be read.
+    // The saved room; an empty one without a file. A damaged file is logged and kept as
+    // `room.damaged`. Throws Error if the file cannot be read.
     session::RoomSnapshot load();
 
     // From one thread, several times a second: writes the room if it has changed.

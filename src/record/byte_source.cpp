@@ -29,8 +29,8 @@ public:
             close(file_);
             throw Error("'" + path.string() + "' is not a file.");
         }
-        // Whoever would replace the file meanwhile is refused; one that is being recorded is read
-        // without a lock.
+        // The lock keeps other programs from replacing the file; a file that is being recorded is
+        // read without a lock.
         (void)flock(file_, LOCK_SH | LOCK_NB);
         size_ = std::uint64_t(found.st_size);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a recording's bytes come from: a file that may be larger than memory,
-// or bytes in memory.
+// The bytes of a recording: a file that may be larger than memory, or bytes in
+// memory.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ class ByteSource {
 public:
     virtual ~ByteSource() = default;
     virtual std::uint64_t size() const = 0;
-    // Fills `out` from `at` on; false if not all of it is there.
+    // Fills `out` with the bytes from `at` on; false if the source ends before.
     virtual bool read(std::uint64_t at, std::span<std::byte> out) = 0;
 };
 
 class MemorySource final : public ByteSource {
 public:
-    // `bytes` must stay.
+    // `bytes` must outlive this object.
     explicit MemorySource(ByteView bytes) : bytes_(bytes) {}
     std::uint64_t size() const override { return bytes_.size(); }
     bool read(std::uint64_t at, std::span<std::byte> out) override {
@@ -42,7 +42,7 @@ class PartSource final : public ByteSource {
 public:
     PartSource(std::shared_ptr<ByteSource> whole, std::uint64_t begin, std::uint64_t end)
         : whole_(std::move(whole)), begin_(begin), size_(end - begin) {
-        // Parts of parts do not grow into a chain.
+        // A part of a part refers to the whole directly.
         if (const auto* part = dynamic_cast<const PartSource*>(whole_.get())) {
             begin_ += part->begin_;
             whole_ = std::shared_ptr(part->whole_);

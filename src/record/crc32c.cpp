@@ -11,7 +11,7 @@ constexpr std::size_t step = 8;                   // bytes a turn
 
 using Tables = std::array<std::array<std::uint32_t, 256>, step>;
 
-// Table k: what a byte does to the remainder when k more bytes follow it in its turn.
+// Table k: the change of the remainder by a byte that k more bytes follow.
 constexpr Tables make_tables() {
     Tables tables{};
     for (std::uint32_t i = 0; i < 256; ++i) {

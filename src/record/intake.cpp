@@ -8,11 +8,11 @@
 namespace theatron::record {
 namespace {
 
-// After so long without a look the recorder itself was held up, which says nothing of the streams.
+// After this time without a call of news() the recorder itself was delayed, not the streams.
 constexpr Duration late_look = std::chrono::milliseconds(500);
-// A disk that takes nothing for so long is worth a word.
+// A disk that takes nothing for this time is reported.
 constexpr Duration late_disk = std::chrono::milliseconds(1500);
-// A picture this old begins no segment: its camera stands still.
+// A picture this old begins no segment: its camera is stale.
 constexpr Duration oldest_beginning = std::chrono::seconds(60);
 
 std::string name_of(const Intake::Stream& stream) {
@@ -27,7 +27,7 @@ std::string megabytes(std::size_t bytes) {
     return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
 }
 
-// The session's clock is what the host says, which may be anything.
+// Times of the session come from the host and may have any value: no overflow.
 Duration between(TimePoint from, TimePoint to) {
     return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
 }
@@ -67,7 +67,7 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
             entry.captured.reset();
         }
     }
-    // What a former connection's numbers meant is no matter any more.
+    // Setting numbers of an earlier connection are no longer valid.
     if (new_connection)
         current_.settings.clear();
     const bool was_pending = pending_ && pending_->new_connection;
@@ -90,7 +90,7 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
         return setting != description.settings.end() && setting->second == header.setting;
     };
     if (!is_setting(current_)) {
-        // Of an older setting: what was on its way when it changed.
+        // Frames of an older setting were in flight when it changed; they are not recorded.
         if (!pending_ || !is_setting(*pending_))
             return false;
         if (!header.key)
@@ -132,7 +132,7 @@ bool Intake::can_begin_with(const Entry& entry) const {
 
 // A segment of this description begins with this frame.
 bool Intake::begin(Description description, const wire::MediaHeader& header, const Now& now) {
-    // Block times count from there, so no earlier than need be and no later than the frame.
+    // Block times count from this clock: as late as possible, but not after the frame.
     ClockPair clock = now.clock;
     const Duration age = between(header.captured, clock.session);
     if (age > Duration(0) && age < oldest_beginning)
@@ -146,7 +146,7 @@ bool Intake::begin(Description description, const wire::MediaHeader& header, con
         problem_ = e.what();
         return false;
     }
-    // Each segment can be read without the others.
+    // Each segment must be readable alone, so all streams begin with a key frame.
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
@@ -165,7 +165,7 @@ void Intake::begin_segment() {
     }
 }
 
-// Pictures that come late are not missing: what counts is when they were exposed.
+// Late pictures are not missing: their times of exposure are compared.
 void Intake::note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now) {
     if (entry.captured && between(*entry.captured, header.captured) > entry.patience)
         ++entry.stream.interruptions;

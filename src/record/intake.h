@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes into a recording: takes the pictures of live streams as they come,
-// gives those that can be decoded to the recorder, begins its segments, and knows
-// what is missing.
+// The input of a recording: takes the pictures of live streams as they come, gives
+// those that can be decoded to the recorder, begins its segments, and counts
+// missing pictures.
 //
-// Pure but for the recorder: times are given. `now` is always the recording
-// machine's own steady clock; the session's clock only goes into the file.
+// Pure except for the recorder: times are arguments. `now` is always the recording
+// machine's own steady clock; the session's clock is only written into the file.
 #pragma once
 
 #include <map>
@@ -20,10 +20,10 @@ namespace theatron::record {
 
 class Intake {
 public:
-    // A stream of which nothing came for so long, or for three of its pictures, is said to be
-    // missing.
+    // A stream without a picture for this time, or for three of its periods if that is longer, is
+    // reported as missing.
     static constexpr Duration silence_limit = std::chrono::milliseconds(1500);
-    // What is missing is said again so often, as long as more gets lost.
+    // Time between two reports of a stream while more of it gets lost.
     static constexpr Duration news_interval = std::chrono::seconds(1);
 
     // Nothing is created before the first picture.
@@ -36,8 +36,8 @@ public:
         ClockPair clock;
     };
 
-    // These cameras are sent in these settings from now on. If anything but the numbers of the
-    // settings is new, or `new_connection` (the session's clock and all numbers may be new), a
+    // Sets the cameras and settings of the following messages. If anything except the numbers of
+    // settings is new, or with `new_connection` (the session's clock and all numbers may be new), a
     // segment begins with the first key frame in one of the new settings. From any thread, in
     // order with take().
     void describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
@@ -52,11 +52,11 @@ public:
     // asked for. Until then pictures still go into the last one, which may only be renamed.
     void begin_segment();
 
-    // Of this camera nothing more will come, and nothing is missing.
+    // This camera has ended: it sends nothing more, and nothing of it is missing.
     void on_end(CameraId camera);
 
-    // Call some times a second: sentences for a person on what has gone missing since the last
-    // call.
+    // Sentences for the user on losses since the last call.
+    // Call it some times a second.
     std::vector<std::string> news(TimePoint now);
 
     struct Stream {
@@ -65,22 +65,22 @@ public:
         StreamGate::Figures figures;
         // Times without any picture, of more than silence_limit, and connections that were lost.
         std::uint64_t interruptions = 0;
-        // When the first and the last picture came.
+        // Arrival of the first and the last picture.
         std::optional<TimePoint> first, last;
         bool complete() const {
             return figures.recorded > 0 && figures.lost + figures.dropped + interruptions == 0;
         }
     };
-    // All that were ever described. `now`: a stream that is silent is interrupted.
+    // All streams that were ever described. A stream that is silent at `now` is interrupted.
     std::vector<Stream> streams(TimePoint now) const;
 
-    // When the newest picture that came was captured, in session time; of cameras that go on.
-    // Nothing before the first one.
+    // Session time of the newest picture's capture, of cameras that have not ended. Empty before
+    // the first one.
     std::optional<TimePoint> newest_captured() const;
 
-    // Null before the first picture. It lives as long as the intake.
+    // Null before the first picture. It is owned by the intake.
     Recorder* recorder() const;
-    // Why the recording could not begin or has ended by itself, one sentence; empty if it has not.
+    // One sentence if the recording could not begin or has ended by itself; else empty.
     std::string problem() const;
 
 private:
@@ -91,7 +91,7 @@ private:
         TimePoint heard;                    // of it, or of its description
         std::optional<TimePoint> captured;  // the last one recorded, in session time
         bool ended = false, silent = false;
-        std::uint64_t said = 0;  // pictures that were said to be missing
+        std::uint64_t said = 0;  // pictures that were reported as missing
     };
     struct Description {
         std::vector<RecordedCamera> cameras;

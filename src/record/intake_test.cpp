@@ -35,7 +35,7 @@ protected:
         intake->describe(cameras(codec), {{depth, setting}}, new_connection, local);
     }
 
-    // The next frame of the host, which passes on what it is asked for at once.
+    // The next frame of the host, which carries out requests at once.
     bool send(bool key = false) {
         wire::MediaHeader header;
         header.stream = depth;
@@ -57,7 +57,7 @@ protected:
         session += time;
     }
     Intake::Now now() const { return {local, {session, UtcTime(1'700'000'000s)}}; }
-    // What is said about the stream; the disk is another matter.
+    // The sentences on the stream, without those on the disk.
     std::vector<std::string> news() {
         auto sentences = intake->news(local);
         std::erase_if(sentences, [](const std::string& sentence) {

@@ -34,7 +34,7 @@ using namespace libmatroska;
 
 constexpr std::int64_t ns_per_tick = 1000;  // block times count microseconds
 
-// What libebml renders, at the end of a byte sequence.
+// Appends the bytes that libebml renders to a byte sequence.
 class BytesOut final : public IOCallback {
 public:
     explicit BytesOut(Bytes& out) : out_(out) {}

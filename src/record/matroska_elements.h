@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The elements of a Matroska file as bytes (docs/formats/recording.md). Pure: nothing here knows
-// of files. Each function appends to `out`.
+// The elements of a Matroska file as bytes (docs/formats/recording.md). Pure: no files. Each
+// function appends to `out`.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Track {
     std::string codec_id;
     Bytes codec_private;
     int width = 0, height = 0;
-    double frames_per_second = 0;  // 0: not said
+    double frames_per_second = 0;  // 0: unknown
     bool shown = true;             // a player that plays one track may choose this one
 };
 
@@ -54,26 +54,26 @@ struct Block {
 // Block additions with these numbers hold a block's `side`, `note` and `check`.
 inline constexpr int side_id = 2, note_id = 3, check_id = 4;
 
-// A copy of the head is an element that players pass over; its content begins with this.
+// A copy of the head is an element that players skip; its content begins with this.
 inline constexpr std::string_view head_copy_magic = "theatron head 2\n";
 
 struct MatroskaLayout {
     std::vector<Track> tracks;
     std::vector<Attachment> attachments;
     std::vector<Tag> tags;
-    // What `side`, `note` and `check` are, for people who look into the file; empty: there are
+    // Names of `side`, `note` and `check` for people who inspect the file; empty: there are
     // none.
     std::string side_name, note_name, check_name;
-    // Of this file, and of those that belong together; not given: none.
+    // The identifiers of this file and of its family; empty: none.
     std::optional<Uid> uid, family_uid;
     std::optional<UtcTime> utc;  // of time 0; not given: now
     bool repeat_head = false;    // write copies of the head
-    bool replace = true;         // a file that is there and not empty; else it is refused
+    bool replace = true;         // false: a file that exists and is not empty is refused
 };
 
-// What the Info element says.
+// The content of the Info element.
 struct MatroskaInfo {
-    // Of this file, and of those that belong together; not given: none.
+    // The identifiers of this file and of its family; empty: none.
     std::optional<Uid> uid, family_uid;
     UtcTime utc;  // of time 0
 };
@@ -86,27 +86,27 @@ struct MatroskaCue {
 };
 
 void render_ebml_head(Bytes& out);
-// Takes the same number of bytes whatever the duration.
+// Appends the same number of bytes for every duration.
 void render_info(const MatroskaInfo& about, std::int64_t duration_us, Bytes& out);
 void render_tracks(const MatroskaLayout& layout, Bytes& out);
-// Nothing where there are none.
+// Both append nothing for an empty list.
 void render_attachments(const std::vector<Attachment>& attachments, Bytes& out);
 void render_tags(const std::vector<Tag>& tags, Bytes& out);
 
 // An element without content that takes exactly `size` bytes, at least void_head_size.
 void render_void(std::size_t size, Bytes& out);
 inline constexpr std::size_t void_head_size = 9;
-// The head again, in an element that players pass over.
+// A copy of the head in an element that players skip.
 Bytes make_head_copy(ByteView head);
 
 // The size of a segment or of cues, always in eight bytes.
 Bytes render_segment_size(std::uint64_t size);
-// Points at the elements of these names: info, tracks, attachments, tags, cues. `segment`: where
-// the segment's content begins.
+// Refers to the elements with these names: info, tracks, attachments, tags, cues. `segment`: start
+// of the segment's content.
 void render_seek_head(const std::map<std::string, std::uint64_t>& places, std::uint64_t segment,
                       Bytes& out);
 
-// Blocks in the order of their times, at least one, that span no more than a cluster can.
+// `blocks`: at least one, ordered by time, within the time span of a cluster.
 void render_cluster(std::span<const Block> blocks, Bytes& out);
 void render_cue(const MatroskaCue& cue, Bytes& out);
 

@@ -160,8 +160,8 @@ Status read_part(Window& window, const Element& part, FoundHead& head) {
     }
 }
 
-// What stands from the magic of a copy on, if it is intact, and as long as `expected_size` if that
-// is given.
+// The copy of the head whose magic is at `magic_at`, if it is intact and has `expected_size` bytes
+// (if that is given).
 std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at,
                                    std::optional<std::uint64_t> expected_size = {}) {
     std::array<std::byte, head_copy_magic.size() + 8> front;
@@ -185,8 +185,8 @@ std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at,
     return status == Status::ok && !head.tracks.empty() ? std::optional(head) : std::nullopt;
 }
 
-// Calls `visit` with each place between two where these bytes stand, until it returns true. Returns
-// what it returned last.
+// Calls `visit` with each place of these bytes from `begin` to `end`, until it returns true. The
+// result is that of the last call.
 template <class Visit>
 bool find_bytes(ByteSource& source, std::uint64_t begin, std::uint64_t end, ByteView wanted,
                 Visit visit) {
@@ -238,8 +238,8 @@ std::optional<FoundHead> find_copy(ByteSource& source) {
 
 struct PlainHead {
     Status status = Status::ok;
-    FoundHead head;                 // what was understood before that
-    std::optional<FoundHead> copy;  // that was on the way
+    FoundHead head;                 // the parts before the damage
+    std::optional<FoundHead> copy;  // found while reading
 };
 
 // As players do: from the first byte to the first cluster.
@@ -296,14 +296,14 @@ PlainHead read_plain(ByteSource& source) {
             found.status = read_part(window, *part, found.head);
         if (found.status != Status::ok)
             break;
-        // A damaged size of that element would pass over clusters, up to another copy perhaps.
+        // A damaged size of that element would skip clusters, perhaps up to another copy.
         if (part->id == ids::void_element && !found.head.tracks.empty() &&
             !std::exchange(has_passed_copy, true))
             found.copy = read_copy(source, part->begin, part->size());
         at = part->end;
         found.head.clusters_at = at;
     }
-    // What was cut off after its tracks is a recording without pictures.
+    // A file that was cut off after its tracks is a recording without pictures.
     if (found.status == Status::truncated && !found.head.tracks.empty())
         found.status = Status::ok;
     if (found.status == Status::ok && found.head.tracks.empty())

@@ -238,7 +238,7 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
     Window window(source);
     FoundClusters found;
     const std::uint64_t end = window.size();
-    // The file's own head may stand behind what was put before it, or where damage is.
+    // The file's own head may be behind foreign bytes or behind damage.
     bool is_own_head = head.clusters_at == 0;
     // Nothing before this is looked at again, so the time is proportional to the size.
     std::uint64_t understood = head.clusters_at;
@@ -254,7 +254,7 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
             if (understood == element->end)
                 continue;
         } else if (whole && is_beside_clusters(element->id)) {
-            // Its size may be what is damaged: `understood` stays until a cluster follows.
+            // Its size may be damaged: `understood` stays until a cluster follows.
             at = element->end;
             has_end = has_index && element->id == ids::void_element;
             has_index = has_index || element->id == ids::cues;
@@ -278,7 +278,7 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
         at = next.at;
         const std::uint64_t lost = at - understood;
         understood = at;
-        // What a crash or a cut leaves at the end is no damage.
+        // Incomplete bytes at the end of an unclosed file come from a crash or a cut: no damage.
         if ((at == end || next.is_file) && !head.closed) {
             found.cut_bytes = lost;
         } else {

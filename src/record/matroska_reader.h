@@ -2,11 +2,10 @@
 // Reads the Matroska files that MatroskaWriter writes: whole, cut short or
 // damaged.
 //
-// First the head: what the file says before its first block, from the first of
-// its copies that is intact. Then the clusters, one after the other; what is
-// damaged is passed over up to the next cluster. Images stay in the file. Safe
-// for untrusted input: time is proportional to the file's size, and memory is
-// bounded.
+// First the head: everything before the first block, from the first of its
+// copies that is intact. Then the clusters, one after the other; damage is
+// skipped up to the next cluster. Images stay in the file. Safe for untrusted
+// input: time is proportional to the file's size, and memory is bounded.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ struct FoundTrack {
     std::string codec_id;
     Bytes codec_private;
     int width = 0, height = 0;
-    std::uint64_t default_duration_ns = 0;  // 0: not said
+    std::uint64_t default_duration_ns = 0;  // 0: unknown
     bool operator==(const FoundTrack&) const = default;
 };
 
@@ -43,24 +42,24 @@ struct FoundAttachment {
 struct FoundHead {
     std::vector<FoundTrack> tracks;
     std::vector<FoundAttachment> attachments;
-    std::int64_t date_ns = 0;  // since 2001 in UTC, of time 0; 0: not said
-    // A copy of the head or what players read of it is damaged; nothing of it is missing.
+    std::int64_t date_ns = 0;  // since 2001 in UTC, of time 0; 0: unknown
+    // A copy of the head, or the head that players read, is damaged; nothing of it is missing.
     bool damaged = false;
-    std::string recovered;  // the tag of this name: what was missing where this was recovered from
-    // As the file's beginning says, whose copies do not: the time of the last block that was
-    // certainly on the disk (0: not known), and where the segment ends (0: it was never closed).
+    std::string recovered;  // a recovered file: its tag about the missing parts of the original
+    // From the beginning of the file, not from copies: the time of the last block that was
+    // certainly on the disk (0: unknown), and the end of the segment (0: it was never closed).
     std::int64_t duration_us = 0;
     std::uint64_t segment_end = 0;
     bool closed = false;            // the segment has a size, and ends within the file
-    std::uint64_t clusters_at = 0;  // where to look for them
+    std::uint64_t clusters_at = 0;  // position at which the search for them begins
 };
 
-// Everything before the first block may take this much; copies of the head are looked for this far
-// from both ends of the file, before all of a file that has clusters is searched.
+// Most bytes before the first block. Copies of the head are searched within this distance of both
+// ends of the file first, then in all of a file that has clusters.
 inline constexpr std::size_t max_front_bytes = std::size_t(16) << 20;
 
 enum class CopySearch { everywhere, at_the_beginning };
-// malformed: no Matroska file, nor one whose head can be found; truncated: it ends in its head.
+// malformed: no Matroska file, or its head cannot be found; truncated: it ends in its head.
 Result<FoundHead> read_head(ByteSource& source, CopySearch search = CopySearch::everywhere);
 
 using EncodedHeader = std::array<std::byte, wire::media_header_size>;
@@ -78,11 +77,11 @@ struct FoundBlock {
 inline constexpr std::size_t max_note = 4096;
 
 struct FoundClusters {
-    std::uint64_t damaged_places = 0;  // passed over: each up to the next intact cluster
+    std::uint64_t damaged_places = 0;  // skipped: each up to the next intact cluster
     std::uint64_t damaged_bytes = 0;   // in them
     std::uint64_t cut_bytes = 0;       // after the last whole cluster of a file that was not closed
     bool has_end = false;              // the file ends as one of version 2 that was closed
-    // Where another Matroska file stands behind this one's; reading ends there.
+    // Position of another Matroska file behind this one; reading ends there.
     std::optional<std::uint64_t> next_file_at;
 };
 

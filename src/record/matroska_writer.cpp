@@ -38,7 +38,7 @@ int write_at(int file, ByteView bytes, std::uint64_t offset) {
     return 0;
 }
 
-// An empty file that nobody else writes or plays: what is there is cut only once it is locked.
+// Creates a file, locked against other writers and readers; its old content is cut after locking.
 int create(const std::filesystem::path& path, bool replace) {
     const std::string name = "'" + path.string() + "'";
     const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
@@ -213,7 +213,7 @@ std::string MatroskaWriter::finish() {
         trouble = append(bytes);
         if (trouble.empty() && !cues_.empty())
             places_["cues"] = place;
-        // Nobody needs to be told that a disk is full once more.
+        // The full disk has been reported already.
         if (was_cut_back)
             trouble.clear();
     }

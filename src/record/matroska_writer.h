@@ -3,8 +3,8 @@
 // writing ended.
 //
 // A file grows by whole clusters, each handed to the system in one go: after a
-// crash it holds all but the last call's blocks. Knows nothing of what the
-// bytes mean. One thread at a time.
+// crash it holds all but the last call's blocks. Does not interpret the
+// blocks' bytes. One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -19,31 +19,31 @@
 
 namespace theatron::record {
 
-// The first copy of the head stands right behind the head, the others each time that the file has
-// doubled its size since this, and at its end: damage of any one place leaves one.
+// The first copy of the head is directly behind it; further ones follow at this size, each time
+// that the size has doubled, and at the end of the file: damage at one place never destroys all.
 inline constexpr std::uint64_t second_copy_at = std::uint64_t(512) << 10;
 
 class MatroskaWriter {
 public:
     using Layout = MatroskaLayout;
 
-    // Creates `path` and writes everything before the first block. The file is locked as long as
-    // this lives. Throws Error, also where another program records into the file or plays it.
+    // Creates `path` and writes everything before the first block. The file is locked until the
+    // destructor. Throws Error, also if another program records into the file or plays it.
     MatroskaWriter(const std::filesystem::path& path, const Layout& layout);
     MatroskaWriter(const MatroskaWriter&) = delete;
-    // Leaves the file as it is: call finish() first.
+    // Does not finish the file: call finish() before.
     ~MatroskaWriter();
 
-    // Appends blocks, ordered by time within a call. Returns one sentence if that failed, as on a
-    // full disk; the file is then cut back to what was whole before, and takes no more blocks.
+    // Appends blocks, ordered by time within a call. Returns one sentence if it failed, as on a
+    // full disk; the file is then cut back to its last whole state and takes no more blocks.
     std::string write(std::vector<Block> blocks);
 
-    // Waits until the disk has what was written, and then notes in the file how much that is, so
-    // that a cut can be noticed. Returns one sentence if it cannot.
+    // Waits until the disk has all written data, then writes the time of the last block into the
+    // file, so that a later cut can be detected. Returns one sentence if it failed.
     std::string sync();
 
-    // Writes the index, the duration and the size. After a full disk, as much of that as there is
-    // room for. Returns one sentence if that failed; the file opens nevertheless.
+    // Writes the index, the duration and the size; on a full disk as much of these as fits. Returns
+    // one sentence if it failed; the file can be opened nevertheless.
     std::string finish();
 
     std::uint64_t bytes() const { return end_; }
@@ -63,7 +63,7 @@ private:
     bool failed_ = false;
     std::uint64_t end_ = 0;  // of the file
     std::uint64_t cut_bytes_ = 0;
-    std::uint64_t segment_ = 0;                    // where the segment's content begins
+    std::uint64_t segment_ = 0;                    // position of the segment's content
     std::map<std::string, std::uint64_t> places_;  // of the parts that finish() fills in or names
     std::int64_t duration_us_ = 0;
     Bytes head_copy_;  // empty: none are written

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a segment of a recording says about a camera before its first picture.
+// The description of a camera at the beginning of a segment of a recording.
 #pragma once
 
 #include <optional>

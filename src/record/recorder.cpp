@@ -17,16 +17,16 @@ namespace fs = std::filesystem;
 
 constexpr auto write_period = std::chrono::milliseconds(100);
 constexpr auto sync_period = std::chrono::seconds(1);
-// Writing begins before its time when this much has come, and no more is written at once.
+// Writing begins before its time when this many bytes wait, and no more are written at once.
 constexpr std::size_t many_bytes = std::size_t(16) << 20;
-// What a message that waits takes beside its bytes, about.
+// Estimated memory of a waiting message beside its bytes.
 constexpr std::size_t message_overhead = 256;
 
 std::size_t cost_of(const std::shared_ptr<const Bytes>& message) {
     return message_overhead + (message ? message->size() : 0);
 }
 
-// The later segments of the recording that is in `path`; none where there is no recording.
+// The files of the later segments of the recording in `path`; none if there is no recording.
 std::vector<fs::path> later_segments_of(const fs::path& path) {
     std::error_code ignored;
     const auto first = fs::is_regular_file(path, ignored) ? read_segment_info(path) : std::nullopt;
@@ -50,8 +50,8 @@ std::vector<StreamId> streams_of(const std::vector<RecordedCamera>& cameras) {
     return streams;
 }
 
-// The system kills a process whose file reaches the size that is allowed, unless the thread that
-// writes does not take the signal: it then learns the same by EFBIG.
+// The system kills a process whose file reaches the size limit, unless the writing thread blocks
+// the signal: then the call fails with EFBIG.
 void block_file_size_signal() {
     sigset_t set;
     sigemptyset(&set);
@@ -70,7 +70,7 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     info_.clock = clock;
     const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};
     writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace);
-    // Of the recording that was here: in the new one they would stand beside it for ever.
+    // Later segments of the replaced recording must not remain beside the new one.
     for (const fs::path& later : replaced) {
         std::error_code ignored;
         fs::remove(later, ignored);
@@ -85,9 +85,9 @@ Recorder::~Recorder() {
     finish();
 }
 
-// The session's clock may begin anew; this one only goes on. The mutex is held.
+// The session's clock may restart; this time only grows. The mutex must be locked.
 Duration Recorder::own_time(TimePoint now) {
-    // No more than an hour at once: what a host says may be anything.
+    // No more than an hour at once: a host may send any time.
     constexpr Duration most = std::chrono::hours(1);
     const Duration passed =
         std::clamp(from_us(to_us(now) / 2) - from_us(to_us(last_now_) / 2), Duration(0), most / 2) *
@@ -184,7 +184,7 @@ void Recorder::run() {
     oldest_.reset();
 }
 
-// Waits until it is time to write, and moves what is written at once to `batch`. False if nothing
+// Waits until it is time to write, and moves the blocks of one write to `batch`. False if nothing
 // will follow.
 bool Recorder::take(std::deque<Waiting>& batch) {
     std::unique_lock lock(mutex_);
@@ -238,8 +238,8 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     return problem;
 }
 
-// Closes the current segment and makes the file of `next_`. A name that is taken is passed over:
-// it may be another recording's.
+// Closes the current segment and makes the file of `next_`. Existing names are skipped: they may
+// belong to another recording.
 std::string Recorder::begin_next() {
     if (std::string problem = writer_->finish(); !problem.empty())
         return problem;

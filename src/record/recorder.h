@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records encoded streams as they come, without ever holding them up.
+// Records encoded streams in the order of arrival, without ever blocking them.
 //
-// Messages are handed over from any thread and written by a thread of the
-// recorder's own, ten times a second; about once a second it waits until the
-// disk has them. Trouble, as with a full disk, ends the recording and nothing
-// else.
+// Any thread may add messages. A thread of the recorder writes them ten times a
+// second, and waits about once a second until the disk has them. A problem such
+// as a full disk ends the recording and nothing else.
 #pragma once
 
 #include <condition_variable>
@@ -31,10 +30,10 @@ namespace theatron::record {
 class Recorder {
 public:
     struct Options {
-        // Messages that came and are not written yet, those being written included, take up to
-        // this: how long a disk may stand still.
+        // Memory for messages that are not on the disk yet, those being written included. It limits
+        // the time for which a disk may stall.
         std::size_t buffer_bytes = std::size_t(1) << 30;
-        // A file that is there, and the later segments of the recording in it; else it is refused.
+        // Replaces an existing file and the later segments of its recording; false: refuses it.
         bool replace = true;
     };
 
@@ -51,40 +50,40 @@ public:
         std::uint64_t frames = 0;                      // written, depth and colour counted each
         std::uint64_t dropped = 0;                     // came faster than the disk could write
         std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
-        std::size_t waiting_bytes = 0;                 // came, and are not written yet
-        Duration late{};                               // how long the oldest of them waits
+        std::size_t waiting_bytes = 0;                 // of messages that are not written yet
+        Duration late{};                               // waiting time of the oldest of them
         std::uint64_t cut_bytes = 0;                   // that another program cut off its files
         std::uint32_t segments = 1;
-        std::string problem;  // why it has ended by itself, one sentence; empty if it has not
+        std::string problem;  // one sentence if it has ended by itself; else empty
     };
 
-    // Creates the first segment's file, in place of one that is there; later ones get names of
-    // their own beside it (segment_path), and never the name of a file that is there. At most 63
-    // cameras. Throws Error.
+    // Creates the first segment's file, in place of an existing one. Later segments get names of
+    // their own beside it (segment_path), never that of an existing file. At most 63 cameras.
+    // Throws Error.
     Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
              const ClockPair& clock, const Options& options);
     Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
              const ClockPair& clock)
         : Recorder(path, cameras, clock, Options{}) {}
-    // Finishes.
+    // Calls finish().
     ~Recorder();
 
-    // What is added from now on belongs to a new segment: of other cameras, settings or
-    // calibrations, or of a session clock that began anew. Never waits. The file is made when the
-    // segment's first message is written. From any thread, in order with add().
+    // Messages that are added from now on belong to a new segment: cameras, settings or
+    // calibrations have changed, or the session's clock has restarted. Never waits. The file is
+    // made when the segment's first message is written. From any thread, in order with add().
     void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock);
 
     // Takes a whole media message of one of the cameras' streams, which arrived at session time
-    // `now`. Never waits. From any thread. `filters` names those that the depth went through
+    // `now`. Never waits. From any thread. `filters` names the filters of the depth
     // (docs/filters.md); empty: none. A message that was not taken leaves a gap: the stream's next
-    // must be a key frame, or nothing that refers to the missing one can be decoded.
+    // one must be a key frame, because references to the missing one cannot be decoded.
     [[nodiscard]] Added add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
                             TimePoint now, const std::string& filters = {});
 
     // From any thread.
     Figures figures() const;
 
-    // Writes all that was added, and closes the file. Further messages are refused.
+    // Writes all added messages and closes the file. Further messages are refused.
     void finish();
 
 private:
@@ -121,7 +120,7 @@ private:
     std::size_t unseen_bytes_ = 0;   // those being written left out
     TimePoint last_now_;
     Duration own_now_{};
-    std::optional<Duration> oldest_;  // when the oldest of what is being written came
+    std::optional<Duration> oldest_;  // arrival of the oldest message that is being written
     bool finishing_ = false;
     Figures figures_;
 

@@ -78,7 +78,7 @@ TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
             }
             if (write(pipe_ends[1], &n, sizeof(n)) < 0)
                 _exit(1);
-            // The cameras' pace: what may be lost is counted in seconds of the clock.
+            // At the cameras' rate: the loss that is allowed is a time of the clock.
             std::this_thread::sleep_for(10ms);
         }
     }

@@ -23,13 +23,13 @@ constexpr double usual_frames_per_second = 30;
 constexpr std::size_t max_name = 4096;                       // characters
 constexpr std::int64_t max_time_us = std::int64_t(1) << 44;  // of a frame in its segment
 constexpr std::uint64_t max_side_gap = (1 << 14) - 1;
-// What a recorder has not got to the disk yet, usually.
+// Time of a recording that a crash of the machine usually loses: it was not synchronised yet.
 constexpr Duration usual_unsynced = std::chrono::seconds(1);
 constexpr std::uint64_t max_file_bytes = std::uint64_t(1) << 48;
 // Matroska counts from 2001.
 constexpr UtcTime matroska_epoch{std::chrono::sys_days(std::chrono::year(2001) / 1 / 1)};
 
-// What was written in nanoseconds is known to a thousandth of a frame.
+// Rounded to a thousandth of a frame, because the duration was rounded to nanoseconds.
 double frames_per_second(std::uint64_t default_duration_ns) {
     constexpr std::uint64_t shortest = 1'000'000, longest = 60'000'000'000;
     if (default_duration_ns < shortest || default_duration_ns > longest)
@@ -69,7 +69,7 @@ std::map<CameraId, CameraPart> cameras_of(const FoundHead& head) {
     return cameras;
 }
 
-// The header of a block, if block and header are what was recorded.
+// The header of a block, if the checks of block and header pass.
 std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id, bool is_checked) {
     if (!block.side || (is_checked && !block.check))
         return std::nullopt;
@@ -140,7 +140,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
     const std::size_t index = segments_.size();
     std::map<StreamId, StreamContent*> streams;
     for (auto& [id, part] : cameras_of(head)) {
-        // Named anew, because clang 14 does not let a lambda use a structured binding.
+        // A second name, because clang 14 does not let a lambda use a structured binding.
         auto camera =
             std::find_if(cameras_.begin(), cameras_.end(),
                          [wanted = id](const CameraContent& c) { return c.id == wanted; });
@@ -260,11 +260,11 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
     leave_out_repeated(index);
 }
 
-// Of frames that stand in a segment twice, as where a part of a file was copied behind itself, the
-// first ones count.
+// Drops the second copies of frames that a segment contains twice, for example because a part of
+// the file was copied behind itself.
 void RecordingFile::leave_out_repeated(std::size_t segment) {
     if (!segments_[segment].has_info)
-        return;  // in version 1 numbers may begin anew
+        return;  // in version 1 numbers may restart
     const auto leave_out = [&](StreamContent& stream, std::size_t begin) {
         auto& frames = stream.frames;
         const auto is_behind = [](const RecordedFrame& a, const RecordedFrame& b) {

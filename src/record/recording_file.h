@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording to read: its segments as one, its cameras, their streams, and
-// where each frame is.
+// A recording for reading: its segments as one, its cameras, their streams, and
+// the position of each frame.
 //
-// Safe for untrusted files. Images are not looked into but for their checksum:
-// whoever decodes them does so with codecs that are safe themselves.
+// Safe for untrusted files. Only the checksum of an image is checked, not its
+// content: decoders must be safe themselves.
 #pragma once
 
 #include <deque>
@@ -23,9 +23,9 @@
 
 namespace theatron::record {
 
-// Small, for hours of many cameras have tens of millions.
+// Small, because hours of many cameras have tens of millions of frames.
 struct __attribute__((packed, aligned(4))) RecordedFrame {
-    // Since the recording's first frame. The pause between two segments counts as it was, up to
+    // Time since the recording's first frame. A pause between two segments counts at most
     // max_pause.
     Duration time() const { return Duration(time_us); }
 
@@ -42,10 +42,10 @@ struct __attribute__((packed, aligned(4))) RecordedFrame {
 static_assert(sizeof(RecordedFrame) == 28);
 
 inline constexpr Duration max_pause = std::chrono::seconds(10);
-// Of all segments together: ten times what sixteen cameras with colour make in eight hours.
+// Frames of all segments together: ten times those of sixteen cameras with colour in eight hours.
 inline constexpr std::size_t max_frames = std::size_t(1) << 28;
 
-// From this frame on, until the next of these.
+// The filters from this frame on, until the next entry.
 struct FilterChange {
     std::size_t frame = 0;  // of those recorded
     std::string filters;    // docs/filters.md; empty: none
@@ -57,13 +57,13 @@ struct StreamContent {
     std::string codec;  // its setting: "zstd:delta=1"; of JPEG just "jpeg"
     int width = 0, height = 0;
     std::deque<RecordedFrame> frames;  // in the order in which they were recorded
-    // Which filters depth went through before it was encoded; none before the first.
+    // The filters that were applied to depth before encoding; none before the first entry.
     std::vector<FilterChange> filters;
-    // Frames that are there, but whose header is damaged or does not fit the stream.
+    // Frames whose header is damaged or does not fit the stream.
     std::uint64_t damaged = 0;
 };
 
-// What a segment says of a camera, from these frames on.
+// A segment's description of a camera, which applies from these frames on.
 struct CameraPart {
     std::size_t segment = 0;  // its index
     std::size_t first_depth = 0, first_color = 0;
@@ -90,29 +90,29 @@ struct Segment {
     bool has_info = false;     // false: of format version 1, without a session time
     UtcTime begin_utc;         // of its first frame; the epoch: not known
     Duration begin{}, end{};   // its first frame and its last, since the recording's first
-    Duration origin{};         // on the same scale: where its own time 0 is
+    Duration origin{};         // its own time 0, on the same scale
     TimePoint first_captured;  // session time of the first frame in the file
     std::uint64_t frames = 0;
     bool closed = false;  // false: never closed, or cut off
-    // Unless closed: how much is missing at its end, at most; nothing if that is not known.
+    // Unless closed: the most that may be missing at its end; empty if unknown.
     std::optional<Duration> missing_end;
-    std::string recovered;      // what was missing where it was recovered from, as losses_of() says
+    std::string recovered;      // a recovered file: losses_of() of the original
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;
     std::uint64_t refused = 0;      // frames whose header is damaged or does not fit its stream
-    std::uint64_t repeated = 0;     // frames that stand in it once more; these are left out
-    SegmentChain::Foreign foreign;  // what stands behind it in its file, left out
+    std::uint64_t repeated = 0;     // second copies of frames, which are left out
+    SegmentChain::Foreign foreign;  // other content behind it in its file, left out
 
-    // Nothing of it is damaged, and nothing else stands in its file.
+    // True if nothing of it is damaged, and its file contains nothing else.
     bool intact() const {
         return !head_damaged && damaged_places == 0 && repeated == 0 && foreign.files == 0;
     }
     bool complete() const { return closed && intact(); }
 };
 
-// As in "it ends without its end: 2.5 s may be missing"; empty if it was closed.
+// For example "it ends without its end: 2.5 s may be missing"; empty if it was closed.
 std::string end_of(const Segment& segment);
-// What is missing or damaged in it as far as its index shows, one line; empty if nothing is.
+// One line on missing and damaged parts, as far as the index shows them; empty if there are none.
 std::string losses_of(const Segment& segment);
 
 class RecordingFile {
@@ -121,27 +121,27 @@ public:
     // one sentence if it is no recording.
     static std::unique_ptr<RecordingFile> open(const std::filesystem::path& path);
 
-    // The same without exceptions, for bytes from anywhere: of the segments in any order. The first
-    // must be a recording; others that do not belong to it are left out.
+    // The same without exceptions, for untrusted bytes: segments in any order. The first one must
+    // be a recording; others that do not belong to it are left out.
     static Result<std::unique_ptr<RecordingFile>> read(
         std::vector<std::unique_ptr<ByteSource>> sources, std::vector<std::string> files = {});
     static Result<std::unique_ptr<RecordingFile>> read(std::unique_ptr<ByteSource> source);
 
     const std::vector<CameraContent>& cameras() const { return cameras_; }
     const std::vector<Segment>& segments() const { return segments_; }
-    // Those before the first that there is, those between it and the last, and those of
-    // unreadable_files().
+    // Segments missing before the first one and between it and the last one, and at least as many
+    // as unreadable_files().
     std::uint64_t missing_segments() const { return missing_segments_; }
-    // Files that follow by their names, and whose beginning is damaged in all its copies. Their
-    // pictures might be read with the cameras of a segment beside them, but a segment begins
-    // wherever calibrations or codecs change: what they show would be a guess.
+    // Files that follow by their names, and whose head is damaged in all its copies. Their pictures
+    // are not read with the cameras of another segment, because a segment begins wherever
+    // calibrations or codecs change.
     const std::vector<std::string>& unreadable_files() const { return unreadable_files_; }
-    // The file that holds the recording's segment 1, where a later one was opened and the earlier
-    // ones are there; empty otherwise.
+    // The file of the recording's segment 1, if a later one was opened and the earlier ones exist;
+    // else empty.
     const std::string& begins_in() const { return begins_in_; }
     // False if a segment is missing, was never closed, or was cut off or damaged.
     bool complete() const;
-    // No segment is missing, and nothing is damaged. Those that were never closed count as intact.
+    // True if no segment is missing and nothing is damaged. Unclosed segments count as intact.
     bool intact() const;
     std::uint64_t bytes() const;
     // Frames whose header is damaged or does not fit its stream, of all streams.
@@ -149,7 +149,7 @@ public:
     // From the first frame to the last.
     Duration duration() const { return duration_; }
 
-    // The media header of a frame, whose checksum has been looked at.
+    // The media header of a frame; its checksum was checked when the file was opened.
     Result<wire::MediaHeader> read_header(const RecordedFrame& frame) const;
     // malformed: the picture is damaged.
     Status read_payload(const RecordedFrame& frame, Bytes& out) const;

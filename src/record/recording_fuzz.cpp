@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes, as one file or cut into two segments: reading stays inside them and ends, every frame
-// that it names can be read or is damaged, and what is recovered is whole.
+// that it names can be read or is damaged, and a recovered recording is complete.
 #include <unistd.h>
 
 #include <cstdlib>

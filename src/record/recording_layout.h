@@ -17,7 +17,7 @@ inline constexpr const char* segment_info_mime_type = "application/x-theatron-se
 inline constexpr const char* side_name = "theatron.media-header";
 inline constexpr const char* note_name = "theatron.filters";
 inline constexpr const char* check_name = "theatron.check";
-// A tag about a file that was recovered: what was missing in the original.
+// A tag of a recovered file: the losses in the original.
 inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
 inline constexpr const char* no_filters = "off";
 inline constexpr const char* unnamed_filters = "unnamed";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is read is what was recorded, also from files that are cut off or damaged.
+// Reading gives the recorded frames, also from files that are cut off or damaged.
 #include <set>
 
 #include "base/error.h"
@@ -153,7 +153,7 @@ TEST(Recording, CutOffAnywhereOpensUpToTheLastWholeCluster) {
     std::set<std::size_t> counts;
     std::size_t opened = 0;
     for (std::size_t n = 0; n < whole.size(); ++n) {
-        // Of exact size: the sanitizer sees any read past the end.
+        // A copy of exact size: the sanitizer sees any read past the end.
         const Bytes part(whole.begin(), whole.begin() + std::ptrdiff_t(n));
         const auto recording = RecordingFile::read(std::make_unique<MemorySource>(part));
         if (!recording) {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t batch_bytes = std::size_t(4) << 20;
 constexpr std::size_t kept_numbers = 64;  // references reach back a few frames only
 
-// The frames of a stream from its next one on.
+// Reads the frames of a stream one after another.
 class StreamReader {
 public:
     StreamReader(const StreamContent& stream, RecoveredStream& counts)
@@ -26,7 +26,7 @@ public:
         counts_.damaged = stream.damaged;
     }
 
-    // Of a segment; null at its end.
+    // The next frame of this segment; null at its end.
     const RecordedFrame* upcoming(std::size_t segment) const {
         const bool there =
             next_ < stream_.frames.size() && stream_.frames[next_].segment == segment;
@@ -47,7 +47,7 @@ public:
     // Moves on; false if the frame is not to be kept. `begin`: session time of the segment's time
     // 0.
     bool take(const RecordingFile& recording, TimePoint begin, RecordedMessage& out) {
-        // What is referred to across such a place may be another picture of the same number.
+        // A reference across such a place may be to another picture with the same number.
         if (goes_back())
             kept_.clear();
         const RecordedFrame& frame = stream_.frames[next_++];
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    // Then no frame can stand twice in the segment, and none need be remembered.
+    // True if frame numbers only grow: then the segment has no second copies to search for.
     bool numbers_only_grow(std::size_t segment) const {
         std::int64_t grown = 0;
         for (std::size_t i = next_ + 1;
@@ -97,8 +97,8 @@ private:
         return true;
     }
 
-    // A reader leaves out what it takes for a repetition (docs/formats/recording.md). Of version 1
-    // it cannot know them, and frames that were earlier than time 0 are all placed there.
+    // A reader leaves out repetitions (docs/formats/recording.md). In files of version 1 it cannot
+    // recognise them, and all frames that were earlier than time 0 are placed at time 0.
     bool is_new(const wire::MediaHeader& header, std::int64_t time_us) {
         return written_.emplace(header.frame, time_us, payload_.size(), crc32c(payload_)).second;
     }
@@ -111,7 +111,7 @@ private:
     std::deque<FrameNumber> kept_;
     std::optional<Duration> last_;
     bool may_repeat_ = false;
-    // Number, time, size and checksum of those of this segment.
+    // Number, time, size and checksum of the frames of this segment.
     std::set<std::tuple<FrameNumber, std::int64_t, std::size_t, std::uint32_t>> written_;
     Bytes payload_;
 };
@@ -136,7 +136,7 @@ std::vector<RecordedCamera> cameras_in(const RecordingFile& recording, std::size
     return cameras;
 }
 
-// What was written must be as whole as it is said to be.
+// Reads the new file again and checks that it is complete and has this number of frames.
 void check(const std::filesystem::path& file, std::uint64_t frames) {
     const auto written = RecordingFile::read(open_file_source(file));
     if (!written || !(*written)->segments()[0].complete() || (*written)->refused() > 0 ||
@@ -145,7 +145,7 @@ void check(const std::filesystem::path& file, std::uint64_t frames) {
                     "' is not what can be read from it; its disk may be failing.");
 }
 
-// Removes what was written, unless it was kept.
+// Removes the new files on destruction, unless keep() was called.
 class NewFiles {
 public:
     ~NewFiles() {
@@ -201,7 +201,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             throw Error("'" + file.string() + "' exists already; name another file.");
         new_files.add(file);
         SegmentInfo info = segment.info;
-        // Version 1 says no session time: that of its time 0 stands in the headers.
+        // Files of version 1 have no session time: it is taken from the media headers.
         if (!segment.has_info) {
             info.recording = new_uid;
             info.clock.session = segment.first_captured;
@@ -231,11 +231,11 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             }
             if (!first)
                 break;
-            // The writer sorts what it gets at once.
+            // The writer sorts the messages of one call by time.
             if (first->goes_back())
                 flush();
             RecordedMessage message;
-            // As if it had arrived when it was taken: it keeps its place.
+            // The arrival is set to the frame's time, so that the frame keeps its place.
             message.arrived = info.clock.session + (frame->time() - segment.origin);
             if (!first->take(recording, info.clock.session, message))
                 continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that were put one behind the other, and what is recovered of damaged ones.
+// Recovery of damaged files, and of files that contain one another.
 #include "record/recover.h"
 
 #include "base/error.h"
@@ -47,7 +47,7 @@ std::unique_ptr<RecordingFile> recovered(const Bytes& bytes, const fs::path& fol
     return recording;
 }
 
-// No picture is earlier than the one before it, or refers to what is not there.
+// No picture is earlier than the one before it, or refers to a missing one.
 void expect_playable(const RecordingFile& recording) {
     const auto& frames = recording.cameras()[0].depth.frames;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(JoinedFiles, AnotherFileInTheMiddleDoesNotSwallowTheRest) {
             EXPECT_EQ(payload.back(), std::byte{1});
         }
     }
-    // Without its end nobody knows where it ends: its pictures are not taken for this one's.
+    // A foreign file without its end: its pictures are not taken for those of this one.
     Bytes bytes = one;
     bytes.insert(bytes.begin() + std::ptrdiff_t(one.size() / 2), other.begin(),
                  other.begin() + std::ptrdiff_t(other.size() / 2));

@@ -26,8 +26,8 @@ Result<FoundHead> read_own_head(const std::shared_ptr<ByteSource>& source) {
     return read_head(own);
 }
 
-// A file claims to end before `size`, and what stands there is the end of a file that was closed.
-// If only one of the two were so, pictures of one recording could be taken for another's.
+// True if the head gives an end before `size`, and the end of a closed file is there. With only one
+// of the two conditions, pictures of one recording could be taken for another's.
 bool ends_before(const std::shared_ptr<PartSource>& file, const FoundHead& head,
                  std::uint64_t size) {
     if (head.segment_end == 0 || head.segment_end >= size)
@@ -65,7 +65,7 @@ Result<SegmentChain> SegmentChain::read(std::vector<std::unique_ptr<ByteSource>>
         if (!head) {
             if (i == 0)
                 return head.error();
-            // Its name says that it belongs here, and nothing else can be known of it.
+            // By its name the file belongs to the recording; nothing else is known of it.
             chain.unreadable_.push_back(std::move(files[i]));
             continue;
         }
@@ -74,7 +74,7 @@ Result<SegmentChain> SegmentChain::read(std::vector<std::unique_ptr<ByteSource>>
             chain.first_ = info;
         else if (!chain.follows(info, number_of(chain.first_)))
             continue;
-        // Of a file that was copied beside the original, the first one counts.
+        // If there are two copies of a segment, the first one is used.
         chain.waiting_.try_emplace(number_of(info),
                                    Member{source, std::move(*head), info, std::move(files[i])});
     }

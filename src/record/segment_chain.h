@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of a recording, in their order: which of some files belong to it, and which parts
-// of files that were put one behind the other. Safe for untrusted input.
+// The segments of a recording, in their order: finds the files that belong to it, and the parts of
+// files that were joined one behind another. Safe for untrusted input.
 #pragma once
 
 #include <map>
@@ -15,9 +15,9 @@
 
 namespace theatron::record {
 
-// Of version 1: nothing.
+// The segment info of a head; empty for files of version 1.
 std::optional<SegmentInfo> segment_info_of(const FoundHead& head);
-// Of a file. Nothing also where it is no recording or cannot be read.
+// The segment info of a file; empty also if it is no recording or cannot be read.
 std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file);
 
 class SegmentChain {
@@ -29,29 +29,29 @@ public:
         std::string file;
     };
 
-    // Reads the heads of `sources`, named `files`; the first one says which recording it is. Files
-    // of another recording, those with a smaller number, and second copies are left out.
+    // Reads the heads of `sources`, named `files`; the first one identifies the recording. Files of
+    // another recording, those with a smaller number, and second copies are left out.
     static Result<SegmentChain> read(std::vector<std::unique_ptr<ByteSource>> sources,
                                      std::vector<std::string> files);
 
     // The next segment; nothing after the last one.
     std::optional<Member> take();
 
-    // Other files that stand in a segment's file, behind the segment, and do not follow it.
+    // Other files in a segment's file, behind the segment, that do not follow it in the recording.
     struct Foreign {
         std::uint64_t files = 0, bytes = 0;
     };
     struct Behind {
         Foreign foreign;
-        // Another file stands in the middle of the member's: here the member goes on.
+        // Another file is in the middle of the member's file: the member continues here.
         std::optional<std::uint64_t> goes_on_at;
     };
-    // Behind the member that was taken last, from `at` on, stand one or more files. Those that
-    // follow in the recording become members.
+    // Reads the files behind the member that was taken last, from `at` on. Those that follow in the
+    // recording become members.
     Behind add_behind(const Member& taken, std::uint64_t at);
 
-    // After the last one was taken: how many segments between the first and the last are not there,
-    // and at least as many as files that cannot be read although their names say that they follow.
+    // After the last one was taken: the number of missing segments between the first and the last,
+    // and at least the number of unreadable() files.
     std::uint64_t missing() const;
     const std::vector<std::string>& unreadable() const { return unreadable_; }
 

@@ -52,7 +52,7 @@ TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
 TEST(Recorder, ReplacesARecordingWithAllItsSegments) {
     const testing::TemporaryFolder folder, other;
     record_segments(folder.path(), 4);
-    // What is not of that recording stays.
+    // Files of other recordings stay.
     record_segments(other.path(), 2);
     fs::rename(other.path() / "a.002.mkv", folder.path() / "a.003.mkv");
     write_bytes(folder.path() / "a.005.mkv", Bytes(10));

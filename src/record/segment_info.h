@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording is a chain of segments, each a file of its own. This says which
-// one a file is, and what the session's clock meant in it.
+// A recording is a chain of segments, each a file of its own. SegmentInfo is the
+// place of a file in this chain and the meaning of the session's clock in it.
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ struct ClockPair {
 
 struct SegmentInfo {
     Uid recording{};           // the same in all segments of a recording
-    std::uint32_t number = 1;  // counts them
+    std::uint32_t number = 1;  // of the segment, from 1
     // Block times count from `clock.session`.
     ClockPair clock;
     bool operator==(const SegmentInfo&) const = default;
 };
 
 inline constexpr std::size_t segment_info_size = 48;
-// A name has room for more, but nobody changes cameras so often.
+// Names have room for more digits, but so many changes of cameras are not expected.
 inline constexpr std::uint32_t max_segments = 9999;
 
 // Layout of docs/formats/recording.md.
@@ -41,13 +41,13 @@ Bytes encode_segment_info(const SegmentInfo& info);
 // Safe for untrusted input.
 Result<SegmentInfo> decode_segment_info(ByteView bytes);
 
-// Where a recording that begins in `first` has its segment `number`: "a.mkv", "a.002.mkv".
+// The file of segment `number` of a recording that begins in `first`: "a.mkv", "a.002.mkv".
 std::filesystem::path segment_path(const std::filesystem::path& first, std::uint32_t number);
 
 // One sentence if the names of later segments would be longer than the system allows; else empty.
 std::string name_problem(const std::filesystem::path& first);
 
-// Two that are made anew are never equal.
+// 128 random bits.
 Uid make_uid();
 
 }  // namespace theatron::record

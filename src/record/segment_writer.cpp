@@ -9,7 +9,7 @@
 namespace theatron::record {
 namespace {
 
-// What comes from outside may be any time: differences of these fit.
+// Times from outside may have any value; they are limited so that their differences fit.
 constexpr std::int64_t far_us = std::int64_t(1) << 60;
 
 MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
@@ -40,7 +40,7 @@ MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
         track.shown = !is_depth(id);
         layout.tracks.push_back(std::move(track));
     };
-    // What players can play comes first.
+    // Tracks that players can play come first.
     for (const RecordedCamera& camera : cameras)
         if (camera.color) {
             const bool jpeg = camera.color->codec.starts_with("jpeg");
@@ -94,7 +94,7 @@ std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
         recent_us_[{header.stream, header.frame}] = block.time_us;
         block.payload = wire::media_payload(*one.message);
         block.side = ByteView(*one.message).first(wire::media_header_size);
-        // Said where it changes, and again in key frames, where reading may begin anew.
+        // Written at each change, and again in key frames, where reading may begin.
         std::string& filters = filters_[header.stream];
         if (is_depth(header.stream) &&
             (filters != one.filters || (header.key && !filters.empty()))) {

@@ -17,32 +17,32 @@
 
 namespace theatron::record {
 
-// A whole media message as it came.
+// A whole media message, unchanged.
 struct RecordedMessage {
     wire::MediaHeader header;
     std::shared_ptr<const Bytes> message;
-    std::string filters;  // that its depth went through (docs/filters.md); empty: none
+    std::string filters;  // of its depth (docs/filters.md); empty: none
     TimePoint arrived;    // session time
 };
 
-// A picture that says that it was taken longer than this before it arrived, or this much after,
-// is placed where it arrived. Its header keeps what it says.
+// A picture whose capture time is more than max_picture_age before its arrival, or more than
+// max_picture_lead after it, gets the time of its arrival. Its header is not changed.
 inline constexpr Duration max_picture_age = std::chrono::seconds(60);
 inline constexpr Duration max_picture_lead = std::chrono::seconds(1);
 
-// Where a picture stands in a segment that began at `begin`: microseconds, from 0 to
-// max_block_us, whatever the times are.
+// The time of a picture's block in a segment that began at `begin`: microseconds, from 0 to
+// max_block_us for any values of the times.
 std::int64_t block_time_us(TimePoint captured, TimePoint arrived, TimePoint begin);
 inline constexpr std::int64_t max_block_us = std::int64_t(1) << 52;
 
 class SegmentWriter {
 public:
-    // Creates the file, in place of one that is there. `recovered`: what was missing where this is
-    // recovered from; empty: nothing, or it is not. Throws Error.
+    // Creates the file; `replace`: in place of an existing one. `recovered`: losses of the original
+    // of a recovered file; empty if there are none or it is no recovered file. Throws Error.
     SegmentWriter(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
                   const SegmentInfo& info, bool replace = true, const std::string& recovered = {});
 
-    // Each returns one sentence if it failed. After that, only finish() makes sense.
+    // Each returns one sentence if it failed; then only finish() may be called.
     std::string write(std::span<const RecordedMessage> messages);
     std::string sync() { return writer_.sync(); }
     std::string finish() { return writer_.finish(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recording is made of: a session that was joined, or cameras of one's own.
+// The source of a recording: a joined session, or cameras of this machine.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class RecordSource {
 public:
     virtual ~RecordSource() = default;
 
-    // Does what is to be done between frames. Throws Error if there will be no
-    // recording. From one thread.
+    // Does the work between frames; call it often. Throws Error if there will be
+    // no recording. From one thread.
     virtual void tick() = 0;
     virtual Intake& intake() = 0;
     virtual Intake::Now now() const = 0;

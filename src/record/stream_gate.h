@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which frames of a live stream a recording takes, without decoding any: from a
-// key frame on, those whose reference has been recorded too. Counts what is
-// missing, and says when to ask for a key frame.
+// Chooses the frames of a live stream that a recording takes, without decoding any:
+// after a key frame, those whose reference has been recorded too. Counts missing
+// frames, and decides when to request a key frame.
 //
 // Pure: times are the recorder's own clock at arrival, so that the session's
-// clock, which may be anything, is never compared with it.
+// clock, which may have any value, is never compared with it.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace theatron::record {
 
 class StreamGate {
 public:
-    // A stream with references is asked for a key frame this often. One frame, a request's way
-    // and the host's tick later it is there: in less than two seconds.
+    // Time between requests for key frames of a stream with references. The key frame arrives one
+    // frame, a request's travel time and the host's tick later: in less than two seconds.
     static constexpr Duration key_period = std::chrono::milliseconds(1500);
-    // A key frame that does not come is asked for again.
+    // A key frame that does not come is requested again after this time.
     static constexpr Duration key_patience = std::chrono::milliseconds(700);
 
     // `phase`, from zero to key_period, is when in each period the key frame is asked for: that
@@ -34,10 +34,10 @@ public:
     };
     Answer on_frame(const wire::MediaHeader& header, TimePoint now);
 
-    // The frame that was to be recorded just now could not be: what follows waits for a key frame.
-    // True if that should be asked for.
+    // The frame that on_frame() accepted last was dropped: recording continues with a key frame.
+    // True if one should be requested now.
     bool on_dropped(TimePoint now);
-    // What follows waits for a key frame: a segment or a connection begins.
+    // Recording continues with a key frame: a segment or a connection begins.
     void close();
 
     // The next frame that refers to another asks for a key frame, although nothing is missing.
@@ -47,8 +47,8 @@ public:
 
     struct Figures {
         std::uint64_t recorded = 0;
-        // Frames that never came, or without what they refer to. Those before the first key
-        // frame belong to no recording.
+        // Frames that never came, or came without their reference. Frames before the first key
+        // frame do not count.
         std::uint64_t lost = 0;
         std::uint64_t dropped = 0;  // given to on_dropped()
     };

@@ -12,11 +12,11 @@ struct BoardHit {
     float cos_incidence = 0;  // between the surface's normal and the ray
 };
 
-// What one ray of a camera (its direction with z = 1) meets: a face, the wall of a hole, an outer
-// side.
+// The point of the board that a ray of a camera (direction with z = 1) meets: on a face, the wall
+// of a hole, or an outer side.
 BoardHit hit_board(const LatticeTarget& target, const Pose& board_from_camera, Ray ray);
 
-// For each ray of `rays`.
+// The same for each ray of `rays`.
 Image<BoardHit> board_image(const LatticeTarget& target, const Pose& camera_from_board,
                             const Image<Ray>& rays);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the depth images of several cameras to where they are, while somebody carries the board.
+// Computes the places of several cameras from their depth images, while a person carries the board.
 //
-// Wherever the board is held still, each camera that sees it averages some frames and makes one
-// view. Views of the same moment belong to one place of the board. Time comes with the frames.
+// While the board is at rest, each camera that sees it averages some frames and makes one view.
+// Views of the same moment belong to one place of the board. Times are those of the frames.
 #pragma once
 
 #include <optional>
@@ -25,21 +25,22 @@ class BoardSession {
 public:
     static constexpr int frames_per_view = 30;
 
-    // At least one camera; `target` is valid.
+    // `cameras` must have at least one; `target` must be valid.
     BoardSession(std::vector<SessionCamera> cameras, const LatticeTarget& target);
 
-    // What the last frame of a camera showed.
+    // The result of a camera's last frame.
     enum class Sight { no_board, moving, averaging, taken };
 
-    // `depth` has the camera's size; times of one camera grow. True if a view was taken.
+    // `depth` must have the camera's size, and the times of a camera must grow. True if a view was
+    // taken.
     bool add(std::size_t camera, DepthView depth, TimePoint captured);
 
     Sight sight(std::size_t camera) const { return cameras_[camera].sight; }
-    // Views of this camera, and how many ninths of its picture the board's middle was in.
+    // Views of this camera, and the number of ninths of its picture that had the board's middle.
     int views(std::size_t camera) const;
     int coverage(std::size_t camera) const;
-    // Places that both saw, and the root mean square of how far apart the two have the board's
-    // corners there, metres.
+    // Places that both cameras saw, and the root mean square of the distances between the board's
+    // corners there according to either camera, metres.
     struct Pair {
         std::size_t a = 0, b = 0;
         int places = 0;
@@ -48,7 +49,7 @@ public:
     std::vector<Pair> pairs(const RigSolution& solution) const;
 
     int places() const { return int(places_.size()); }
-    // Every camera is joined to every other, and has this many views at least.
+    // True if all cameras are joined by shared places, and each has at least this many views.
     bool is_complete(int views) const;
     // The mean of the last still frames; empty before there was one.
     const DepthImage& last_mean(std::size_t camera) const { return cameras_[camera].mean; }
@@ -56,7 +57,7 @@ public:
 
     RigSolution solve() const;
 
-    // Why `solution` must not be used, as a sentence that says what to do; empty if it may.
+    // A sentence with the problem of `solution` and its remedy; empty if the solution may be used.
     std::string problem(const RigSolution& solution) const;
 
 private:

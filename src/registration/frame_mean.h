@@ -16,7 +16,7 @@ public:
 
     explicit FrameMean(Size size);
 
-    // `depth` has the size that was given.
+    // `depth` must have the size given to the constructor.
     void add(DepthView depth);
     int frames() const { return frames_; }
 

@@ -10,9 +10,9 @@ namespace theatron::registration {
 namespace {
 
 constexpr int sparse_step = 2;
-// Of the board's area: parts may be hidden, and other things may lie on its plane.
+// Shares of the board's area: parts may be hidden, and other objects may lie in its plane.
 constexpr double least_area_share = 0.45, largest_area_share = 1.7;
-// A fit whose edges do not lie where the image has its edges is no board.
+// A fit with a larger distance between its edges and those of the image is no board.
 constexpr double largest_edge_rms = 0.42;
 // With this agreement no better one is looked for.
 constexpr double sure_agreement = 0.97;

@@ -24,7 +24,7 @@ public:
     // `target` must be valid.
     LatticeDetector(const CameraModel& camera, double depth_unit_mm, const LatticeTarget& target);
 
-    // `depth` has the camera's size. Nothing where the board is not seen well enough.
+    // `depth` must have the camera's size. Empty if the board is not seen well enough.
     std::optional<Detection> detect(DepthView depth, FitEffort effort = FitEffort::find);
 
 private:

@@ -168,7 +168,7 @@ void SeenEdges::add(const Sides& sides, bool is_hole, double u, double v, double
         slope[i] = x < 1 ? 1 / width : 0;
     }
     const double across = covered[0] * covered[2], up = covered[1] * covered[3];
-    // What the share gains where a side moves outwards.
+    // Derivative of the share when a side moves outwards.
     const std::array<double, 4> gain{
         outward * slope[0] * covered[2] * up, outward * slope[1] * covered[3] * across,
         outward * slope[2] * covered[0] * up, outward * slope[3] * covered[1] * across};

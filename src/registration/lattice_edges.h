@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The share of a pixel that a lattice board covers, as a time-of-flight camera sees it.
+// The share of a pixel that a lattice board covers for a time-of-flight camera.
 //
-// A pixel that two surfaces share is measured as the one that sends back more light, pulled towards
-// the other, or not at all. So the outline looks larger than drawn and the holes smaller, the more
-// so the brighter the board is than what is behind. The wall of a hole, seen at a slant, belongs to
-// the board, but it is darker than the face. Where an edge appears follows from the light of the
-// three: that of the walls is known from their angle, that of the background is a parameter.
+// A pixel with two surfaces measures the one that returns more light, pulled towards the other, or
+// has no measurement. So the outline appears larger than drawn and the holes smaller, the more so
+// the brighter the board is than the background. The wall of a hole, seen at an angle, belongs to
+// the board, but it is darker than the face. The apparent place of an edge follows from the light
+// of these three: the walls' is known from their angle, the background's is a parameter.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ inline constexpr double farthest_pull_m = 0.3, given_up_m = 0.032;
 
 struct EdgeParams {
     double outline_growth_m = 0, hole_growth_m = 0;  // of the board, outwards and into its holes
-    double log_background = 0;  // light of what is behind, against what was expected
+    double log_background = 0;  // logarithm of the background's light relative to the expected
 };
 
 struct Coverage {
@@ -40,21 +40,21 @@ struct BackgroundLight {
     std::array<double, LatticeTarget::columns * LatticeTarget::rows> cells{};  // row by row
 };
 
-// Light is per area as seen, in that of the face.
+// Light per apparent area, relative to that of the face.
 struct EdgeLight {
     double wall_px = 0;  // width of the wall beside the face's edge, as seen
     double wall = 0;
     double background = 0;
 };
 
-// What still counts as the board: what is measured at most `board_m` behind the face's plane.
+// Measurements at most `board_m` behind the face's plane count as the board.
 struct EdgeReach {
     double board_m = 0.02;
     double cos_face = 1;  // between the face's normal and the line of sight
     double thickness_m = 0;
 };
 
-// How the light of neighbouring pixels mixes across an edge in some direction of the picture.
+// The mixing of light of neighbouring pixels across an edge in some direction of the picture.
 class PixelBlur {
 public:
     explicit PixelBlur(Vec2 direction);  // unit vector, at a right angle to the edge
@@ -67,23 +67,23 @@ private:
     std::array<double, int(2 * reach / step) + 1> below_{};
 };
 
-// Where the edge between a face, the wall beside it and what is behind appears, in pixels from the
-// face's edge outwards: half-way between the last pixel that is measured as the board and the first
-// that is measured as what is behind.
+// The apparent place of the edge between a face with the wall beside it and the background, in
+// pixels from the face's edge outwards: half-way between the last pixel that is measured as the
+// board and the first that is measured as background.
 double apparent_edge_px(const PixelBlur& blur, const EdgeLight& light, const EdgeReach& reach);
 
-// The pattern of one face as it is seen from one place.
+// The apparent pattern of one face for a camera at one place.
 class SeenEdges {
 public:
-    // `pitch` is the angle of a pixel, radians; the camera lies before the face;
-    // `board_reach_m` how far behind the face a measurement still counts as the board.
+    // `pitch` is the angle of a pixel, radians; the camera must lie before the face; measurements
+    // up to `board_reach_m` behind the face count as the board.
     SeenEdges(const LatticeTarget& target, Face face, const Pose& camera_from_face, double pitch,
               double board_reach_m, const BackgroundLight& background, double log_background);
 
     // At (u, v) on the face, for pixels that blur an edge over `ramp_u` and `ramp_v` metres.
     Coverage at(double u, double v, double ramp_u, double ramp_v, const EdgeParams& params) const;
 
-    // Whether an edge appears within `reach_m` of a place.
+    // True if an edge appears within `reach_m` of a place.
     bool is_near_edge(double u, double v, double reach_m) const {
         const int i = pattern_.nearest_cell(u, v);
         return outline_.is_near(u, v, reach_m) ||
@@ -98,8 +98,8 @@ private:
             return std::abs(inside) < reach_m;
         }
 
-        std::array<double, 4> place{};          // where each side appears
-        std::array<double, 4> by_background{};  // how that changes with log_background
+        std::array<double, 4> place{};          // apparent place of each side
+        std::array<double, 4> by_background{};  // its derivative by log_background
     };
     struct Viewpoint;
     static Sides seen(const Rect& drawn, bool is_hole, const Viewpoint& from,

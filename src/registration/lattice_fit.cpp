@@ -29,14 +29,14 @@ constexpr double free_of_edges_pixels = 3;  // pixels that show the plane alone
 constexpr int least_plane_pixels = 200, least_edge_pixels = 100;
 constexpr double mixed_m = 0.04;     // pulled off the board by what is behind it, no further
 constexpr double farthest_m = 0.04;  // from the match
-// Deviations of what is known beforehand.
+// Standard deviations of the priors.
 constexpr double prior_growth_m = 0.002, prior_log_background = 0.7;
 constexpr double prior_turn = 0.2, prior_shift_m = 0.2;  // keep far views solvable
-// Of the share of a pixel that is seen, and noise is smooth over some pixels: that many
-// count as one measurement.
+// Standard deviation of a pixel's seen share. Noise is smooth over some pixels: this number of
+// pixels counts as one measurement.
 constexpr double share_sigma = 0.16;
 constexpr double pixels_per_measurement = 8, edge_pixels_per_measurement = 4;
-// Errors of the edges that no number of pixels lowers: what the model of coverage leaves out.
+// Errors of the edges that more pixels do not lower: the model of coverage is not exact.
 constexpr double unmodelled_pixels = 0.02;
 
 constexpr int measuring_steps = 16;
@@ -58,7 +58,7 @@ struct Spot {
     double ramp_u, ramp_v;  // along the face, over which coverage goes from 0 to 1, metres
     int x, y;               // pixel
     bool is_before_dark;    // too little light comes back from behind
-    double shown;           // 1: board, 0: what is behind, 0.5: not measured
+    double shown;           // 1: board, 0: background, 0.5: not measured
 };
 
 Pose stepped(const Pose& pose, const Eigen::Ref<const Vector6>& step) {

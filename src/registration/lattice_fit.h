@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits the lattice to the pixels of one depth image.
 //
-// Two measurements that err differently give the pose. The edges: for each pixel near an edge the
-// share of it that the board covers is compared with what the pixel shows, so that edges are found
-// to small fractions of a pixel; this needs no accurate depth. And the depth of the face, a plane
-// from thousands of pixels: it has little noise, but the camera's fixed errors. Both are given
-// apart, so that a solver over several cameras and poses can find those errors.
+// The pose follows from two measurements with different errors. For each pixel near an edge, the
+// share that the board covers is compared with the share that the pixel shows, so that edges are
+// found to small fractions of a pixel; this needs no accurate depth. The depth of the face is a
+// plane from thousands of pixels: it has little noise, but the camera's fixed errors. Both are
+// returned separately, so that a solver over several cameras and poses can find those errors.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@
 namespace theatron::registration {
 
 using Matrix3 = Eigen::Matrix3d;
-// Of a pose: rotation about its own axes (radians), then translation along them (metres).
+// Covariance of a pose: rotation about its axes (radians), then translation along them (metres).
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 struct LatticeFit {
@@ -36,14 +36,14 @@ struct LatticeFit {
     int plane_pixels = 0, edge_pixels = 0;
 };
 
-// How well depth is known beforehand, metres.
+// Standard deviations of depth errors beforehand, metres.
 struct DepthTrust {
     double common_m = 0.004;  // deviation of the error that a whole face shares
     double slow_m = 0.0015;   // of the error that changes slowly over the image
 };
 
-// The places on a face whose measured depth tells its plane. Their errors that change slowly over
-// the image are taken as independent.
+// The places on a face whose measured depths determine its plane. Their errors that change slowly
+// over the image are treated as independent.
 std::array<Vec3, 3> depth_places(const LatticeTarget& target);
 
 // `measure` also compares the image with one that is computed for the pose, pixel by pixel, so that
@@ -51,8 +51,8 @@ std::array<Vec3, 3> depth_places(const LatticeTarget& target);
 // pays for means of many frames.
 enum class FitEffort : std::uint8_t { find, measure };
 
-// `rays` has a ray for each pixel of `depth`. Nothing if the fit runs away from `match`, or if too
-// few pixels remain.
+// `rays` has a ray for each pixel of `depth`. Empty if the fit moves too far from `match`, or if
+// too few pixels remain.
 std::optional<LatticeFit> fit_lattice(const DepthLookup& depth, const Image<Ray>& rays,
                                       const LatticeMatch& match, const LatticeTarget& target,
                                       FitEffort effort, const DepthTrust& trust = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a depth image: the detector stays inside its buffers, ends, and what it finds is
-// finite and lies in front of the camera.
+// Any bytes as a depth image: the detector stays inside its buffers and ends, and its result is
+// finite and in front of the camera.
 #include <cmath>
 #include <cstdlib>
 #include <utility>

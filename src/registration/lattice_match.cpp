@@ -13,7 +13,7 @@ constexpr double rim_m = 0.04;  // around the outline nothing may lie on the pla
 constexpr double least_known = 0.5;
 constexpr double half_known = 0.65;  // below, the agreement has to be twice as good
 
-// Most planes are given up in the coarse picture.
+// The coarse picture rules out most planes.
 struct Stage {
     double cell_m;
     int arm;                 // of edge_angle

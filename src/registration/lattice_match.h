@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the lattice's pattern on a plane: which face, which way up, and where to
-// within a centimetre.
+// Finds the lattice's pattern on a plane: its face, its orientation, and its place
+// to within a centimetre.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@ namespace theatron::registration {
 struct LatticeMatch {
     Face face = Face::front;
     Pose camera_from_face;
-    // Of what the depth image says about the face and a rim around it, the share
-    // that agrees with the pattern, 0.5 to 1.
+    // The share of the known part of the face and of a rim around it that agrees with
+    // the pattern, 0.5 to 1.
     double agreement = 0;
-    double known = 0;   // share of face and rim that the depth image says something about
-    double margin = 0;  // lead over the best of the other three ways to see the board
+    double known = 0;   // share of face and rim for which the depth image has evidence
+    double margin = 0;  // lead over the best of the other three orientations of the board
 };
 
-// The best match on `found`, or nothing where no place agrees well enough.
+// The best match on `found`, or nothing if no place agrees well enough.
 std::optional<LatticeMatch> match_lattice(const DepthLookup& depth, const FoundPlane& found,
                                           const LatticeTarget& target);
 

@@ -58,7 +58,7 @@ Rect outline(const LatticeTarget& target);
 // Cell (column, row) of either face, columns from the left, rows from the top.
 Rect cell(const LatticeTarget& target, int column, int row);
 
-// Whether this cell is not cut out, seen from `face`.
+// True if this cell is not cut out. Columns and rows are as seen from `face`.
 bool is_filled(Face face, int column, int row);
 
 // All cells that are cut out, seen from `face`.

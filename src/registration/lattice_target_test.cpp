@@ -84,8 +84,8 @@ TEST(ApparentEdge, LiesFurtherOutTheDarkerTheBackgroundIs) {
     const double dark = apparent_edge_px(blur, {0, 0, 0.1}, reach);
     EXPECT_LT(std::abs(alike), 0.2);
     EXPECT_GT(dark, alike + 0.2);
-    // A wall as bright as the face adds its width, less what lies too far behind; a black one adds
-    // little.
+    // A wall as bright as the face adds its width, minus the part too far behind the face; a black
+    // one adds little.
     EXPECT_GT(apparent_edge_px(blur, {1.5, 1, 0.1}, reach), dark + 1);
     EXPECT_LT(apparent_edge_px(blur, {1.5, 0.01, 0.1}, reach),
               apparent_edge_px(blur, {1.5, 1, 0.1}, reach) - 0.3);

@@ -12,7 +12,7 @@ inline CameraModel azure_camera() {
     return synthetic::synthetic_camera(synthetic::Variant::room, 0, 1, {}).depth;
 }
 
-// Only random noise: what stays the same from frame to frame is off.
+// Only random noise: errors that are the same in all frames are off.
 inline synthetic::DepthSensorParams noise_alone() {
     synthetic::DepthSensorParams params = synthetic::nfov_unbinned();
     params.offset_mm = params.scale = params.wiggle_mm = params.field_mm = params.fixed_mm = 0;

@@ -19,7 +19,7 @@ public:
     };
     Pixel at(float x, float y) const {
         const float gx = (x - left_) * per_step_, gy = (y - top_) * per_step_;
-        // Also false for what is not a number.
+        // Also false for NaN.
         if (!(gx >= 0 && gy >= 0 && gx < float(columns_ - 1) && gy < float(rows_ - 1)))
             return {};
         const int cx = int(gx), cy = int(gy);

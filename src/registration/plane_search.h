@@ -22,14 +22,14 @@ struct Plane {
     double distance_m() const { return 1 / length(q); }  // from the camera's centre
     // Unit normal towards the camera.
     Vec3 normal() const { return normalized(-q); }
-    // Where a ray meets the plane; the plane must lie in front of the camera there.
+    // The point where a ray meets the plane; the plane must lie in front of the camera there.
     Vec3 point(Ray ray) const {
         const double z = 1 / inverse_depth(ray);
         return {ray.x * z, ray.y * z, z};
     }
 };
 
-// Every second pixel of a depth image, with the directions that they see.
+// Every second pixel of a depth image, with the pixels' rays.
 struct SparseDepth {
     Size size;
     std::vector<float> inverse_m;      // 1/z, 0: no measurement
@@ -47,7 +47,7 @@ struct FoundPlane {
     double area_m2 = 0;
 };
 
-// How far from the plane a measurement at this depth may lie, metres: four
+// Largest distance from the plane of a measurement at this depth, metres: four
 // deviations of an Azure Kinect's noise on a dark surface, and its slow errors.
 inline constexpr double tolerance_m = 0.006, tolerance_per_m = 0.0012;
 constexpr double plane_tolerance_m(double depth_m) {

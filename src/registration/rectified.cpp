@@ -69,7 +69,7 @@ Rectified quarter_turned(const Rectified& picture) {
 
 double edge_angle(const Rectified& picture, int arm) {
     const int side = picture.side;
-    // Of the cells from `arm` below to `arm` above: sum, and whether some are +1 and some are -1.
+    // The sum of the cells from `arm` below to `arm` above, and if some are +1 and some are -1.
     struct Column {
         std::int8_t sum, has_surface, has_gap;
     };
@@ -99,7 +99,7 @@ double edge_angle(const Rectified& picture, int arm) {
                 least = std::min({least, a, b});
                 largest = std::max({largest, a, b});
             }
-            // Beside what is not measured at all there is no edge of the board.
+            // Beside pixels that were never measured there is no edge of the board.
             if (least == 0 || largest == 0)
                 continue;
             const int gx = right.sum - left.sum;

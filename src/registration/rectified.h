@@ -10,7 +10,7 @@
 
 namespace theatron::registration {
 
-// The depth image's measurement where `camera` sees a place.
+// Looks up the depth image's measurement at the projection of a point.
 struct DepthLookup {
     DepthView depth;
     const CameraModel* camera = nullptr;
@@ -26,8 +26,8 @@ struct PlaneAxes {
 PlaneAxes axes_on(const Plane& plane, Vec3 middle);
 PlaneAxes turned(const PlaneAxes& axes, double angle);
 
-// +1 where the surface is, -1 where the camera looks through to something behind, 0 where nothing
-// is known.
+// +1 on the surface, -1 where the camera measures a point behind the plane,
+// 0 where it is unknown.
 struct Rectified {
     int side = 0;  // cells in a row and in a column
     std::vector<std::int8_t> value;

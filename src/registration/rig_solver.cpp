@@ -185,7 +185,7 @@ public:
         : views_(views), target_(target), biases_(start.cameras.size(), Bias{}) {
         for (const auto& camera : start.cameras)
             cameras_.push_back(block_of(*camera));
-        // A place that nobody sees stays where it is.
+        // The pose of a board that no camera sees does not change.
         for (const auto& board : start.boards)
             boards_.push_back(block_of(board.value_or(Pose{})));
         add_parameters();

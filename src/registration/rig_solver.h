@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where cameras are relative to each other, from all their views of the board at once.
+// The relative poses of cameras, from all their views of the board at once.
 //
 // Every camera pose, every board pose and each camera's depth errors are unknown: one robust
 // least-squares problem weighs the edges and the depth of each view by their own uncertainty. The
-// edges do not depend on depth, so together with the board's known size they tell how much too far
-// a camera measures, and how that changes over its image and with distance. Cameras that never see
-// the board together are joined through others. Either face of the board may be seen.
+// edges do not depend on depth, so together with the board's known size they determine a camera's
+// depth error, and its change over the image and with distance. Cameras that never see the board
+// together are joined through others. Either face of the board may be seen.
 #pragma once
 
 #include <vector>
@@ -36,8 +36,8 @@ struct DepthBias {
 
 struct CameraPlace {
     Pose reference_from_camera;  // camera 0 is the reference
-    // Of rotation (about the camera's axes, radians) and translation (along them, metres); zero for
-    // camera 0.
+    // Covariance of rotation (about the camera's axes, radians) and translation (along them,
+    // metres); zero for camera 0.
     Matrix6 covariance = Matrix6::Zero();
     DepthBias bias, bias_sigma;
 };
@@ -45,18 +45,18 @@ struct CameraPlace {
 struct RigSolution {
     std::vector<CameraPlace> cameras;
     std::vector<Pose> reference_from_board;  // by place
-    // Cameras that no chain of shared places joins to camera 0. If there are any, nothing is
-    // solved.
+    // Cameras without a chain of shared places to camera 0.
+    // If there are any, nothing is solved.
     std::vector<int> separate;
     bool converged = false;
     // Root mean square of weighted residuals: about 1 where the stated uncertainties are true.
     double residual = 0;
-    // Of each view: how far the board's outer corners, as this view has them, lie from where the
-    // solution has them, metres (root mean square).
+    // For each view the root mean square of the distances between the board's outer corners
+    // according to this view and according to the solution, metres.
     std::vector<double> view_error_m;
 };
 
-// Deviations of what is known beforehand; the defaults fit an Azure Kinect.
+// Standard deviations of the priors; the defaults fit an Azure Kinect.
 struct RigOptions {
     double offset_m = 0.003;
     double slope_m = 0.003;  // of per_x_m and per_y_m
@@ -67,10 +67,10 @@ struct RigOptions {
     double outlier_sigmas = 3;  // views further off count less
 };
 
-// How far two poses have the board's outer corners apart, metres (root mean square).
+// Root mean square distance of the board's outer corners in two poses, metres.
 double corner_distance_m(const LatticeTarget& target, const Pose& a, const Pose& b);
 
-// `cameras` and `places` count all that views may name; at least one camera.
+// `cameras` (at least one) and `places` are the numbers of cameras and places in `views`.
 RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& views,
                       const LatticeTarget& target, const RigOptions& options = {});
 

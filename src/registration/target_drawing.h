@@ -8,8 +8,8 @@
 
 namespace theatron::registration {
 
-// SVG in millimetres: cut lines, and a note with sizes, which face is the front and how to check
-// the scale. The front is seen.
+// SVG in millimetres: cut lines, and a note with the sizes, the side of the front and a check of
+// the scale. The drawing shows the front.
 std::string svg_drawing(const LatticeTarget& target);
 
 // DXF (R12, millimetres): closed polylines on layer CUT, the note on layer NOTE.

@@ -40,13 +40,13 @@ public:
         std::function<bool(std::string_view, std::string_view)> equal_secrets;
     };
 
-    // Connections that have not joined by then are closed.
+    // Connections that have not joined within this time are closed.
     static constexpr Duration join_deadline = std::chrono::seconds(5);
-    // Each may have much waiting to be sent (net::Outbox::max_kept_bytes). One more is refused.
+    // Recorders at once; one more is refused. Each may use net::Outbox::max_kept_bytes.
     static constexpr int max_recorders = 4;
 
     struct Participant {
-        // `streams`: how many there are in the session.
+        // `streams`: number of streams in the session.
         explicit Participant(std::size_t streams) : budget(streams) {}
 
         bool joined = false;
@@ -62,8 +62,8 @@ public:
         bool records = false;                    // as in wire::Join
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
-        std::string renderer;                    // how it draws, as it says; may be empty
-        TimePoint renderer_noted;                // when that was last believed
+        std::string renderer;                    // as it reports it; may be empty
+        TimePoint renderer_noted;                // time of the last accepted report
         RequestBudget budget;
         // The newest requests that came too often; each is carried out as soon as the budget
         // allows. Codecs: one request for each camera, and one for all.
@@ -86,7 +86,7 @@ public:
         std::string refusal;  // empty: welcome
     };
     Verdict judge(const wire::Join& hello, TimePoint now) const;
-    // The participant is in from now on.
+    // Marks the participant as joined, in this role.
     void admit(Participant& participant, const wire::Join& hello, Role role);
 
     // Keeps a request that came too often: the last one of its kind. Requests that participants

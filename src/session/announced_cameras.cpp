@@ -11,7 +11,7 @@ namespace {
 
 constexpr double max_frames_per_second = 1000;
 
-// What is wrong with one camera by itself, for a person; empty: nothing.
+// The problem of a camera by itself, as the end of a sentence for the user; empty if none.
 std::string problem_of(const wire::Camera& camera, const Result<Calibration>& calibration) {
     if (int(camera.id) > max_camera_number)
         return "has the number " + std::to_string(int(camera.id)) + ", beyond all that there are";
@@ -25,7 +25,7 @@ std::string problem_of(const wire::Camera& camera, const Result<Calibration>& ca
     return "";
 }
 
-// What the accepted cameras take together.
+// The pictures of all accepted cameras together.
 class Room {
 public:
     // False, and nothing changes, if the camera does not fit beside them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour whose codec its publisher chooses frame by frame: each frame's header says what it is.
+// Colour whose codec its publisher chooses frame by frame: each frame's header names it.
 #include <gtest/gtest.h>
 
 #include "session/streams.h"

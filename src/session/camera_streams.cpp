@@ -63,7 +63,7 @@ std::optional<int> CameraStreams::on_media(const wire::MediaHeader& header, Time
     const ActiveSetting* setting = table(depth).find(header.setting);
     if (!setting)
         return std::nullopt;
-    // A frame that is sent again, or of a camera that lags, says nothing about encoding.
+    // A frame that is sent again, or of a camera that lags, is old for other reasons: limited.
     const Duration age = std::clamp(now - header.captured, Duration(0), longest_made_in);
     Duration& made_in = made_in_[header.setting];
     made_in += (age - made_in) / 16;

@@ -22,9 +22,9 @@ namespace theatron::session {
 class CameraStreams {
 public:
     struct Usual {
-        std::string depth, color;  // codecs that have a place of their own; see SettingTable
+        std::string depth, color;  // codecs with a reserved place; see SettingTable
     };
-    // `numbers` outlives the camera.
+    // `numbers` must outlive the camera.
     CameraStreams(wire::Camera description, SettingNumbers& numbers, const Usual& usual,
                   const CodecSteps& codecs);
 
@@ -37,7 +37,7 @@ public:
     SettingTable& table(bool depth) { return depth ? depth_ : color_; }
     const SettingTable& table(bool depth) const { return depth ? depth_ : color_; }
 
-    // The settings of which a receiver was told that it gets them; {} before.
+    // The settings that were sent to a receiver last; {} before.
     struct Told {
         SettingId depth{}, color{};
         int highest_layer = 0;  // that it is sent
@@ -45,15 +45,15 @@ public:
     };
     std::map<ParticipantId, Told> receivers;
 
-    std::optional<wire::CameraState> state;  // as its publisher said last
+    std::optional<wire::CameraState> state;  // the publisher's newest
 
-    int slot = 0;  // of the session, no other camera's; where a camera stands without a place
+    int slot = 0;  // unique in the session; the position of a camera without a place
 
-    // Settings that were active when this was called last and are no more; nothing if neither they
-    // nor others changed.
+    // Settings that were active at the last call and are not any more; empty if the active settings
+    // have not changed.
     std::optional<std::vector<SettingId>> take_change();
 
-    // Encoding in this setting keeps up no longer, or does again. True if that is new.
+    // Encoding in this setting no longer keeps up, or does again. True if that is new.
     bool set_slow(bool depth, SettingId setting, bool is_slow);
     bool is_slow(bool depth, const std::string& codec) const;
 
@@ -63,7 +63,7 @@ public:
     // The layer of a colour frame for a receiver that gets this depth setting: that of the depth
     // frame of the same number, so that the same moments are left out of both.
     int color_layer(FrameNumber frame, SettingId depth) const;
-    // From exposure to encoded, about; 0 if nothing was encoded.
+    // Estimated time from exposure to the encoded frame; 0 if nothing was encoded.
     Duration made_in(SettingId setting) const;
 
 private:

@@ -6,14 +6,14 @@
 namespace theatron::session {
 namespace {
 
-// Loss outside the region is worth about so much; nothing is measured before it is tried.
+// Estimated bytes with loss outside the region, relative to lossless, before it is measured.
 constexpr double lossy_size = 0.6;
 
 std::string milliseconds(Duration d) {
     return std::to_string(d.count() / 1000) + " ms";
 }
 
-// To a tenth, which is not written if it is 0.
+// Rounded to a tenth, which is not written if it is 0.
 std::string megabits_per_second(std::uint32_t kbit_per_second) {
     const std::uint32_t tenths = (kbit_per_second + 50) / 100;
     return std::to_string(tenths / 10) +
@@ -66,7 +66,7 @@ const LadderStep& Delivery::step_of(const Ladder& ladder) const {
     return ladder[std::min(std::size_t(policy_.step()), ladder.size() - 1)];
 }
 
-// From what is measured of the encodings that it is given now.
+// Adds the needs of one camera, from measurements of the settings that the receiver gets now.
 void Delivery::add_needs(std::vector<StepNeed>& needs, const Given& given, const Ladder& ladder,
                          double frames_per_second, StreamRates& rates, TimePoint now) const {
     const int all = served_layers - 1;

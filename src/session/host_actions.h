@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a HostSession wants done by the host that runs it.
+// The actions that a HostSession requests from the host that runs it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Send {
     ParticipantId participant{};
     wire::ToParticipant message;
 };
-// Close the connection after what was sent; `why` is for the log.
+// Close the connection after all queued messages; `why` is for the log.
 struct Close {
     ParticipantId participant{};
     std::string why;
@@ -34,7 +34,7 @@ struct TakeMedia {
     ParticipantId participant{};
     std::size_t max_message = 0;
 };
-// The participant is in; for the log.
+// The participant has joined; for the log.
 struct Joined {
     ParticipantId participant{};
     std::string name;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The room of a session on the host: requests of participants go in, and what everybody must know
-// comes out as actions. RoomState decides; this class speaks the messages.
+// The room of a session on the host: takes requests of participants, and returns messages to them
+// as actions. RoomState decides; this class reads and writes the messages.
 //
-// Pure; time is passed in.
+// Without sockets, threads or clock.
 #pragma once
 
 #include <map>
@@ -18,20 +18,20 @@ namespace theatron::session {
 
 class HostRoom {
 public:
-    // Poses of objects from one participant: a second, and at once; more ends its connection.
+    // Poses of objects from one participant: per second, and in a burst; more is a flood.
     static constexpr RequestBudget::Limit pose_limit{400, 800};
-    // After the host's time that a pose may be for.
+    // The latest time of a pose, after the host's present time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
-    // Goes on from `restored`. `actions` outlives this room.
+    // Continues from `restored`. `actions` must outlive this object.
     HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions)
         : state_(restored), actions_(actions) {}
 
-    // Everybody in the session is a person in the room; those with `keeps_room` are told about it.
+    // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
     void join(ParticipantId id, const PersonFacts& facts, bool keeps_room);
     void leave(ParticipantId id);
     void on_request(ParticipantId id, const wire::RoomRequest& message);
-    // A request that is not looked at, because there were too many.
+    // Refuses a request unread, because there were too many.
     void refuse(ParticipantId id, const wire::RoomRequest& message);
     void send_snapshot(ParticipantId id);
 
@@ -39,7 +39,7 @@ public:
         std::vector<ParticipantId> receivers;
         bool is_flood = false;
     };
-    // The pose of an object has come from `id`: who gets it at once.
+    // A pose of an object from `id`. Returns the participants that it must be sent to at once.
     Forward on_pose(ParticipantId id, const wire::State& state, TimePoint now);
 
     RoomSnapshot snapshot() const { return state_.snapshot(); }

@@ -63,7 +63,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     if (!participant || participant->closing)
         return;
     auto message = wire::decode_to_host(bytes);
-    // A newer participant may say things that this host need not understand.
+    // A newer participant may send messages that this host does not know.
     if (!message && message.error() != Status::unsupported)
         return refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
     if (message && !participant->joined) {
@@ -234,7 +234,7 @@ void HostSession::end() {
     }
 }
 
-// Says what holds for this participant, if anything was ever said.
+// Sends this participant its renderer, if the host has ever set one.
 void HostSession::tell_renderer(ParticipantId id) {
     if (const auto wish = renderers_.of(id, admission_.find(id)->name))
         send(id, *wish);
@@ -276,7 +276,7 @@ std::vector<Action> HostSession::take_actions() {
     return std::exchange(actions_, {});
 }
 
-// The participant is sent nothing more, and its cameras leave with its connection.
+// The participant gets no more messages, and its cameras leave with its connection.
 void HostSession::refuse(ParticipantId id, std::string reason) {
     send(id, wire::Refused{reason});
     admission_.find(id)->closing = true;

@@ -23,7 +23,7 @@ namespace theatron::session {
 
 class HostSession {
 public:
-    // A codec text in its one spelling, which is not empty, or what is wrong with it.
+    // A codec in canonical spelling, which is not empty, or a sentence about the problem.
     struct CheckedCodec {
         std::string codec;
         std::string problem;
@@ -38,7 +38,7 @@ public:
                                             // streams are given, from 0 on
         CheckCodec check_depth, check_color;
         Streams::Config streams;
-        RoomSnapshot room;  // as it was left
+        RoomSnapshot room;  // from the previous run
     };
 
     // Cameras of one publisher at once.
@@ -52,11 +52,11 @@ public:
     void on_control(ParticipantId participant, ByteView message, TimePoint now);
     void on_closed(ParticipantId participant);
     void on_tick(TimePoint now);
-    // Ten times a second for each participant.
+    // Call it ten times a second for each participant.
     void on_link(ParticipantId participant, const LinkMeasure& link, TimePoint now);
-    // Messages to this participant were lost, because it did not read: tells it everything again.
+    // Messages to this participant were dropped because it did not read: sends the state again.
     void resynchronise(ParticipantId participant);
-    // The session is over: everybody is told so.
+    // Ends the session: all participants get a Goodbye.
     void end();
 
     // A frame of a camera of the host was encoded, `size` bytes. Returns its receivers.
@@ -68,7 +68,7 @@ public:
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
 
-    // A pose of an object in the room has come.
+    // A pose of an object in the room, to be sent to the receivers of the result at once.
     HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
                                      TimePoint now) {
         return room_.on_pose(participant, state, now);
@@ -86,17 +86,17 @@ public:
         streams_.request_key(stream, setting);
     }
 
-    // How everybody should draw, also those that join later. Forgets what was said to single ones.
+    // Sets the renderer of all participants, also of later ones. Forgets those of single ones.
     void set_renderer(const wire::SetRenderer& wish);
-    // How one should draw, as long as it stays.
+    // Sets the renderer of one participant until its connection ends.
     void set_renderer(ParticipantId participant, const wire::SetRenderer& wish);
-    // How those with this name should draw, now and when they join again.
+    // Sets the renderer of the participants with this name, now and when they join again.
     void set_renderer(const std::string& name, const wire::SetRenderer& wish);
 
     // Actions for the host to carry out, in order.
     std::vector<Action> take_actions();
 
-    // How to encode a camera.
+    // The settings in which a camera is to be encoded.
     const std::vector<ActiveSetting>& depth_settings(CameraId camera = {}) const;
     const std::vector<ActiveSetting>& color_settings(CameraId camera = {}) const;
     // See Streams.

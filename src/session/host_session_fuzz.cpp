@@ -65,7 +65,7 @@ HostSession::Config config() {
 
 constexpr std::uint32_t participants = 6;
 
-// What an honest participant says when it comes.
+// The first message of an honest participant.
 Bytes hello(std::uint8_t choice) {
     static const char* const codecs[] = {"strata", "jpeg", "independent", "chain"};
     session::ViewerSession::Wishes wishes{"secret", "someone", codecs[choice % 4],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras of participants: offers, and what comes from them.
+// Cameras of participants: offers, messages and pictures.
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +31,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     }
     if (std::string problem = problem_of(id, offer, cameras); !problem.empty())
         return send(id, wire::Published{{}, std::move(problem)});
-    // The publisher knows its cameras' numbers before it is told how to encode them.
+    // The publisher gets its cameras' numbers before the settings for them.
     wire::Published answer;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         answer.cameras.push_back(streams_.next_id(i));
@@ -41,7 +41,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     set_budgets();
 }
 
-// Why these cameras cannot join the session; empty: they can.
+// The reason why these cameras cannot join the session; empty if they can.
 std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
                                     const std::vector<wire::Camera>& cameras) const {
     if (!admission_.participants().at(id).has(wire::Feature::publish))
@@ -56,7 +56,7 @@ std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer
     if (!streams_.has_numbers_for(cameras.size()))
         return "The session has had so many cameras that there are no numbers left; the host has "
                "to be started anew.";
-    // As every participant will judge them.
+    // The same check as in every participant.
     std::vector<wire::Camera> all = streams_.cameras();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         all.push_back(cameras[i]);
@@ -84,7 +84,7 @@ void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, Ti
 }
 
 // Lets the connection take messages as large as pictures of its cameras can be. The bound never
-// shrinks: pictures of a camera that leaves may still be on their way.
+// shrinks: pictures of a camera that leaves may still be in flight.
 void HostSession::take_media(ParticipantId id) {
     std::size_t& most = admission_.find(id)->max_media;
     for (const CameraId camera : streams_.of(id))
@@ -111,7 +111,7 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         return {};
     }
     const CameraStreams* camera = streams_.find(camera_of(header->stream));
-    // A camera that has just left may still have pictures on their way; its number is nobody's.
+    // A camera that has just left may still have pictures in flight; its number is not used again.
     if (!camera && camera_of(header->stream) < streams_.next_id(0))
         return {};
     if (!camera || camera->publisher() != id ||

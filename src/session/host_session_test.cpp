@@ -138,7 +138,7 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
     EXPECT_EQ(given[0].settings[0].codec, "trvl");
     EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "it is told";
 
-    // A place becomes free; who asked for what it gets goes; others want other things.
+    // A place becomes free, the participant whose setting it shares leaves, others choose again.
     session.on_closed(bob);
     session.on_closed(alice);
     say(carol, wire::ChooseCodecs{"raw", ""});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps by which a receiver can be sent less: first fewer frames of the same
+// The steps that reduce the data for a receiver: first fewer frames of the same
 // encoded stream, then coarser colour, last bounded loss of depth outside the
 // region of interest. Depth inside the region is the same on every step.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace theatron::session {
 
-// What the ladder needs to know of codecs, which this module does not.
+// Properties of codecs for the ladder; this module knows no codec.
 struct CodecSteps {
     struct Layered {
         std::string codec;         // the same codec with temporal layers, if it has them
@@ -22,7 +22,7 @@ struct CodecSteps {
 
     struct Coarser {
         std::string codec;
-        double size = 1;  // of what the receiver asked for, about
+        double size = 1;  // bytes relative to the requested codec, about
     };
     std::function<std::vector<Coarser>(const std::string& color)> coarser;
 
@@ -35,14 +35,14 @@ struct CodecSteps {
     std::function<std::string(const std::string& depth)> lossy_outside_region;
 };
 
-// What sending needs to know of one encoding. All but `chain` is read from its text, once.
+// Properties of one setting for sending. All but `chain` follow from its text, which is read once.
 struct CodecTraits {
     // No frame refers to another: any may be left out, by its number.
     bool independent = false;
     // Any upper temporal layer may be left out.
     bool layered = false;
-    // Colour whose frames refer to each other: none may be left out. As the newest frame says,
-    // since a setting may leave the codec to the publisher.
+    // Colour whose frames refer to each other: none may be left out. Taken from the newest frame,
+    // because a setting may leave the codec to the publisher.
     bool chain = false;
 };
 CodecTraits depth_traits(const std::string& codec, const CodecSteps& codecs);
@@ -58,7 +58,7 @@ struct LadderStep {
 
 using Ladder = std::vector<LadderStep>;
 
-// All steps, the first is what was asked for. Loss is a step only where a region
+// All steps; the first one is what was requested. Loss is a step only if a region
 // is drawn: without one the whole image stays exact.
 Ladder make_ladder(const std::string& depth, const std::string& color, const CodecSteps& codecs,
                    bool region_is_drawn);

@@ -9,9 +9,9 @@
 namespace theatron::session {
 namespace {
 
-// Refusals that nobody has taken.
+// Refusals that wait for take_refusal(); further ones are dropped.
 constexpr std::size_t kept_refusals = 64;
-// In one snapshot: all objects, and as many people as a host ever has.
+// Objects in one snapshot: all objects, and more people than a host can have.
 constexpr std::size_t most_objects = RoomState::max_objects + 1024;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest pose of everybody, on the host: gathered, and sent on together at most 90 times a
-// second, so that each receiver gets one message with all poses that are new.
+// The newest pose of each participant, on the host: gathered, and forwarded together at most 90
+// times a second, so that each receiver gets one message with all new poses.
 //
 // Pure; time is passed in.
 #pragma once
@@ -17,21 +17,21 @@ namespace theatron::session {
 
 class PoseBoard {
 public:
-    // Between two times that poses are sent on.
+    // Time between two calls of gather() that return poses.
     static constexpr Duration period = Duration(11'111);
     // Poses of one participant: a second, and at once; more ends its connection.
     static constexpr RequestBudget::Limit limit{300, 600};
-    // After the host's time that a pose may be for.
+    // Largest difference of a pose's time ahead of the host's time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
     enum class Answer : std::uint8_t { kept, ignored, flood };
-    // A state came from `sender`. Ignored is what is not its own newest pose.
+    // A state came from `sender`. All but its own newest pose are ignored.
     Answer put(ParticipantId sender, const wire::State& state, TimePoint now);
 
-    // The participant has left: the others are sent a pose without parts.
+    // The participant has left: the others get a pose without parts.
     void remove(ParticipantId participant, TimePoint now);
 
-    // When to call gather(); never while no pose is new.
+    // The time to call gather(); empty while no pose is new.
     std::optional<TimePoint> due() const;
 
     struct Entry {
@@ -41,7 +41,7 @@ public:
     // The poses that are new since the last call. The views are valid until the next call of put(),
     // remove() or gather().
     std::vector<Entry> gather(TimePoint now);
-    // All that are known, for somebody who joins.
+    // All known poses, for a participant that joins.
     std::vector<Entry> all() const;
 
 private:

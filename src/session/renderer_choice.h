@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a participant draws: what the person chose, and what the host said. The last word holds;
-// while the host has locked it, that is the host's.
+// The renderer of a participant: the newest choice of the person or of the host. While the host has
+// locked it, the person cannot change it.
 //
 // A pure state machine.
 #pragma once
@@ -13,17 +13,17 @@ namespace theatron::session {
 
 class RendererChoice {
 public:
-    // What the person wants from the beginning.
+    // `renderer`: the person's choice at the beginning.
     explicit RendererChoice(std::string renderer) : renderer_(std::move(renderer)) {}
 
-    // The person wants another one. False, and nothing changes, while it is locked.
+    // The person chooses another one. False, without effect, while it is locked.
     bool choose(const std::string& renderer) {
         if (locked_)
             return false;
         renderer_ = renderer;
         return true;
     }
-    // The host has spoken.
+    // Applies a command of the host.
     void follow(const wire::SetRenderer& word) {
         if (!word.renderer.empty())
             renderer_ = word.renderer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the host wants participants to draw: all of them, those of a name, or a single one.
+// The host's renderer commands for participants: all of them, those with a name, or a single one.
 //
 // A pure state machine.
 #pragma once
@@ -15,7 +15,7 @@ namespace theatron::session {
 
 class RendererWishes {
 public:
-    // For all participants, also those that join later. Ends the wishes for single ones.
+    // For all participants, also those that join later. Removes the commands for single ones.
     void set(const wire::SetRenderer& wish) {
         all_ = wish;
         named_.clear();
@@ -27,10 +27,10 @@ public:
     void set(ParticipantId participant, const wire::SetRenderer& wish) {
         single_[participant] = wish;
     }
-    // A participant has left. A wish for its name stays.
+    // A participant has left. A command for its name stays.
     void forget(ParticipantId participant) { single_.erase(participant); }
 
-    // The wish that holds for this participant, if any.
+    // The command for this participant, if any.
     std::optional<wire::SetRenderer> of(ParticipantId participant, const std::string& name) const {
         if (const auto single = single_.find(participant); single != single_.end())
             return single->second;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often a participant may ask its host for something. Each kind of request has a bucket of
-// tokens that fills with time; a request beyond it is not queued: the caller drops it, or keeps
-// only the newest of its kind for later. Much too many end the connection.
+// Rate limits for a participant's requests. Each kind of request has a bucket of tokens that fills
+// with time. A request beyond it is not queued: the caller drops it, or keeps only the newest one
+// of its kind for later. Far too many requests end the connection.
 //
 // Pure; time is passed in.
 #pragma once
@@ -21,7 +21,7 @@ public:
 
     // Takes a token if there is a whole one. Time that runs backwards adds none.
     bool take(TimePoint now);
-    // Another limit from now on. What the bucket holds more is there at once.
+    // Sets another limit. A larger bucket gets its additional tokens at once.
     void set_limit(double per_second, double most);
 
 private:
@@ -39,9 +39,9 @@ public:
         ping,
         report,
         publish,  // cameras that come or leave
-        state,    // how a camera is
+        state,    // the condition of a camera
         room,     // a change of the room
-        other,    // what the host does not know or does not expect
+        other,    // unknown and unexpected messages
     };
     static constexpr std::size_t kinds = 9;
 
@@ -49,14 +49,14 @@ public:
         double per_second = 0;
         double at_once = 0;
     };
-    // Of key requests these are for each stream; a viewer repeats one after 700 ms, a recorder asks
-    // for one every 1.5 s.
+    // The limit of key requests is for each stream; a viewer repeats one after 700 ms, a recorder
+    // sends one every 1.5 s.
     static constexpr std::array<Limit, kinds> limits{
         {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {2, 20}, {20, 80}, {40, 200}, {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 
-    // `streams`: how many there are in the session.
+    // `streams`: number of streams in the session.
     explicit RequestBudget(std::size_t streams);
     // Streams have come or gone.
     void set_streams(std::size_t streams);
@@ -64,7 +64,7 @@ public:
     enum class Answer : std::uint8_t { granted, too_often, flood };
     // A request has come.
     Answer ask(Kind kind, TimePoint now);
-    // One that came too often and was kept: whether it is granted now.
+    // True if a request that was kept for later is granted now.
     bool grant_later(Kind kind, TimePoint now) { return bucket(kind).take(now); }
 
     // Requests that were not granted when they came.

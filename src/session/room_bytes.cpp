@@ -27,7 +27,7 @@ void put_place(ByteWriter& out, const Pose& pose, double scale) {
         out.put_f64(value);
 }
 
-// False where a number is not finite.
+// False if a number is not finite.
 bool get_place(ByteReader& in, Pose& pose, double& scale) {
     Quat& q = pose.rotation;
     Vec3& p = pose.translation;
@@ -85,7 +85,7 @@ ObjectId get_object(ByteReader& in) {
     return ObjectId(in.get<std::uint32_t>());
 }
 
-// `finite` becomes false where a number is not.
+// Sets `finite` to false if a number is not finite.
 Result<Request> get_request(ByteReader& in, bool& finite) {
     switch (RequestKind(in.get<std::uint8_t>())) {
         case RequestKind::create: {

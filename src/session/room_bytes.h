@@ -11,17 +11,17 @@
 
 namespace theatron::session {
 
-// An object needs so many bytes beside its properties.
+// Bytes of an encoded object without its properties.
 inline constexpr std::size_t object_bytes = 91;
 
-// Appends an object, or all of a room.
+// Encoders. append_object() appends one object to `out`.
 void append_object(ObjectId id, const RoomObject& object, Bytes& out);
 Bytes encode_objects(const RoomObjects& objects);
 Bytes encode_request(const Request& request);
 Bytes encode_object_pose(const ObjectPose& pose);
 
-// All are safe for untrusted input: Status::malformed for bytes that are too few or too many,
-// numbers that are not finite, and kinds that are not known. At most `max_objects` objects.
+// Decoders, safe for untrusted input: Status::malformed for missing or additional bytes, numbers
+// that are not finite, unknown kinds, and more than `max_objects` objects.
 Result<RoomObjects> decode_objects(ByteView bytes, std::size_t max_objects);
 Result<Request> decode_request(ByteView bytes);
 Result<ObjectPose> decode_object_pose(ObjectId object, ByteView bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a room, a request, a pose and a person: reading stays inside, and bytes that are
-// read come back from writing. Then a member takes these as messages of a hostile host.
+// Any bytes as a room, a request, a pose and a person: reading stays inside the input, and valid
+// bytes are equal after reading and writing. Then a member gets them as messages of a hostile host.
 #include <cstdlib>
 
 #include "session/host_room.h"

@@ -19,7 +19,7 @@ protected:
         }
         deliver();
     }
-    // All messages, until nothing more is said.
+    // Delivers all messages, until there are no more.
     void deliver() {
         for (bool more = true; std::exchange(more, false);) {
             for (const Action& next : std::exchange(actions, {})) {

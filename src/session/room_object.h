@@ -18,7 +18,7 @@
 
 namespace theatron::session {
 
-// Given by the host, from 1, never reused in a session.
+// Assigned by the host, from 1, never used twice in a session.
 enum class ObjectId : std::uint32_t {};
 
 enum class ObjectKind : std::uint8_t { person = 1, brick, organ, screen, mark };
@@ -26,10 +26,10 @@ constexpr bool is_known(ObjectKind kind) {
     return kind >= ObjectKind::person && kind <= ObjectKind::mark;
 }
 
-// One time that a participant held an object: who, and the number of the request that began it.
-// Poses and the end of a grip name it, so that they never count for another one.
+// One period in which a participant holds an object: its holder, and the number of the request
+// that began it. Poses and the end of a grip name it, so that they never affect another one.
 struct Grip {
-    ParticipantId holder{};  // 0: nobody holds the object
+    ParticipantId holder{};  // 0: the object is not held
     std::uint32_t number = 0;
 
     bool operator==(const Grip&) const = default;
@@ -42,7 +42,7 @@ struct RoomObject {
     TimePoint moved_at;  // session time of the newest pose of this grip
     Pose room_from_object;
     double scale = 1;
-    // Meaning by kind; the host does not look inside.
+    // The meaning depends on the kind; the host does not read them.
     Bytes properties;
 
     bool operator==(const RoomObject&) const = default;
@@ -50,11 +50,11 @@ struct RoomObject {
 
 using RoomObjects = std::map<ObjectId, RoomObject>;
 
-// Numbers of requests are below this bit. With it, the number of a grip is that of the request
-// which gave the object to its holder.
+// Numbers of requests are less than this bit. If it is set in the number of a grip, the other bits
+// are the number of the request that gave the object to its holder.
 inline constexpr std::uint32_t given_grip = std::uint32_t(1) << 31;
 
-// What a participant asks for. `number` counts its requests from 1, in the order of sending.
+// The requests of a participant, which numbers them from 1 in the order of sending.
 namespace request {
 struct Create {
     ObjectKind kind{};
@@ -68,14 +68,14 @@ struct Remove {
 struct Grab {
     ObjectId object{};
 };
-// Ends the grip that request `grip` began and leaves the object there.
+// Ends the grip that request `grip` began and leaves the object at this pose.
 struct Release {
     ObjectId object{};
     std::uint32_t grip = 0;
     Pose room_from_object;
     double scale = 1;
 };
-// Gives the object to another participant without letting it go.
+// Gives the object to another participant; it is held all the time.
 struct HandOver {
     ObjectId object{};
     std::uint32_t grip = 0;
@@ -98,11 +98,11 @@ struct ObjectPose {
     double scale = 1;
 };
 
-// What the host decided, in this order for every participant.
+// A change that the host decided on; all participants get the changes in the same order.
 struct RoomChange {
     std::uint64_t revision = 0;  // one more than that of the change before
     ObjectId object{};
-    std::optional<RoomObject> now;  // none: the object is gone
+    std::optional<RoomObject> now;  // none: the object is removed
 };
 struct RoomSnapshot {
     std::uint64_t revision = 0;

@@ -9,11 +9,11 @@
 namespace theatron::session {
 namespace {
 
-// A host sends poses of as many objects as it has.
+// Early poses: at most one for each object that a host can have.
 constexpr std::size_t max_early_poses = RoomState::max_objects;
 
-// The effect of a request that the host will probably accept. An object that is created appears
-// once the host has given it an id.
+// Applies a request that the host will probably accept. A created object appears when the host
+// has assigned its id.
 void predict(RoomObjects& objects, ParticipantId self, std::uint32_t number,
              const Request& request) {
     std::visit(
@@ -70,7 +70,7 @@ std::optional<ObjectPose> RoomReplica::move(ObjectId object, const Pose& room_fr
     if (grip.holder != self_ || grip.number == 0)
         return std::nullopt;
     ObjectPose& pose = own_poses_[object];
-    // Two poses of one moment could not be told apart.
+    // Each pose of a grip needs its own time, because only a later one replaces it.
     const bool same_grip = pose.grip == grip;
     const TimePoint at = same_grip && now <= pose.at ? pose.at + Duration(1) : now;
     pose = {object, grip, at, room_from_object, scale};
@@ -97,7 +97,7 @@ bool RoomReplica::on_change(const RoomChange& change) {
     return true;
 }
 
-// Poses travel apart from changes: one that is known already may be newer than the change's.
+// Poses are sent apart from changes: a known pose may be newer than that of the change.
 void RoomReplica::take(ObjectId id, const RoomObject& decided) {
     RoomObject& object = objects_[id];
     const RoomObject before = std::exchange(object, decided);
@@ -144,7 +144,7 @@ void RoomReplica::on_decision(std::uint32_t number) {
     forget_own_poses();
 }
 
-// Of grips that are over. A grip that is not decided on may still become one.
+// Drops poses of grips that have ended. While a request is undecided, its grip may still begin.
 void RoomReplica::forget_own_poses() {
     if (undecided_.empty())
         std::erase_if(own_poses_, [&](const auto& entry) {

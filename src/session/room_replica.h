@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shared room as a participant knows it: the host's decisions, and before them what its own
-// requests will most likely lead to.
+// A participant's copy of the shared room: the host's decisions, and the predicted effect of its
+// own requests before the host has decided on them.
 //
 // A pure state machine: messages and times are passed in, results are returned.
 #pragma once
@@ -17,27 +17,27 @@ class RoomReplica {
 public:
     explicit RoomReplica(ParticipantId self) : self_(self) {}
 
-    // A request to be sent to the host; its effect is part of predicted() at once. Returns its
-    // number, which goes with it.
+    // A request to be sent to the host; its effect is part of predicted() at once. Returns the
+    // number to send with it.
     std::uint32_t request(const Request& request);
-    // The pose of an object that this participant holds, also if the host has not decided yet: to
-    // be sent to the host. Nothing if it does not hold the object.
+    // Moves an object (metres) that this participant holds, also if the host has not decided yet.
+    // Returns the pose to send to the host; nothing if the participant does not hold the object.
     std::optional<ObjectPose> move(ObjectId object, const Pose& room_from_object, double scale,
                                    TimePoint now);
 
-    // From the host. A false result asks for a snapshot: a change is missing, or the snapshot is.
+    // From the host. False if a change or the snapshot is missing: then request a snapshot.
     bool on_change(const RoomChange& change);
     void on_snapshot(const RoomSnapshot& snapshot);
     // The host has decided on a request; its changes came before.
     void on_decision(std::uint32_t number);
-    // Poses overtake requests, so the host may have ignored the newest pose of an object whose grip
-    // it had not yet granted: poses of grips granted since the last call, to be sent again.
+    // Newest poses of the grips granted since the last call, to be sent again: poses overtake
+    // requests, so the host may have ignored a pose whose grip it had not yet granted.
     std::vector<ObjectPose> take_poses_again();
-    // Of an object that another participant holds. A pose that overtook the change which it belongs
-    // to is kept until then.
+    // The pose of an object that another participant holds. A pose that has overtaken the change
+    // with its grip is kept until this change.
     void on_pose(const ObjectPose& pose);
 
-    // As the host decided, and the same with the requests that it has not decided on.
+    // The objects as the host decided; and changed by the requests that it has not decided on.
     const RoomObjects& confirmed() const { return objects_; }
     RoomObjects predicted() const;
 
@@ -51,7 +51,7 @@ private:
     bool has_snapshot_ = false;
     std::uint64_t revision_ = 0;
     RoomObjects objects_;
-    std::map<ObjectId, ObjectPose> early_poses_;  // of grips that no change has told of yet
+    std::map<ObjectId, ObjectPose> early_poses_;  // of grips that no change has contained yet
     std::uint32_t newest_request_ = 0;
     std::map<std::uint32_t, Request> undecided_;
     std::map<ObjectId, ObjectPose> own_poses_;  // the newest of each object held

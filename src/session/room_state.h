@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shared room as the host keeps it: it decides on every request, in the order of arrival.
+// The host's shared room: it decides on each request, in the order of arrival.
 //
 // A pure state machine: time and participants are passed in, results are returned.
 #pragma once
@@ -22,24 +22,24 @@ public:
     static constexpr double max_coordinate_m = 1000;
 
     RoomState() = default;
-    // Goes on from a snapshot, for example after the host was started again. Nobody holds anything.
+    // Continues from a snapshot, for example after a restart of the host. No object is held.
     explicit RoomState(const RoomSnapshot& snapshot);
 
-    // Its person object appears, with these properties. Only the host creates and changes these.
+    // Creates the participant's person object with these properties. Only the host changes it.
     RoomChange on_joined(ParticipantId participant, Bytes properties);
-    // The objects that it held are released where they are, and its person object is removed.
+    // Releases the objects that it held where they are, and removes its person object.
     std::vector<RoomChange> on_left(ParticipantId participant);
 
     struct Decision {
         Refusal refusal = Refusal::none;
-        std::vector<RoomChange> changes;  // for everybody
+        std::vector<RoomChange> changes;  // for all participants
     };
     // `may_change`: the participant's role allows to change the room.
     Decision on_request(ParticipantId from, std::uint32_t number, const Request& request,
                         bool may_change);
 
-    // True if the pose counts, and is to be forwarded: it is of the object's present grip, `from`
-    // holds it, and it is newer than the one before.
+    // Applies a pose. True, and it must be forwarded, if it belongs to the object's present grip,
+    // `from` is the holder, and the pose is newer than the one before.
     bool on_pose(ParticipantId from, const ObjectPose& pose);
 
     RoomSnapshot snapshot() const { return {revision_, objects_}; }
@@ -48,7 +48,7 @@ public:
 
 private:
     RoomChange changed(ObjectId object);
-    // True if an object may have so many bytes of properties instead of `before`.
+    // True if an object may have `bytes` bytes of properties instead of `before`.
     bool has_room_for(std::size_t bytes, std::size_t before) const;
     // The object, if this grip holds it.
     std::pair<Refusal, RoomObject*> find_held(ObjectId object, const Grip& grip);
@@ -63,7 +63,7 @@ private:
     std::uint32_t newest_id_ = 0;
     RoomObjects objects_;
     std::set<ParticipantId> participants_;
-    ObjectId touched_{};  // by the request that is applied
+    ObjectId touched_{};  // changed by the current request
 };
 
 }  // namespace theatron::session

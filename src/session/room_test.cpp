@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host and participants in simulated time, over links that delay, with poses that overtake
-// requests and changes, participants who come and go, and a host that is started again.
+// requests and changes, participants that join and leave, and a host that restarts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -196,7 +196,7 @@ class Simulation {
 public:
     explicit Simulation(unsigned seed) : random_(seed) {}
 
-    // Everything random, for this many steps of a millisecond.
+    // Random actions, for this many steps of a millisecond.
     void run(int steps) {
         for (int i = 0; i < steps; ++i) {
             now_ += 1ms;
@@ -212,7 +212,7 @@ public:
             deliver();
         }
     }
-    // Nobody does anything until all messages have arrived.
+    // No actions until all messages have arrived.
     void settle() {
         for (int i = 0; i < 2000; ++i) {
             now_ += 1ms;
@@ -298,7 +298,7 @@ private:
                 else
                     send<FromHost>(person->news, change);
     }
-    // As a host does for a peer that is too slow: what waits is dropped, and a snapshot follows.
+    // As a host does for a peer that is too slow: drops waiting messages and sends a snapshot.
     void resynchronise(Person& person) {
         person.news.clear();
         send_snapshot(person);

@@ -7,22 +7,22 @@
 namespace theatron::session {
 namespace {
 
-// Of what the link carries. Between the two lies what keeps the steps from swinging.
+// Shares of the link's rate. The gap between the two prevents an oscillation of the steps.
 constexpr double share_to_stay = 0.85;
 constexpr double share_to_go_up = 0.7;
 constexpr double ceiling_to_go_up = 0.9;
-// A step that needs so much more than was measured is not even tried.
+// A step that needs more than this many times the measured rate is not tried.
 constexpr double hopeless = 1.5;
-// Of a link since a trial failed on it: the failure says nothing about it any more.
+// A link whose rate grew by this factor since a failed trial counts as another link.
 constexpr double clearly_better = 1.3;
 
-// One late frame is an accident, and BBR's probing (a fifth of a second, every ten) is
-// no slow link.
+// A single late frame may be chance, and BBR's probing (for a fifth of a second, every ten
+// seconds) is not a slow link.
 constexpr int late_measures = 3;
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
 constexpr Duration longest_patience = std::chrono::seconds(60);
-// What remains to the sender's own doing whatever the goal.
+// Smallest time of a goal that is left for the sender's own queue.
 constexpr Duration smallest_margin = std::chrono::milliseconds(40);
 
 Duration predicted_delay(const LinkMeasure& link, const StepNeed& need) {
@@ -35,7 +35,7 @@ bool carries(const LinkMeasure& link, const StepNeed& need, double share) {
     return link.bytes_per_second <= 0 || need.bytes_per_second <= share * link.bytes_per_second;
 }
 
-// A goal below what the least step takes would only ruin the picture.
+// A goal that even the last step cannot reach would only lower the quality.
 Duration reachable_goal(const LinkMeasure& link, std::span<const StepNeed> needs, Duration goal) {
     return std::max(goal, predicted_delay(link, needs.back()) + smallest_margin);
 }
@@ -112,14 +112,14 @@ bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> ne
     if (link.delay > reachable || link.dropped > 0)
         calm_since_ = now;
     if (late && now >= settled_ && step_ < last) {
-        // What the link carried before the trial it most likely still does.
+        // The link most likely still carries the step before the trial.
         const bool back = fail_trial(link) && carries(link, needs[std::size_t(step_ + 1)], 1);
         if (back)
             go(step_ + 1, SendingReason::trial_failed, now);
         else
             go(step_for(link, needs, reachable), SendingReason::late, now);
-        // What is on its way has to arrive before the step can show; on a link that
-        // carries the step just so that takes longer.
+        // Bytes in flight must arrive before the step has an effect; a link that just
+        // carries the step takes longer for that.
         settled_ = now + (back ? 2 : 1) * shortest_settling + 2 * link.round_trip;
         return true;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of what a receiver asked for it gets: which step of a ladder, from
-// what was measured of its link. A pure state machine; what the steps are is the
-// business of session/delivery.h.
+// Chooses a receiver's step on a ladder from measurements of its link.
+// session/delivery.h defines the meaning of the steps.
+// A pure state machine.
 //
 // Down: at once when the ceiling is exceeded; when frames arrive too late, to the
 // first step that the link is measured to carry. Up: one step at a time, when
@@ -18,15 +18,15 @@
 
 namespace theatron::session {
 
-// Of one receiver's link since the last measurement.
+// A measurement of one receiver's link since the one before.
 struct LinkMeasure {
-    double bytes_per_second = 0;  // what the link carries; 0 while not known
-    Duration round_trip{};        // the link's own
+    double bytes_per_second = 0;  // rate of the link; 0 while not known
+    Duration round_trip{};        // of the link without queues
     Duration delay{};             // the longest of a frame, from encoded to arrived
-    int dropped = 0;              // frames given up because they could not be sent in time
+    int dropped = 0;              // frames that were dropped because the link was too slow
 };
 
-// What a step of the ladder takes.
+// The rate that a step of the ladder needs.
 struct StepNeed {
     double bytes_per_second = 0;
     double bytes_at_once = 0;  // of the frames of one moment
@@ -41,12 +41,12 @@ enum class SendingReason { none, late, ceiling, room, trial, trial_failed };
 
 class SendingPolicy {
 public:
-    // Call ten times a second. `needs` has one entry for each step, the first is
-    // all that was asked for; there is at least one. True if step() changed.
+    // Call it ten times a second. `needs` has one entry for each step, at least one;
+    // the first is for all that was requested. True if step() changed.
     bool update(const LinkMeasure& link, std::span<const StepNeed> needs, const SendingGoal& goal,
                 TimePoint now);
 
-    // The ladder has changed and has so many steps now.
+    // The ladder has changed and has this number of steps now.
     void limit(int steps) { step_ = std::min(step_, steps - 1); }
 
     int step() const { return step_; }
@@ -65,7 +65,7 @@ private:
     int late_in_a_row_ = 0;
     TimePoint settled_;     // no other step down before
     TimePoint calm_since_;  // nothing late and nothing dropped
-    bool trying_ = false;   // the last step up has not proved itself yet
+    bool trying_ = false;   // the last step up is still a trial
     TimePoint went_up_;
 
     static constexpr Duration first_patience = std::chrono::seconds(3);

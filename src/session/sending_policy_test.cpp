@@ -164,7 +164,7 @@ TEST(SendingPolicy, StaysBelowACeilingWithoutSwinging) {
     r.run(1);
     EXPECT_EQ(r.policy.step(), 2);
     EXPECT_EQ(r.policy.reason(), SendingReason::ceiling);
-    // What is encoded varies with what the camera sees.
+    // The encoded rate varies with the content of the picture.
     std::mt19937 random(3);
     int changes = 0;
     for (int i = 0; i < 600; ++i) {

@@ -75,7 +75,7 @@ protected:
     std::vector<T> sent(ParticipantId id) const {
         return messages_to<T>(id, actions);
     }
-    // What a participant gets of a stream, as it was told in the actions taken last.
+    // The codec of a stream for a participant, from the actions that were taken last.
     std::string codec_of(ParticipantId id, StreamId stream) const {
         std::string codec;
         for (const auto& message : sent<wire::Settings>(id))
@@ -116,7 +116,7 @@ TEST_F(SessionOfMany, ACameraOfAParticipantReachesTheOthers) {
     ASSERT_EQ(all<action::TakeMedia>().size(), 1u);
     EXPECT_GT(all<action::TakeMedia>()[0].max_message, 4u * 128 * 96);
 
-    // The publisher is told to encode what bob gets.
+    // The publisher gets an Encode message with the settings for bob.
     ASSERT_EQ(sent<wire::Encode>(alice).size(), 1u);
     const auto encode = sent<wire::Encode>(alice)[0].settings;
     ASSERT_EQ(encode.size(), 2u);
@@ -149,7 +149,7 @@ TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     EXPECT_EQ(all<action::Close>().size(), 1u);
 }
 
-// A machine with cameras and nobody in front of it.
+// A machine with cameras and without a viewer.
 TEST_F(SessionOfMany, OneThatOnlySendsIsToldOfNoCameraAndSentNone) {
     session.on_connected(alice, now);
     wire::Join hello;
@@ -173,7 +173,7 @@ TEST_F(SessionOfMany, OneThatOnlySendsIsToldOfNoCameraAndSentNone) {
     ASSERT_EQ(own.size(), 1u);
     ASSERT_FALSE(sent<wire::Encode>(alice).empty());
     EXPECT_EQ(sent<wire::Encode>(alice).back().settings.size(), 2u) << "bob receives it";
-    // What was lost on its way is said again.
+    // Lost messages are sent again.
     session.resynchronise(alice);
     actions = session.take_actions();
     EXPECT_TRUE(sent<wire::Welcome>(alice).at(0).cameras.empty());
@@ -244,7 +244,7 @@ TEST_F(SessionOfMany, CamerasLeaveWithTheirPublisherAndNumbersNeverComeAgain) {
     actions = session.take_actions();
     EXPECT_EQ(sent<wire::CamerasRemoved>(bob).at(0).cameras, std::vector{second[0]})
         << "others' cameras stay";
-    // What was on its way when the camera left is no fault.
+    // A picture that was in flight when the camera left is no fault.
     EXPECT_TRUE(session.on_media_from(carol, picture(second[0], setting), now).empty());
     actions = session.take_actions();
     EXPECT_TRUE(all<action::Close>().empty());

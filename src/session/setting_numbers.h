@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers for settings of depth and colour alike. A number is never 0 and never given twice at
-// the same time; see docs/decisions/setting-numbers.md for when one comes again.
+// Numbers for settings of depth and colour. A number is never 0 and never used twice at the same
+// time; docs/decisions/setting-numbers.md explains when one is used again.
 #pragma once
 
 #include <cassert>
@@ -14,8 +14,8 @@ class SettingNumbers {
 public:
     static constexpr std::size_t how_many = 0xffff;  // 1 to 65535
 
-    // The next number that is not in use, in a circle: each of the others is given before one
-    // comes again.
+    // The next unused number, in a circle: all other unused numbers are returned before one is
+    // returned again.
     SettingId take() {
         assert(used_.size() < how_many);
         do

@@ -93,7 +93,7 @@ void SettingTable::update() {
             return entry.second.now() == codec && (!by_wish_only || entry.second.stopgap.empty());
         });
     };
-    // The usual setting may still be given instead of others; that is seen last.
+    // The usual setting may still replace others; this is decided last.
     for (std::size_t i = active_.size(); i-- > 0;)
         if (active_[i].codec != usual_ && !used(active_[i].codec, false))
             remove(active_.begin() + std::ptrdiff_t(i));
@@ -130,7 +130,7 @@ void SettingTable::update() {
         remove(usual);
 }
 
-// Null if that is the usual setting, which is not active yet.
+// Null for the usual setting while it is not active.
 const ActiveSetting* SettingTable::nearest(const Entry& entry) const {
     const std::string& codec = entry.now();
     if (const ActiveSetting* exact = find(codec))
@@ -139,7 +139,7 @@ const ActiveSetting* SettingTable::nearest(const Entry& entry) const {
         return kind_of(s.codec) == kind_of(codec) && !slow_.contains(s.id);
     };
     if (!entry.stopgap.empty() && !active_.empty()) {
-        // The youngest is most likely another stopgap, and as small.
+        // The newest setting is most likely another stopgap of similar size.
         const auto near = std::find_if(active_.rbegin(), active_.rend(), can_stand_in);
         return near == active_.rend() ? &active_.back() : &*near;
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which encodings are made, and who gets which: each participant has a wish,
-// each distinct wish is encoded once, and at most three are encoded at a time
-// besides the usual one, which has a place of its own: nobody can take it away.
-// A slow link may make do with another encoding for a while; such stopgaps only
-// take places that no wish needs.
+// Chooses the active encodings and assigns one to each participant. Each participant
+// has a wish, and each distinct wish is encoded once. At most three are encoded at a
+// time, besides the usual one, whose place is reserved. A participant with a slow link
+// may get another encoding for a while; such stopgaps only take places that no wish
+// needs.
 #pragma once
 
 #include <functional>
@@ -33,26 +33,26 @@ class SettingTable {
 public:
     static constexpr std::size_t max_active = 3;  // besides the usual one
 
-    // `usual` is the codec that has a place of its own, in its one spelling; empty: none has.
-    // `numbers`, common to all tables of a session, outlives the table. `traits` reads a codec's
-    // text, once for each setting that becomes active; empty: none has any.
+    // `usual` is the codec with the reserved place, in canonical spelling; empty: none.
+    // `numbers`, common to all tables of a session, must outlive the table. `traits` reads the text
+    // of a codec, once for each setting that becomes active; empty: no setting has traits.
     using ReadTraits = std::function<CodecTraits(const std::string&)>;
     explicit SettingTable(SettingNumbers& numbers, std::string usual = "", ReadTraits traits = {})
         : numbers_(numbers), usual_(std::move(usual)), traits_(std::move(traits)) {}
     SettingTable(SettingTable&&) = delete;
     ~SettingTable();
 
-    // `codec` must be in its one spelling, since equal texts share an encoder.
+    // `codec` must be in canonical spelling, because equal texts share an encoder.
     void wish(ParticipantId participant, std::string codec);
-    // Instead of the wish, until another is given; empty: none.
+    // Replaces the wish until the next call; empty: no stopgap.
     void stopgap(ParticipantId participant, std::string codec);
     void leave(ParticipantId participant);
-    // Its wish becomes what it gets, so that no other participant's doing changes that.
+    // Sets its wish to given(), so that other participants cannot change what it gets.
     void pin(ParticipantId participant);
-    // Whether encoding cannot keep up with the cameras: such a setting stands in for no other.
+    // `is_slow`: its encoder does not keep up with the cameras, so it never replaces another wish.
     void set_slow(SettingId setting, bool is_slow);
 
-    // See CodecTraits; nothing if the setting is not active.
+    // See CodecTraits. Does nothing if the setting is not active.
     void note_chain(SettingId setting, bool chain);
 
     // In the order in which they became active.
@@ -60,8 +60,8 @@ public:
     // Null if it is not active.
     const ActiveSetting* find(SettingId setting) const;
 
-    // What the participant gets: its wish, or where too many others are in use
-    // the nearest (the same codec with other parameters, else the usual one, else the oldest).
+    // The setting that the participant gets: its wish, or if too many others are in use the
+    // nearest one (the same codec with other parameters, else the usual one, else the oldest).
     // The participant must have a wish.
     const ActiveSetting& given(ParticipantId participant) const;
     const std::string& wished(ParticipantId participant) const;
@@ -79,7 +79,7 @@ private:
     void add(const std::string& codec);
     void remove(Active::iterator setting);
     bool is_active(const std::string& codec) const;
-    // Whether `codec` may become active: the usual one always, others while there is a place.
+    // True if `codec` may become active: the usual one always, others while a place is free.
     bool has_place(const std::string& codec) const;
     const ActiveSetting* find(const std::string& codec) const;
     const ActiveSetting* nearest(const Entry& entry) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is encoded in each setting, in bytes a second, by temporal layer. A setting belongs to one
-// stream.
+// The encoded bytes a second of each setting, by temporal layer. A setting belongs to
+// one stream.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace theatron::session {
 
-// Layers that a receiver can be served up to: 0 a quarter, 1 half, 2 all frames.
+// Number of layers that receivers are served: 0 a quarter, 1 half, 2 all of the frames.
 inline constexpr int served_layers = 3;
 
 class StreamRates {
@@ -24,7 +24,7 @@ public:
         found->second.by_layer[std::size_t(layer)].add(now, double(bytes));
     }
 
-    // Of layers 0 to `highest`.
+    // The rate of layers 0 to `highest` together.
     double bytes_per_second(SettingId setting, int highest, TimePoint now) {
         const auto found = rates_.find(setting);
         if (found == rates_.end())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The receivers of streams: their wishes, the settings that they are given, and messages to them.
+// The receivers of streams: their wishes, their settings, and messages to them.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -160,8 +160,8 @@ double Streams::frames_per_second() const {
     return fastest;
 }
 
-// The longer of depth and colour, each the mean of all cameras. Settings are measured apart: one
-// that is encoded slowly makes nobody else's frames late.
+// The longer one of depth and colour, each the mean of all cameras. Settings are measured
+// separately: a slow one does not make frames of other settings late.
 Duration Streams::made_in(ParticipantId id) const {
     Duration depth{}, color{};
     int cameras = 0;
@@ -240,7 +240,7 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
         send(id, std::move(message));
 }
 
-// Empty if the receiver gets what it asked for.
+// Empty if the receiver gets the settings that it requested.
 std::string Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
     for (const bool depth : {true, false}) {
         const LadderStep& step = step_for(id, receiver, camera);

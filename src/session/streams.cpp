@@ -157,8 +157,8 @@ void Streams::on_encoding(CameraId id, SettingId setting, bool keeps_up, double 
     const bool depth = camera.table(true).find(setting) != nullptr;
     const ActiveSetting* active = camera.table(depth).find(setting);
     if (!active)
-        return;  // it has been left meanwhile
-    // Receivers are told once of a codec, however many cameras are too slow in it.
+        return;  // the setting has ended meanwhile
+    // Receivers get one note for a codec, however many cameras are too slow in it.
     const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), [&](const auto& entry) {
         return entry.second.is_slow(depth, active->codec);
     });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of a session and their receivers: both come and go, each receiver chooses codecs for
-// each camera, and each camera is encoded in as few settings as serve all of its receivers.
+// The cameras of a session and their receivers. Both come and go, each receiver chooses codecs for
+// each camera, and each camera is encoded in as few settings as its receivers need.
 //
-// A pure state machine; it appends to the actions that it was given.
+// A pure state machine; it appends its actions to the list given to the constructor.
 #pragma once
 
 #include <functional>
@@ -27,62 +27,62 @@ inline constexpr ParticipantId host_publisher{0};
 class Streams {
 public:
     struct Config {
-        CodecSteps codecs;           // how to send less
-        CameraStreams::Usual usual;  // in their one spelling; empty: none
+        CodecSteps codecs;           // for the ladders
+        CameraStreams::Usual usual;  // in canonical spelling; empty: none
     };
-    // `actions` outlives the streams.
+    // `actions` must outlive the streams.
     Streams(Config config, std::vector<Action>& actions)
         : config_(std::move(config)), actions_(actions) {}
     Streams(const Streams&) = delete;
     Streams& operator=(const Streams&) = delete;
 
-    // Between cameras whose places in the room are not known, along x: so far that none stands in
+    // Distance along x between cameras without a known place in the room: so large that none is in
     // another's picture.
     static constexpr double unregistered_distance_m = 12;
 
-    // Cameras. Numbers and streams are given here; numbers never come again. Cameras without a
-    // place in the room are put beside each other. Needs has_numbers_for() them.
+    // Adds cameras and gives them their numbers and streams; no number is used twice. Cameras
+    // without a place in the room are put side by side. Needs has_numbers_for() them.
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras);
-    // The number of the camera that comes next, and of those behind it.
+    // The number of the next camera, or of the one `further` behind it.
     CameraId next_id(std::size_t further) const { return CameraId(next_camera_ + int(further)); }
     bool has_numbers_for(std::size_t cameras) const {
         return next_camera_ + int(cameras) <= max_camera_number + 1;
     }
     std::size_t size() const { return cameras_.size(); }
-    // How to encode a camera; empty if there is no such camera.
+    // The settings in which a camera is to be encoded; empty if there is no such camera.
     const std::vector<ActiveSetting>& settings(CameraId camera, bool depth) const;
-    // Cameras that are not there are passed over.
+    // Unknown cameras are skipped.
     void remove(const std::vector<CameraId>& cameras);
     // Null if there is no such camera.
     const CameraStreams* find(CameraId camera) const;
     std::vector<CameraId> of(ParticipantId publisher) const;
     std::vector<wire::Camera> cameras() const;
-    // Those that a participant receives: all but its own.
+    // The cameras that a participant receives: all but its own.
     std::vector<wire::Camera> seen_by(ParticipantId participant) const;
     std::vector<wire::CameraState> states_seen_by(ParticipantId participant) const;
     void on_state(const wire::CameraState& state);
-    // `is_drawn`: some camera has a region of interest. Without one no depth may be lossy for the
-    // sake of a slow link.
+    // `is_drawn`: some camera has a region of interest. Without one, depth never becomes lossy
+    // because of a slow link.
     void on_region(bool is_drawn);
-    // Encoding keeps up with the camera no longer, or does again: it takes `ms_per_picture` of a
-    // core. Those who get the setting are told.
+    // Encoding no longer keeps up with the camera, or does again: it takes `ms_per_picture` of a
+    // core. The receivers of the setting get a note.
     void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture);
 
-    // Receivers. Codecs are in their one spelling.
+    // Receivers. Codecs are in canonical spelling.
     struct Wish {
         std::string depth, color;
     };
-    // One that records is sent everything, and keeps its encodings whatever others do.
+    // A receiver that records gets everything, and others do not change its encodings.
     void join(ParticipantId receiver, const Wish& wish, bool records);
     void leave(ParticipantId receiver);
-    // An empty text keeps the codec. No cameras: of all, also of those that come.
+    // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(ParticipantId receiver, const Wish& wish, const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
     // The measurements of a receiver's link, ten times a second.
     void on_link(ParticipantId receiver, const LinkMeasure& link, TimePoint now);
-    // Messages to this participant were lost: sends it everything that holds now.
+    // Messages to this participant were dropped: sends it the current state.
     void tell_again(ParticipantId participant);
-    // The step on which this receiver is, for people; empty if it receives nothing.
+    // The step of this receiver, as text for people; empty if it receives nothing.
     std::string step_of(ParticipantId receiver);
 
     // Media. A frame was encoded, `size` bytes. Returns its receivers.
@@ -92,7 +92,7 @@ public:
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
     // The stream needs a key frame.
     void request_key(StreamId stream, SettingId setting);
-    // The same, asked for by a receiver; nothing if it does not get that.
+    // The same at the request of a receiver; ignored if it does not get this stream and setting.
     void request_key(ParticipantId receiver, StreamId stream, SettingId setting);
     void on_tick(TimePoint now);
 

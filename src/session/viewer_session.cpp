@@ -128,7 +128,7 @@ bool ViewerSession::may_publish() const {
            welcome_.features.end();
 }
 
-// Of cameras that were left out nothing is kept.
+// Settings of cameras that were left out are ignored.
 void ViewerSession::take_settings(std::vector<wire::StreamSetting> settings) {
     for (wire::StreamSetting& setting : settings) {
         const bool known =
@@ -145,7 +145,7 @@ void ViewerSession::take_settings(std::vector<wire::StreamSetting> settings) {
     }
 }
 
-// Those that are there stay, since they come first. A camera of another session is none of this.
+// Existing cameras come first and stay. A camera of another session is ignored.
 void ViewerSession::add_cameras(std::vector<wire::Camera> cameras) {
     std::erase_if(cameras, [&](const wire::Camera& c) { return c.session != welcome_.session; });
     std::vector<wire::Camera> all = std::exchange(welcome_.cameras, {});

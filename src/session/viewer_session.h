@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A participant's side of a session: joins, and keeps what the host said.
+// A participant's side of a session: joins, and keeps the state that the host sent.
 //
 // A pure state machine, the same in the native client and in the browser.
 #pragma once
@@ -29,56 +29,56 @@ public:
 
     explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}
 
-    // A new connection is up. Returns the first message to send.
+    // Begins a session on a new connection. Returns the first message to send.
     Bytes begin();
 
-    // What a message of the host changed.
+    // The part of the state that a message of the host changed.
     enum class Change {
         nothing,
         welcomed,    // cameras() are known; they may be others than those of the connection before
         cameras,     // some of cameras() came or left; the others are as they were
         refused,     // refusal() says why; the connection will end
-        settings,    // settings() hold what is new, note() what the host remarked
+        settings,    // settings(), and note(): the host's comment on them
         camera,      // camera_states()
         pong,        // pong() answers a ping
         delivery,    // delivery(): the host sends more or less
         renderer,    // renderer_word(): how the host wants this participant to draw
-        published,   // published(): the answer to what was offered
+        published,   // published(): the answer to an offer
         encode,      // encode(): how to encode the cameras that this participant publishes
-        encode_key,  // encode_key(): a key frame of one of them is wanted
+        encode_key,  // encode_key(): the host requests a key frame of one of them
         room,        // room(): a message for a SharedRoom
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
-    // Safe for untrusted input: what is damaged or not understood is nothing.
+    // Safe for untrusted input: damaged and unknown messages change nothing.
     Change on_control(ByteView message);
 
-    // Other codecs from now on; an empty text keeps the codec. Returns the
-    // message to send.
+    // Requests other codecs; an empty text keeps the codec. Returns the message
+    // to send.
     Bytes choose(const std::string& depth_codec, const std::string& color_codec);
-    // The same of one camera, until another wish is said for it or for all.
+    // The same for one camera, until the next choice for it or for all.
     static Bytes choose(CameraId camera, const std::string& depth_codec,
                         const std::string& color_codec);
 
-    // Another goal from now on. Returns the message to send.
+    // Requests another goal. Returns the message to send.
     Bytes choose_delivery(const wire::ChooseDelivery& goal);
 
     bool joined() const { return joined_; }
     const wire::Welcome& welcome() const { return welcome_; }
-    // Those that judge_cameras() accepts; their calibrations can be decoded.
+    // The cameras that judge_cameras() accepts; their calibrations can be decoded.
     const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
     // A sentence for the user about each camera that was not accepted, of the last message that
     // named cameras.
     const std::vector<std::string>& left_out() const { return left_out_; }
-    // Of accepted cameras only.
+    // The settings of accepted cameras only.
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
     bool may_publish() const;
     const std::string& note() const { return note_; }
-    // Of accepted cameras only.
+    // The states of accepted cameras only.
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
     const std::string& refusal() const { return refusal_; }
     const wire::Pong& pong() const { return pong_; }
     const wire::Delivery& delivery() const { return delivery_; }
-    // Of this connection's host; empty as long as it said nothing.
+    // The newest command of this connection's host; empty before the first.
     const wire::SetRenderer& renderer_word() const { return renderer_word_; }
     // One sentence for the user; empty as long as the session goes on.
     const std::string& goodbye() const { return goodbye_; }

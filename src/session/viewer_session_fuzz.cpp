@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hostile host: any control messages (each behind a two-byte length). What the viewer keeps
-// stays within its limits, and what it kept can be shown and used.
+// A hostile host: any control messages (each behind a two-byte length). The viewer's state stays
+// within its limits, and its texts and calibrations can be shown and used.
 #include <algorithm>
 #include <cstdlib>
 #include <set>

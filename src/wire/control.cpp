@@ -136,7 +136,7 @@ bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
 
-// False if the table says what no table of its kind may say.
+// False if the table has a value that its kind does not allow.
 template <class Message>
 bool unpack(const Table& table, Message& message);
 

@@ -23,8 +23,8 @@ namespace theatron::wire {
 inline constexpr std::uint16_t protocol_min = 2;
 inline constexpr std::uint16_t protocol_max = 2;
 
-// What decoding lets through, in characters. It makes every text clean
-// (base/outside_text.h) and cuts it to these; a list that is longer makes its message malformed.
+// Limits of decoding, in characters and elements. Decoding makes every text clean
+// (base/outside_text.h) and cuts it to its limit; a longer list makes its message malformed.
 inline constexpr std::size_t max_name = 64;                // of a participant, a host, a camera
 inline constexpr std::size_t max_token = 256;              // the host compares it whole
 inline constexpr std::size_t max_codec = 200;              // one codec in its spelling
@@ -33,16 +33,16 @@ inline constexpr std::size_t max_sentence = 500;           // a reason, a proble
 inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
 inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
 inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
-// Bytes of a room in one message: of a request, a changed object, a part of a snapshot.
+// Most bytes in one message: of a request, of a changed object, of a part of a snapshot.
 inline constexpr std::size_t max_room_request_size = 4352;
 inline constexpr std::size_t max_room_object_size = 4352;
 inline constexpr std::size_t max_room_part_size = 48 * 1024;
 inline constexpr std::size_t max_streams = 2 * max_cameras;
-// Of all cameras of one publisher together.
+// Settings of all cameras of one publisher together.
 inline constexpr std::size_t max_encodings = 64;
 
-// Numbers of things that not every program of a protocol does; a program passes over those that it
-// does not know.
+// Numbers of optional parts of the protocol. A program skips numbers that it does
+// not know.
 enum class Feature : std::uint16_t {
     publish = 1,     // sends cameras
     sends_only = 2,  // is sent no cameras of others
@@ -64,13 +64,13 @@ struct Join {
     std::string color_codec;
     std::uint32_t target_latency_ms = 0;  // as in ChooseDelivery
     std::uint32_t max_kbit_per_s = 0;
-    // It records: it is sent everything in order, however late, and nobody else's doing changes
-    // its encodings while it stays.
+    // The participant records: it gets everything in order, however late, and no other participant
+    // changes its encodings while it stays.
     bool records = false;
-    // What this program can do beside what every program of its protocol can.
+    // The optional parts of the protocol that this program supports.
     std::vector<Feature> features;
-    // 16 random bytes that this person's program keeps; empty: it keeps none. The number of a
-    // participant is of one connection, this is of all.
+    // 16 random bytes that this person's program keeps; empty: it keeps none. They are equal in all
+    // of its connections, whereas a participant's number changes.
     Bytes person;
 
     static void fields(auto& m, auto&& field) {
@@ -88,12 +88,12 @@ struct Join {
     }
 };
 
-// The participant wants other codecs from now on. An empty text keeps its codec.
+// The participant requests other codecs. An empty text keeps its codec.
 struct ChooseCodecs {
     std::string depth_codec;
     std::string color_codec;
-    // Of these cameras only. Empty: of all, also of those that come later; what was chosen for
-    // single cameras no longer holds.
+    // For these cameras only. Empty: for all, also for later ones; choices for single cameras are
+    // then removed.
     std::vector<CameraId> cameras;
 
     static void fields(auto& m, auto&& field) {
@@ -118,7 +118,7 @@ struct OfferedCamera {
     }
 };
 
-// The participant wants to send these cameras. The host answers with Published.
+// The participant offers to send these cameras. The host answers with Published.
 struct Publish {
     std::vector<OfferedCamera> cameras;
 
@@ -168,7 +168,7 @@ struct StreamReport {
 // Sent by participants a few times a second.
 struct Report {
     std::vector<StreamReport> streams;
-    std::string renderer;  // how it draws now; empty: it does not, or does not tell
+    std::string renderer;  // the current one; empty: it does not draw, or does not report it
 
     static void fields(auto& m, auto&& field) {
         field(m.streams, max_streams);
@@ -176,9 +176,9 @@ struct Report {
     }
 };
 
-// What the host should aim at for this participant from now on.
+// The goal of the host for this participant from now on.
 struct ChooseDelivery {
-    std::uint32_t target_latency_ms = 0;  // age of what is shown; 0: never leave anything out
+    std::uint32_t target_latency_ms = 0;  // age of the shown picture; 0: leave nothing out
     std::uint32_t max_kbit_per_s = 0;     // 0: no ceiling
 
     static void fields(auto& m, auto&& field) {
@@ -187,7 +187,7 @@ struct ChooseDelivery {
     }
 };
 
-// A request to change the room. The host answers with RoomDecision, before that with the changes.
+// A request to change the room. The host answers with the changes and then with RoomDecision.
 // Number 0 without a request asks for a snapshot.
 struct RoomRequest {
     std::uint32_t number = 0;  // counts this participant's requests from 1
@@ -289,8 +289,8 @@ struct StreamSetting {
     }
 };
 
-// How this participant gets these streams from now on; others stay as they are. `note` is empty or
-// says why it is not what was asked for.
+// The settings of these streams for this participant from now on; others do not change. `note` is
+// empty, or a sentence on why they are not the requested ones.
 struct Settings {
     std::vector<StreamSetting> settings;
     std::string note;
@@ -349,10 +349,10 @@ struct Pong {
     }
 };
 
-// What the host leaves out for this participant so that the newest stays new.
+// The ladder step of this participant: the data that the host leaves out to keep latency low.
 struct Delivery {
-    std::uint8_t level = 0;   // 0: all that was asked for
-    std::uint8_t levels = 1;  // how many there are
+    std::uint8_t level = 0;   // 0: all that was requested
+    std::uint8_t levels = 1;  // number of levels
     std::string what;         // "half of the frames", for people
     std::string reason;       // "frames were too old", for people
 
@@ -364,7 +364,7 @@ struct Delivery {
     }
 };
 
-// How the host wants this participant to draw from now on. Not sent until the host has a wish.
+// The host's command for this participant's renderer. Not sent before the host gives one.
 struct SetRenderer {
     std::string renderer;  // as on the command line; empty: as it is
     bool locked = false;   // the participant cannot change it
@@ -392,7 +392,7 @@ struct RoomSnapshot {
     }
 };
 
-// An object of the room is new or has changed; without bytes it is gone.
+// An object of the room is new or has changed; without bytes it is removed.
 struct RoomChange {
     std::uint64_t revision = 0;
     std::uint32_t object = 0;
@@ -435,7 +435,7 @@ Bytes encode(const ToHost& message);
 Bytes encode(const ToParticipant& message);
 
 // Safe for untrusted input. Status::unsupported for a message of a newer
-// protocol, which may be ignored. What is returned takes no more memory than max_decoded_size,
+// protocol, which may be ignored. The result takes no more memory than max_decoded_size,
 // however often the message refers to the same bytes.
 inline constexpr std::size_t max_decoded_size = 1 << 20;
 Result<ToHost> decode_to_host(ByteView bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: decoding stays inside them. What is accepted encodes again to something that decodes
-// to the same, within the stated memory, however often the input's tables share their parts.
+// Any bytes: decoding stays inside them. An accepted message encodes again to bytes that decode to
+// the same, within the stated memory, however often the input's tables share their parts.
 #include <cstdlib>
 
 #include "base/outside_text.h"

@@ -164,7 +164,7 @@ Result<Unwrapper::Unwrapped> Unwrapper::take_chunk(ByteView envelope) {
     if (!continues || chunk.size() > total - offset)
         return Status::malformed;
 
-    // Memory grows with what has really arrived, not with what was announced.
+    // Memory grows with the received bytes, not with the announced size.
     media_.resize(offset);
     media_.insert(media_.end(), chunk.begin(), chunk.end());
     filled_ = offset + chunk.size();

@@ -2,7 +2,7 @@
 // The classes of traffic on one connection (docs/formats/connection.md).
 //
 // Each WebSocket message is one envelope: a control message whole, one chunk of a media message,
-// some states, a packet of voice, or an acknowledgement. The class decides what a sender drops
+// some states, a packet of voice, or an acknowledgement. Senders drop data by class
 // (net/outbox.h). Chunks are small, so that nothing waits long behind a large frame. Chunks of
 // one media message come in order and are not mixed with those of another; all else may come
 // between them.
@@ -20,7 +20,7 @@ namespace theatron::wire {
 
 inline constexpr std::size_t max_chunk_size = 16 * 1024;  // bytes of media in one envelope
 inline constexpr std::size_t chunk_header_size = 9;
-// What a sender puts into one at most: with the headers in front of it, it fills one TLS record.
+// Most bytes of media that a sender puts into one envelope, which then fills one TLS record.
 inline constexpr std::size_t usual_chunk_size = max_chunk_size - 64;
 inline constexpr std::size_t max_control_size = 64 * 1024;
 inline constexpr std::size_t max_envelope_size = max_control_size + 1;
@@ -30,11 +30,11 @@ inline constexpr std::size_t max_first_envelope_size = 2048;
 inline constexpr std::size_t max_state_size = 1024;       // bytes of one state
 inline constexpr std::size_t max_states_size = 8 * 1024;  // bytes of one envelope of states
 inline constexpr std::size_t max_voice_size = 1500;       // bytes of one packet of voice
-// A receiver acknowledges media that it took within milliseconds, and all else when it has taken
-// so many bytes that it has not told of. So a sender whose window is larger always gets on.
+// A receiver acknowledges taken media within milliseconds, and everything else after this number of
+// unacknowledged bytes. So a sender with a larger window never stops for good.
 inline constexpr std::size_t max_untold = 8 * 1024;
 
-// What a state is about. Receivers pass over topics that they do not know.
+// The meaning of a state. Receivers skip unknown topics.
 enum class StateTopic : std::uint8_t {
     pose = 1,    // wire/person_pose.h; the id is the participant's
     object = 2,  // of an object that somebody holds (session/room_bytes.h); the id is the object's
@@ -60,7 +60,7 @@ struct Voice {
 struct Acknowledgement {
     // Bytes of all envelopes taken since the connection began, acknowledgements not counted.
     std::uint64_t taken = 0;
-    // How long the newest of these had been taken when the acknowledgement left.
+    // Time from the taking of the newest of these to the sending of this acknowledgement.
     Duration held{};
     bool operator==(const Acknowledgement&) const = default;
 };

@@ -10,7 +10,7 @@ namespace {
 
 using namespace theatron;
 
-// What has one spelling is written as it was read.
+// States, voice and acknowledgements have one encoding: writing them again gives equal bytes.
 void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelope) {
     Bytes again;
     wire::StateReader reader(got.states);

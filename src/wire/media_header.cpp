@@ -31,7 +31,7 @@ enum : std::size_t {
 
 constexpr std::uint8_t flag_key = 1;
 
-// What stands for a time that is not known, or that lies before `captured`.
+// The offset of a time that is unknown or before `captured`.
 constexpr std::uint32_t unknown_offset = UINT32_MAX;
 
 std::uint32_t after_captured(TimePoint t, TimePoint captured) {

@@ -26,7 +26,7 @@ struct MediaHeader {
     std::uint16_t slice = 0;    // slice `slice` of `slices` of this frame
     std::uint16_t slices = 1;
     std::uint32_t payload_size = 0;
-    TimePoint moment;    // which frames of several cameras belong together
+    TimePoint moment;    // equal for frames of several cameras that belong together
     TimePoint captured;  // session time, as are the following
     TimePoint delivered;
     TimePoint filtered;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the head and the hands of a person are: the state of topic `pose`
+// The poses of a person's head and hands: the state of topic `pose`
 // (docs/formats/person_pose.md).
 #pragma once
 

@@ -243,7 +243,7 @@ TEST(Envelope, RefusesDamagedStatesVoiceAndAcknowledgements) {
     EXPECT_EQ(unwrapper.take(Bytes(max_voice_size + 6, std::byte{4})).error(), Status::too_large);
 }
 
-// Of the direction that the message belongs to.
+// Encodes and decodes in the direction of the message.
 Result<ToHost> decoded_again(const ToHost& m) {
     return decode_to_host(encode(m));
 }
