@@ -16,7 +16,7 @@ public:
     // Joins the session of `link` twice.
     explicit ScriptedPeople(const net::Link& link);
 
-    // Often, so that motion is smooth. What somebody else holds is left alone.
+    // Call it often, so that motion is smooth. A brick in another participant's hand is not taken.
     void on_tick();
 
 private:

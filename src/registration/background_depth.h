@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far away the background of a board is, and how bright it is expected to be for that.
+// The distance of a board's background, and the brightness expected at that distance.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace theatron::registration {
 
 inline constexpr double background_reflectivity = 0.6;  // in that of the board
-inline constexpr double light_reach_m = 0.03;           // around edges; what is behind counts there
+inline constexpr double light_reach_m = 0.03;           // around edges; background counts there
 
-// Measured beyond each edge of the outline, and through each hole.
+// Mean depths beyond each edge of the outline and through each hole.
 class BackgroundDepth {
 public:
     void add(const FacePattern& pattern, Vec2 p, double z_m) {
@@ -28,7 +28,7 @@ public:
         }
     }
 
-    // Expected, for a face about `face_m` away.
+    // The expected light, for a face at a distance of about `face_m` metres.
     BackgroundLight light(double face_m) const {
         const auto light_of = [&](const Mean& mean) {
             const double behind_m = depth(mean, face_m);
@@ -40,7 +40,7 @@ public:
         return result;
     }
 
-    // Mean depth through a hole; twice `face_m` where nothing was measured.
+    // Mean depth through a hole in metres; if too few were measured, of all; else twice `face_m`.
     double through(int cell_index, double face_m) const {
         return depth(through_[std::size_t(cell_index)], face_m);
     }

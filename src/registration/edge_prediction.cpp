@@ -167,7 +167,7 @@ double EdgePrediction::shown(int x, int y) const {
     const Ray ray = rays_.view().row(y)[x];
     const double face_z = -eye_.z / rotate(face_from_camera_, {ray.x, ray.y, 1}).z;
     const double behind = (z / face_z - 1) * eye_.z;
-    // board_reach_m_ was given for depth 0.
+    // board_reach_m_ contains the tolerance at depth 0; this pixel needs that of its own depth.
     const double shared = board_reach_m_ + plane_tolerance_m(z) - plane_tolerance_m(0);
     return behind < shared ? 1 : behind < shared + mixed_m_ ? 0.5 : 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each pixel near a board should show, for one pose of it: an image that is computed as
-// docs/synthetic_sensor.md describes the sensor, without its noise.
+// Predicts the pixels near a board for one pose of it: an image computed as in
+// docs/synthetic_sensor.md, without the sensor's noise.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct PixelWindow {
     int left, top, right, bottom;
 };
 
-// The part of the picture that shows a board and a rim of 3 cm around it.
+// The part of the depth image that shows a board and a rim of 3 cm around it.
 PixelWindow window_of(const DepthLookup& lookup, const Pose& camera_from_face,
                       const LatticeTarget& target);
 
@@ -27,12 +27,12 @@ public:
     EdgePrediction(const LatticeTarget& target, Face face, const Image<Ray>& rays,
                    const PixelWindow& window);
 
-    // `board_reach_m` behind the face, plus the tolerance of its depth, still counts as the board,
-    // and `mixed_m` more as neither.
+    // Depth up to `board_reach_m` plus the tolerance of the face's depth behind the face counts as
+    // the board, depth up to `mixed_m` farther as neither board nor background. Metres.
     void compute(const Pose& camera_from_face, const BackgroundDepth& background,
                  const EdgeParams& params, double board_reach_m, double mixed_m);
 
-    // 1: the board, 0: what is behind, 0.5: neither; at a pixel of the window, two from its rim.
+    // 1: board, 0: background, 0.5: neither. The pixel must be at least two inside the window.
     double shown(int x, int y) const;
 
 private:
@@ -48,7 +48,7 @@ private:
     int width_;
     std::vector<Hit> hits_;
 
-    // Of the last compute().
+    // Inputs of the last compute().
     Vec3 eye_;
     Quat face_from_camera_;
     double face_depth_m_ = 0, background_factor_ = 1;

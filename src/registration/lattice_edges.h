@@ -16,7 +16,7 @@
 namespace theatron::registration {
 
 // As docs/synthetic_sensor.md models mixed pixels: light that a pixel gets from the next and the
-// one after, how far a farther surface can pull a measurement, and what pull is given up.
+// one after, the longest pull of a farther surface, and the pull that makes a pixel invalid.
 namespace mixed_light {
 inline constexpr double next_light = 0.20, second_light = 0.012;
 inline constexpr double farthest_pull_m = 0.3, given_up_m = 0.032;
@@ -33,8 +33,8 @@ struct Coverage {
     std::array<double, 3> by_params{};  // in the order of EdgeParams
 };
 
-// Light that a pixel gets from what is behind an edge, in that of the board's surface seen squarely
-// one metre away. Sides in the order left, bottom, right, top.
+// Light that a pixel gets from the background behind an edge, relative to that of the board's
+// surface, seen perpendicularly, at 1 m. Sides in the order left, bottom, right, top.
 struct BackgroundLight {
     std::array<double, 4> outline{};
     std::array<double, LatticeTarget::columns * LatticeTarget::rows> cells{};  // row by row

@@ -27,7 +27,7 @@ constexpr double ramp_pixels = 3;
 constexpr double moves_in_round_m = 0.003;
 constexpr double free_of_edges_pixels = 3;  // pixels that show the plane alone
 constexpr int least_plane_pixels = 200, least_edge_pixels = 100;
-constexpr double mixed_m = 0.04;     // pulled off the board by what is behind it, no further
+constexpr double mixed_m = 0.04;     // most that a background pulls a mixed pixel off the board
 constexpr double farthest_m = 0.04;  // from the match
 // Standard deviations of the priors.
 constexpr double prior_growth_m = 0.002, prior_log_background = 0.7;
@@ -41,8 +41,8 @@ constexpr double unmodelled_pixels = 0.02;
 
 constexpr int measuring_steps = 16;
 constexpr double measured_growth_m = 0.0003;  // as prior_growth_m, for a computed image
-// A pose whose image differs more is not used, and others are trusted by how much theirs differ:
-// variance in that of a fitted pose.
+// A pose whose image has a larger difference is not used. The difference gives the variance of the
+// others, relative to that of a fitted pose.
 constexpr double largest_measured_rms = 0.22;
 double measured_variance(double rms) {
     return 0.15 * std::pow(std::max(rms, 0.08) / 0.1, 4);
@@ -57,7 +57,7 @@ struct Spot {
     Vec3 ray;               // camera frame, z = 1
     double ramp_u, ramp_v;  // along the face, over which coverage goes from 0 to 1, metres
     int x, y;               // pixel
-    bool is_before_dark;    // too little light comes back from behind
+    bool is_before_dark;    // its background returns too little light to be measured
     double shown;           // 1: board, 0: background, 0.5: not measured
 };
 
@@ -134,7 +134,7 @@ private:
         return std::max(1, int(round.spacing_m / pixel_m + 0.5));
     }
 
-    // The face's plane from the pixels that show nothing else; and how far away the background is.
+    // The face's plane from the pixels that show nothing else; and the background's distance.
     bool fit_plane(bool first, const Round& round) {
         const Pose& pose = result_.camera_from_face;
         const Plane before = first ? plane_of(pose) : result_.plane;
@@ -220,8 +220,8 @@ private:
         int n = 0;
     };
 
-    // `residual_of` says how much more of the board a spot shows than it should; `seen` how that
-    // changes with the pose.
+    // `residual_of`: the share of the board that a spot shows, minus the expected one; `seen` gives
+    // its derivatives by the pose.
     template <class Residual>
     Normal normal_equations(const SeenEdges& seen, const Pose& pose,
                             const Residual& residual_of) const {
@@ -285,7 +285,7 @@ private:
         return true;
     }
 
-    // What is measured around a pixel: of 49, how many not at all, and how many behind the board.
+    // The numbers of unmeasured and of background pixels among 7 x 7 pixels around one.
     struct Around {
         int unseen = 0, behind = 0;
     };
@@ -305,9 +305,9 @@ private:
         return sums;
     }
 
-    // Only the border between the board and all else counts: a dark background is often not
-    // measured. Moves the pose by edges until an image that is computed for it shows the same
-    // edges.
+    // Moves the pose by edges until an image that is computed for it shows the same edges. In front
+    // of a dark background, which is often not measured, only the border between the board and
+    // everything else counts.
     bool measure_edges() {
         Pose& pose = result_.camera_from_face_by_edges;
         result_.camera_from_face = pose;
@@ -363,7 +363,7 @@ private:
         }
     }
 
-    // How far behind the plane a measurement is still the board: noise, and the walls.
+    // The distance behind the plane up to which a measurement is the board: noise and walls.
     double board_reach_m(double z_m) const { return plane_tolerance_m(z_m) + target_.thickness_m; }
 
     void find_spots(const SeenEdges& seen, const Round& round) {
@@ -388,7 +388,7 @@ private:
                 if (on_plane <= 0)
                     continue;
                 const Vec2 here = on_face.at(rays[x], on_plane);
-                // Pixels in the middle of holes and of the rest say nothing.
+                // Pixels far from all edges contain no information.
                 if (!seen.is_near_edge(here.x, here.y, reach_m))
                     continue;
                 double shown = 0.5;
@@ -396,8 +396,8 @@ private:
                     const double z = row[x] * depth_.metres_per_unit;
                     const double off = (on_plane * z - 1) * per_length;  // behind the plane
                     if (off < -plane_tolerance_m(z))
-                        continue;  // something stands before the board
-                    // A pixel that both share lies between them, near the board.
+                        continue;  // an object in front of the board
+                    // A mixed pixel is measured between the two surfaces, near the board.
                     const double shared = board_reach_m(z);
                     shown = off < shared ? 1 : off < shared + mixed_m ? 0.5 : 0;
                 }
