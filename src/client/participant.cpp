@@ -320,13 +320,13 @@ void Participant::on_control(ByteView message) {
             break;
         }
         case Change::renderer: {
-            wire::SetRenderer word = session_.renderer_word();
+            wire::SetRenderer command = session_.renderer_word();
             {
                 const std::lock_guard lock(shared_->mutex);
                 // A command that frees the choice keeps the renderer of the command before it.
-                if (word.renderer.empty() && shared_->renderer_word)
-                    word.renderer = shared_->renderer_word->renderer;
-                shared_->renderer_word = std::move(word);
+                if (command.renderer.empty() && shared_->renderer_word)
+                    command.renderer = shared_->renderer_word->renderer;
+                shared_->renderer_word = std::move(command);
             }
             announce();
             break;

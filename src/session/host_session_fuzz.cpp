@@ -89,9 +89,9 @@ void check(const HostSession& host) {
             for (const session::ActiveSetting& setting : settings)
                 if (setting.id == SettingId{} || !numbers.insert(setting.id).second)
                     std::abort();
-            for (const auto& [id, told] : host.streams().find(camera.id)->receivers)
+            for (const auto& [id, announced] : host.streams().find(camera.id)->receivers)
                 if (id == camera.publisher ||
-                    !host.streams().find(camera.id)->table(depth).find(told.of(depth)))
+                    !host.streams().find(camera.id)->table(depth).find(announced.of(depth)))
                     std::abort();
         }
 }

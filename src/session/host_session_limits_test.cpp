@@ -117,9 +117,9 @@ TEST_F(Host, ASettingThatCannotKeepUpIsToldToThoseWhoGetIt) {
     auto actions = session.take_actions();
     EXPECT_TRUE(sent<wire::Settings>(alice, actions).empty());
     ASSERT_EQ(sent<wire::Settings>(bob, actions).size(), 1u);
-    const auto told = sent<wire::Settings>(bob, actions)[0];
-    EXPECT_TRUE(told.settings.empty());
-    EXPECT_EQ(told.note.find("Encoding zstd:level=19 takes 152 ms"), 0u) << told.note;
+    const auto announced = sent<wire::Settings>(bob, actions)[0];
+    EXPECT_TRUE(announced.settings.empty());
+    EXPECT_EQ(announced.note.find("Encoding zstd:level=19 takes 152 ms"), 0u) << announced.note;
     session.on_encoding(CameraId{0}, slow, false, 160);
     EXPECT_TRUE(session.take_actions().empty()) << "once is enough";
     session.on_encoding(CameraId{0}, SettingId{999}, false, 160);

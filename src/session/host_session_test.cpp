@@ -136,7 +136,7 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
     const auto given = sent<wire::Settings>(dave, actions);
     ASSERT_EQ(given.size(), 1u);
     EXPECT_EQ(given[0].settings[0].codec, "trvl");
-    EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "it is told";
+    EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "the reason is reported";
 
     // A place becomes free, the participant whose setting it shares leaves, others choose again.
     session.on_closed(bob);

@@ -10,8 +10,8 @@ namespace {
 TEST_F(Host, SetsTheRendererOfOneOfANameOrOfAll) {
     const auto heard = [&](ParticipantId id, const auto& actions) {
         std::string text;
-        for (const auto& word : sent<wire::SetRenderer>(id, actions))
-            text += word.renderer + (word.locked ? "!" : "") + ";";
+        for (const auto& command : sent<wire::SetRenderer>(id, actions))
+            text += command.renderer + (command.locked ? "!" : "") + ";";
         return text;
     };
     join(alice);
@@ -23,7 +23,7 @@ TEST_F(Host, SetsTheRendererOfOneOfANameOrOfAll) {
     EXPECT_EQ(heard(dave, actions), "");
 
     join(bob);
-    EXPECT_EQ(heard(bob, session.take_actions()), "mesh!;") << "who comes later is told, too";
+    EXPECT_EQ(heard(bob, session.take_actions()), "mesh!;") << "a later participant gets it, too";
     session.set_renderer(bob, {"blend", false});
     actions = session.take_actions();
     EXPECT_EQ(heard(alice, actions), "");

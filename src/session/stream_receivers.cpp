@@ -44,8 +44,9 @@ void Streams::leave(ParticipantId id) {
 void Streams::tell_again(ParticipantId id) {
     if (const auto found = receivers_.find(id); found != receivers_.end()) {
         for (auto& [number, camera] : cameras_)
-            if (const auto told = camera.receivers.find(id); told != camera.receivers.end())
-                told->second = {};
+            if (const auto announced = camera.receivers.find(id);
+                announced != camera.receivers.end())
+                announced->second = {};
         send(id, found->second.delivery.message({}));
         tell_receiver(id, found->second);
     }
@@ -166,12 +167,12 @@ Duration Streams::made_in(ParticipantId id) const {
     Duration depth{}, color{};
     int cameras = 0;
     for (const auto& [number, camera] : cameras_) {
-        const auto told = camera.receivers.find(id);
-        if (told == camera.receivers.end())
+        const auto announced = camera.receivers.find(id);
+        if (announced == camera.receivers.end())
             continue;
         ++cameras;
-        depth += camera.made_in(told->second.depth);
-        color += camera.made_in(told->second.color);
+        depth += camera.made_in(announced->second.depth);
+        color += camera.made_in(announced->second.color);
     }
     return std::max(depth, color) / std::max(cameras, 1);
 }
@@ -215,14 +216,14 @@ void Streams::tell_publisher(ParticipantId publisher) {
 void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
     wire::Settings message;
     for (auto& [number, camera] : cameras_) {
-        const auto told = camera.receivers.find(id);
-        if (told == camera.receivers.end())
+        const auto announced = camera.receivers.find(id);
+        if (announced == camera.receivers.end())
             continue;
         const ActiveSetting& depth = camera.table(true).given(id);
         const ActiveSetting& color = camera.table(false).given(id);
         const CameraStreams::Told now{depth.id, color.id,
                                       step_for(id, receiver, camera).highest_layer};
-        const CameraStreams::Told before = std::exchange(told->second, now);
+        const CameraStreams::Told before = std::exchange(announced->second, now);
         if (before.depth == now.depth && before.color == now.color)
             continue;
         for (const bool is_depth : {true, false}) {

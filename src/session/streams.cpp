@@ -67,7 +67,7 @@ const std::vector<ActiveSetting>& Streams::settings(CameraId id, bool depth) con
 }
 
 void Streams::remove(const std::vector<CameraId>& cameras) {
-    std::map<ParticipantId, wire::CamerasRemoved> told;
+    std::map<ParticipantId, wire::CamerasRemoved> removals;
     for (const CameraId camera : cameras) {
         const auto found = cameras_.find(camera);
         if (found == cameras_.end())
@@ -82,11 +82,11 @@ void Streams::remove(const std::vector<CameraId>& cameras) {
             receiver.delivery.forget(depth_stream(camera));
             receiver.delivery.forget(color_stream(camera));
             if (id != found->second.publisher())
-                told[id].cameras.push_back(camera);
+                removals[id].cameras.push_back(camera);
         }
         cameras_.erase(found);
     }
-    for (auto& [id, message] : told)
+    for (auto& [id, message] : removals)
         send(id, std::move(message));
 }
 
@@ -131,7 +131,7 @@ void Streams::on_state(const wire::CameraState& state) {
     if (found == cameras_.end())
         return;
     found->second.state = state;
-    for (const auto& [id, told] : found->second.receivers)
+    for (const auto& [id, announced] : found->second.receivers)
         send(id, state);
 }
 
@@ -169,8 +169,8 @@ void Streams::on_encoding(CameraId id, SettingId setting, bool keeps_up, double 
             "Encoding " + active->codec + " takes " + std::to_string(int(ms_per_picture + 0.5)) +
             " ms a picture here, more than its share, so you get fewer pictures than the cameras "
             "take; another codec would be faster.";
-        for (const auto& [receiver, told] : camera.receivers)
-            if (told.of(depth) == setting)
+        for (const auto& [receiver, announced] : camera.receivers)
+            if (announced.of(depth) == setting)
                 send(receiver, wire::Settings{{}, note});
     }
     apply();
@@ -192,13 +192,13 @@ std::vector<ParticipantId> Streams::on_media(const wire::MediaHeader& header, st
     const bool depth = is_depth(header.stream);
     const bool chain = camera.table(depth).find(header.setting)->traits.chain;
     std::vector<ParticipantId> result;
-    for (const auto& [id, told] : camera.receivers) {
-        if (told.of(depth) != header.setting)
+    for (const auto& [id, announced] : camera.receivers) {
+        if (announced.of(depth) != header.setting)
             continue;
         Receiver& receiver = receivers_.at(id);
-        const int own_layer = depth ? *layer : camera.color_layer(header.frame, told.depth);
+        const int own_layer = depth ? *layer : camera.color_layer(header.frame, announced.depth);
         if (!chain && !receiver.records &&
-            !receiver.delivery.lets_through(header.stream, own_layer, told.highest_layer))
+            !receiver.delivery.lets_through(header.stream, own_layer, announced.highest_layer))
             continue;
         result.push_back(id);
     }
@@ -208,8 +208,8 @@ std::vector<ParticipantId> Streams::on_media(const wire::MediaHeader& header, st
 std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting) const {
     std::vector<ParticipantId> result;
     if (const CameraStreams* camera = find(camera_of(stream)))
-        for (const auto& [id, told] : camera->receivers)
-            if (told.of(is_depth(stream)) == setting)
+        for (const auto& [id, announced] : camera->receivers)
+            if (announced.of(is_depth(stream)) == setting)
                 result.push_back(id);
     return result;
 }
@@ -224,8 +224,8 @@ void Streams::request_key(ParticipantId receiver, StreamId stream, SettingId set
     const CameraStreams* camera = find(camera_of(stream));
     if (!camera)
         return;
-    const auto told = camera->receivers.find(receiver);
-    if (told != camera->receivers.end() && told->second.of(is_depth(stream)) == setting)
+    const auto announced = camera->receivers.find(receiver);
+    if (announced != camera->receivers.end() && announced->second.of(is_depth(stream)) == setting)
         key_requests_.request({stream, setting});
 }
 

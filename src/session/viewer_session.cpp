@@ -93,8 +93,8 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         delivery_ = std::move(*delivery);
         return Change::delivery;
     }
-    if (auto* word = std::get_if<wire::SetRenderer>(&*message)) {
-        renderer_word_ = std::move(*word);
+    if (auto* command = std::get_if<wire::SetRenderer>(&*message)) {
+        renderer_word_ = std::move(*command);
         return Change::renderer;
     }
     if (auto* goodbye = std::get_if<wire::Goodbye>(&*message)) {
