@@ -29,7 +29,7 @@ struct HostOptions {
     std::filesystem::path state;  // keys and token; empty: the user's state folder
 };
 
-// Runs from construction to destruction, on threads of its own.
+// Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
 class Host {
 public:
     // Opens cameras and port. Throws Error with one sentence if one of them cannot be opened.
@@ -37,7 +37,7 @@ public:
     ~Host();
 
     std::string link() const;
-    // The same for participants who may send cameras, too.
+    // The link for participants that may also send cameras.
     std::string publish_link() const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
@@ -45,15 +45,15 @@ public:
     std::vector<std::string> unregistered_cameras() const;
 
     // The part of a camera's depth image, in its pixels, that stays exact on any link,
-    // from the next frame on; empty: all of it. From any thread. Throws Error with one
-    // sentence if it has too many parts or lies outside the image.
+    // from the next frame on; empty: all of it. Throws Error with one sentence if it has
+    // too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
 
     // Sets the renderer of a participant, by number or name, or of all (empty). Throws Error with
     // one sentence if there is no such participant.
     void set_renderer(const std::string& who, const wire::SetRenderer& word);
 
-    // Loads filter files again that have changed, and logs it.
+    // Loads changed filter files again, and logs it. From one thread.
     void follow_filter_files();
 
     // Figures since the start: cameras with stages, participants, drops.

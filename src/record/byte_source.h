@@ -17,7 +17,7 @@ class ByteSource {
 public:
     virtual ~ByteSource() = default;
     virtual std::uint64_t size() const = 0;
-    // Fills `out` with the bytes from `at` on; false if the source ends before.
+    // Fills `out` with the bytes from `at` on; false if the source ends before. From any thread.
     virtual bool read(std::uint64_t at, std::span<std::byte> out) = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input of a recording: takes the pictures of live streams as they come, gives
-// those that can be decoded to the recorder, begins its segments, and counts
+// The input of a recording: takes the pictures of live streams in the order of arrival,
+// gives those that can be decoded to the recorder, begins its segments, and counts
 // missing pictures.
 //
 // Pure except for the recorder: times are arguments. `now` is always the recording
@@ -44,15 +44,15 @@ public:
                   bool new_connection, TimePoint now);
 
     // Takes a whole media message of any stream. Never waits, never throws. True if the stream's
-    // sender should be asked for a key frame. From any thread; messages of one stream in order.
+    // sender should send a key frame. From any thread; messages of one stream in order.
     [[nodiscard]] bool take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
                             const std::string& filters, const Now& now);
 
-    // The last file is not at its name any more: a new one begins with the next key frame, which is
-    // asked for. Until then pictures still go into the last one, which may only be renamed.
+    // The last file is not at its name any more: a new one begins with the next key frame, which
+    // take() requests. Until then pictures go into the last one, which may only be renamed.
     void begin_segment();
 
-    // This camera has ended: it sends nothing more, and nothing of it is missing.
+    // This camera has ended: it sends no more pictures, and none are missing from now on.
     void on_end(CameraId camera);
 
     // Sentences for the user on losses since the last call.
@@ -63,7 +63,7 @@ public:
         StreamId id{};
         std::string camera;  // its name
         StreamGate::Figures figures;
-        // Times without any picture, of more than silence_limit, and connections that were lost.
+        // Pauses of more than silence_limit without any picture, and lost connections.
         std::uint64_t interruptions = 0;
         // Arrival of the first and the last picture.
         std::optional<TimePoint> first, last;

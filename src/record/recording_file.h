@@ -2,8 +2,8 @@
 // A recording for reading: its segments as one, its cameras, their streams, and
 // the position of each frame.
 //
-// Safe for untrusted files. Only the checksum of an image is checked, not its
-// content: decoders must be safe themselves.
+// Safe for untrusted files. Only the checksum of an image is checked, not its content:
+// decoders must be safe themselves. Const functions may be called from any thread.
 #pragma once
 
 #include <deque>
@@ -117,8 +117,8 @@ std::string losses_of(const Segment& segment);
 
 class RecordingFile {
 public:
-    // Opens `path` and the segments that follow it, which lie in the same folder. Throws Error with
-    // one sentence if it is no recording.
+    // Opens `path` and the segments that follow it in the same folder. Throws Error with one
+    // sentence if it is no recording.
     static std::unique_ptr<RecordingFile> open(const std::filesystem::path& path);
 
     // The same without exceptions, for untrusted bytes: segments in any order. The first one must
@@ -151,7 +151,7 @@ public:
 
     // The media header of a frame; its checksum was checked when the file was opened.
     Result<wire::MediaHeader> read_header(const RecordedFrame& frame) const;
-    // malformed: the picture is damaged.
+    // Resizes `out` to the payload. truncated: the file ends before; malformed: it is damaged.
     Status read_payload(const RecordedFrame& frame, Bytes& out) const;
 
 private:
