@@ -366,7 +366,10 @@ void add_join_command(CLI::App& app) {
         ", auto (H.264 or JPEG, whichever suits the host; see 'theatron status')"
         "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
-        "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20'.\n"
+        "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20', "
+        "or act in the shared room\n(docs/room.md):\n" +
+        RoomLines::help() +
+        ".\n"
         "\nExamples:\n"
         "  theatron join LINK\n"
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
