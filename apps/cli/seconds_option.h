@@ -20,7 +20,7 @@ inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds, const
             const bool is_number = CLI::detail::lexical_cast(text, value);
             if (is_number && std::isfinite(value) && value > 0 && value <= longest_seconds)
                 return "";
-            return "'" + text + "' is not a number of seconds greater than 0";
+            return "'" + text + "' is not a number of seconds greater than 0 and up to 1e8";
         });
 }
 

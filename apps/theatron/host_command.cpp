@@ -224,7 +224,13 @@ void add_host_command(CLI::App& app) {
         ->add_option("--link-hours", flags->link_hours,
                      "The links let nobody in after so many hours; participants who are in stay. "
                      "0: they always do")
-        ->check(CLI::Range(0.0, 1000.0));
+        ->check([](const std::string& text) -> std::string {
+            double value = 0;
+            // A comparison with nan is false.
+            if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1000)
+                return "";
+            return "'" + text + "' is not a number of hours from 0 to 1000";
+        });
     command->add_option(
         "--state", flags->state,
         "Folder for the host's key, certificate and tokens (default: ~/.local/state/theatron)");

@@ -439,9 +439,10 @@ void add_join_command(CLI::App& app) {
                       "With --offscreen: what the left and the right eye see, beside each other");
     cli::add_seconds_option(*command, flags->seconds,
                             "End this long after the first picture (default with --offscreen: 3)");
-    command->add_option("--warmup", flags->warmup, "Leave these first seconds out of the figures");
-    command->add_option("--every", flags->every,
-                        "Print the figures as a JSON line every so many seconds");
+    cli::add_seconds_option(*command, flags->warmup, "Leave these first seconds out of the figures",
+                            "--warmup");
+    cli::add_seconds_option(*command, flags->every,
+                            "Print the figures as a JSON line every so many seconds", "--every");
     command
         ->add_option(
             "--target-latency", flags->target_latency_ms,
@@ -456,9 +457,10 @@ void add_join_command(CLI::App& app) {
         ->check([](const std::string& text) -> std::string {
             double value = 0;
             const bool is_number = CLI::detail::lexical_cast(text, value);
-            if (is_number && std::isfinite(value) && value >= 0)
+            // The host is told whole kilobits.
+            if (is_number && std::isfinite(value) && (value == 0 || value >= 0.001))
                 return "";
-            return "'" + text + "' is not a number of megabits, 0 or more";
+            return "'" + text + "' is not a number of megabits: 0, or 0.001 and more";
         });
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_flag("--no-window", flags->no_window,

@@ -9,12 +9,18 @@
 #include "base/steady_clock.h"
 #include "room/bricks.h"
 #include "viewer/meeting.h"
+#include "viewer/refusal_text.h"
 
 namespace theatron::app {
 namespace {
 
 namespace request = session::request;
 
+constexpr double least_distance_m = 1e-6;
+const char* const needs_places =
+    "It needs numbers of metres, none beyond 1000: for example 'brick 0.2 1.25 0.3'.";
+const char* const not_joined = "The room is not known yet.";
+constexpr Duration refusals_interval = std::chrono::seconds(1);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
 
 bool read(std::istream& words, Vec3& place) {
@@ -27,7 +33,9 @@ bool read(std::istream& words, Vec3& place) {
 
 // The pose of a head or a hand at `place` that looks or points at `at`: y up, -z forward.
 Pose towards(Vec3 place, Vec3 at) {
-    return look_at(place, at, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
+    const bool is_vertical = length(cross(at - place, {0, 1, 0})) < least_distance_m;
+    return look_at(place, at, is_vertical ? Vec3{0, 0, -1} : Vec3{0, 1, 0}) *
+           Pose{Quat{0, 1, 0, 0}, {}};
 }
 
 const char* text_of(session::ObjectKind kind) {
@@ -64,73 +72,105 @@ bool RoomLines::obey(const std::string& line, client::Participant& participant) 
     for (const char* known :
          {"stand", "point", "brick", "grab", "move", "release", "give", "remove"})
         if (what == known) {
-            if (!change(what, words, participant))
-                log::say("'" + line + "' cannot be done. Lines are:\n" + help());
+            if (const std::string problem = change(what, words, participant); !problem.empty())
+                log::say("'" + line + "': " + problem);
             return true;
         }
     return false;
 }
 
-bool RoomLines::change(const std::string& what, std::istream& words,
-                       client::Participant& participant) {
+std::string RoomLines::change(const std::string& what, std::istream& words,
+                              client::Participant& participant) {
     if (what == "stand" || what == "point") {
         Vec3 place, at;
-        if (!read(words, place) || !read(words, at) || length(at - place) < 1e-6 ||
-            length(cross(at - place, {0, 1, 0})) < 1e-6)
-            return false;
+        if (!read(words, place) || !read(words, at))
+            return needs_places;
+        if (length(at - place) < least_distance_m)
+            return "The two places are the same.";
         (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
         sent_ = {};
-        return true;
+        return "";
     }
+    if (participant.room().objects.empty())
+        return not_joined;
     if (what == "brick") {
         Vec3 place;
-        return read(words, place) && participant.ask_room(request::Create{
-                                         session::ObjectKind::brick,
-                                         {{}, place},
-                                         1,
-                                         room::encode_brick({4, 2, next_color_++})}) != 0;
+        if (!read(words, place))
+            return needs_places;
+        participant.ask_room(request::Create{
+            session::ObjectKind::brick, {{}, place}, 1, room::encode_brick({4, 2, next_color_++})});
+        return "";
     }
     if (what == "grab") {
         std::uint32_t number = 0;
         words >> number;
         const auto room = participant.room();
         const auto found = room.objects.find(session::ObjectId(number));
-        if (!words || found == room.objects.end())
-            return false;
-        const std::uint32_t grip = participant.ask_room(request::Grab{found->first});
-        if (grip != 0)
-            held_ = Held{found->first, grip, found->second.room_from_object};
-        return grip != 0;
+        if (!words || found == room.objects.end() ||
+            found->second.kind == session::ObjectKind::person)
+            return "There is no object of this number; --json lists them under \"room\".";
+        held_ = Held{found->first, participant.ask_room(request::Grab{found->first}),
+                     found->second.room_from_object, found->second.scale};
+        return "";
     }
-    if (!held_)
-        return false;
+    return held_ ? change_held(what, words, participant)
+                 : "Nothing is held; 'grab NUMBER' comes first.";
+}
+
+std::string RoomLines::change_held(const std::string& what, std::istream& words,
+                                   client::Participant& participant) {
     if (what == "move") {
         Vec3 place;
         double degrees = 0;
         if (!read(words, place))
-            return false;
+            return needs_places;
         words >> degrees;
         held_->room_from_object = {rotation_about({0, 1, 0}, radians_of(degrees)), place};
-        return participant.move_object(held_->object, held_->room_from_object, 1);
+        if (participant.move_object(held_->object, held_->room_from_object, held_->scale))
+            return "";
+        held_.reset();
+        return "The object is no longer held.";
     }
-    const Held held = *std::exchange(held_, std::nullopt);
+    if (what == "give") {
+        std::string name;
+        std::getline(words >> std::ws, name);
+        for (const auto& person : viewer::people_of(participant.room(), {}, participant.now()))
+            if (person.name == name) {
+                participant.ask_room(request::HandOver{held_->object, held_->grip, person.id});
+                held_.reset();
+                return "";
+            }
+        return "Nobody of this name is here.";
+    }
     if (what == "release")
-        return participant.ask_room(
-                   request::Release{held.object, held.grip, held.room_from_object, 1}) != 0;
-    if (what == "remove")
-        return participant.ask_room(request::Remove{held.object}) != 0;
-    std::string name;
-    words >> name;
-    for (const auto& person : viewer::people_of(participant.room(), {}, participant.now()))
-        if (person.name == name)
-            return participant.ask_room(request::HandOver{held.object, held.grip, person.id}) != 0;
-    held_ = held;
-    return false;
+        participant.ask_room(
+            request::Release{held_->object, held_->grip, held_->room_from_object, held_->scale});
+    else
+        participant.ask_room(request::Remove{held_->object});
+    held_.reset();
+    return "";
+}
+
+// At most one line a second, however many there are.
+void RoomLines::print_refusals(client::Participant& participant, TimePoint now) {
+    while (const auto refusal = participant.take_room_refusal()) {
+        ++refused_;
+        refusal_ = viewer::text_of(refusal->second);
+    }
+    if (refused_ == 0 || now - refusals_printed_ < refusals_interval)
+        return;
+    refusals_printed_ = now;
+    log::say((refused_ == 1 ? "A change of the room was refused: "
+                            : std::to_string(refused_) +
+                                  " changes of the room were refused, the last one: ") +
+             refusal_ + ".");
+    refused_ = 0;
 }
 
 void RoomLines::on_tick(client::Participant& participant) {
     const bool stands = pose_.head || pose_.right_hand;
     const TimePoint now = steady_now();
+    print_refusals(participant, now);
     if (!stands || now - sent_ < pose_repeated_after || !participant.status().clock_known)
         return;
     sent_ = now;

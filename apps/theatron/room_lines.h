@@ -29,15 +29,23 @@ public:
     void on_tick(client::Participant& participant);
 
 private:
-    bool change(const std::string& what, std::istream& words, client::Participant& participant);
+    // Both return one sentence about what is wrong; empty if nothing is.
+    std::string change(const std::string& what, std::istream& words,
+                       client::Participant& participant);
+    std::string change_held(const std::string& what, std::istream& words,
+                            client::Participant& participant);
+    void print_refusals(client::Participant& participant, TimePoint now);
 
     struct Held {
         session::ObjectId object{};
         std::uint32_t grip = 0;
         Pose room_from_object;
+        double scale = 1;
     };
     wire::PersonPose pose_;
-    TimePoint sent_;
+    TimePoint sent_, refusals_printed_;
+    std::uint64_t refused_ = 0;  // not yet printed
+    std::string refusal_;        // the newest of these
     std::optional<Held> held_;
     std::uint8_t next_color_ = 0;
 };

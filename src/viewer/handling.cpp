@@ -3,27 +3,12 @@
 
 #include <utility>
 
+#include "viewer/refusal_text.h"
+
 namespace theatron::viewer {
 namespace {
 
 namespace request = session::request;
-
-std::string text_of(session::Refusal refusal) {
-    switch (refusal) {
-        case session::Refusal::held_by_another:
-            return "Somebody else holds this";
-        case session::Refusal::role:
-            return "Your link lets you look only";
-        case session::Refusal::too_many:
-            return "The room holds no more objects";
-        case session::Refusal::too_often:
-            return "That was too much at once; try again";
-        case session::Refusal::no_such_participant:
-            return "That person has left";
-        default:
-            return "";
-    }
-}
 
 // Depth along the view's axis.
 double depth_of(Vec3 place, const render::CameraView& view) {

@@ -4,6 +4,7 @@ import pathlib
 import shutil
 import struct
 import tempfile
+import time
 import unittest
 
 from raw_peer import STATES, RawPeer
@@ -86,6 +87,35 @@ class Room(unittest.TestCase):
             anna.wait_for(lambda f: True, 10)
             together = picture("together.png")
             self.assertNotEqual(alone, together)
+
+    def test_what_cannot_be_done_is_said(self):
+        with self.start() as h, member(h.greeting["link"], "Anna Ö. Two") as anna, \
+                member(h.greeting["link"], "Ben") as ben:
+            for person in (anna, ben):
+                person.wait_for(lambda f: len(people(f)) == 2, 20)
+            for line, problem in (("grab 9999", "no object of this number"), ("release", "Nothing is held"),
+                                  ("brick 1 2", "numbers of metres"), ("brick nan 1 1", "numbers of metres"),
+                                  ("stand 1 1 1 1 1 1", "the same")):
+                ben.say(line)
+                self.wait_for_error(ben, problem)
+            ben.say("stand 0 1.6 0 0 0 0")  # straight down
+            ben.say("brick 0 1 0")
+            ben.say(f"grab {brick(ben.wait_for(brick, 10))['id']}")
+            ben.say("give nobody")
+            self.wait_for_error(ben, "Nobody of this name")
+            ben.say("give Anna Ö. Two")
+            anna.wait_for(lambda f: brick(f) and brick(f)["held_by"] == f["room"]["self"], 10)
+            for i in range(400):
+                ben.say(f"brick 1 1 {i / 100}")
+            self.wait_for_error(ben, "changes of the room were refused")
+
+    @staticmethod
+    def wait_for_error(person, text, timeout=10):
+        end = time.monotonic() + timeout
+        while not any(text in line for line in person.errors):
+            if time.monotonic() > end:
+                raise AssertionError(f"'{text}' was not said: {person.errors}")
+            time.sleep(0.02)
 
     def test_what_a_hostile_member_sends_harms_nobody(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
