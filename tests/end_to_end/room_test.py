@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Participants in one room: all see the same people, their poses, and the held objects."""
+import json
 import pathlib
 import shutil
 import struct
@@ -31,7 +32,12 @@ class Room(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_room_"))
         self.addCleanup(shutil.rmtree, self.folder)
-        camera = f"folder:{make_recording(self.folder / 'box')},loop=1,preload=1"
+        recording = make_recording(self.folder / "box")
+        # The camera stands 1.6 m above the floor and looks level along -z.
+        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.6, 0]}
+        (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+        camera = f"folder:{recording},loop=1,preload=1"
         self.start = lambda: host(self.folder / "state", camera)
 
     def test_people_meet_hold_hand_over_and_let_go(self):
@@ -77,16 +83,28 @@ class Room(unittest.TestCase):
 
             def picture(name):
                 with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240",
-                             "--seconds", "1.5", "--json") as viewer:
+                             "--seconds", "1.5", "--color-codec", "raw", "--json") as viewer:
                     self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
                 return read_png(self.folder / name)
 
-            alone = picture("alone.png")
-            # In front of the camera, which is at the room's origin in this recording or looks at it.
-            anna.say("stand 0 0.05 -0.8 0 0.1 0")
-            anna.wait_for(lambda f: True, 10)
-            together = picture("together.png")
-            self.assertNotEqual(alone, together)
+            # The eyes and the name are lighter than anything else in the picture.
+            def light_pixels(picture):
+                width, height, channels, rows = picture
+                return sum(min(rows[y][channels * x:channels * x + 3]) > 110 for y in range(height) for x in range(width))
+
+            self.assertEqual(light_pixels(picture("alone.png")), 0)
+            anna.say("stand 0 1.6 -0.5 0 1.6 0")
+            with member(h.greeting["link"], "Ben") as ben:
+                ben.wait_for(lambda f: people(f) == ["Anna", "Ben"], 10)
+            facing = light_pixels(picture("facing.png"))
+            anna.say("stand 0 1.6 -0.5 0 1.6 -2")
+            with member(h.greeting["link"], "Ben") as ben:
+                ben.wait_for(lambda f: people(f) == ["Anna", "Ben"], 10)
+            facing_away = picture("away.png")
+            self.assertGreater(light_pixels(facing_away), 50, "the name")
+            self.assertGreater(facing, light_pixels(facing_away) + 150, "eyes")
+            red, _, blue = facing_away[3][120][3 * 160:3 * 160 + 3]
+            self.assertGreater(blue, red + 40)
 
     def test_what_cannot_be_done_is_said(self):
         with self.start() as h, member(h.greeting["link"], "Anna Ö. Two") as anna, \
