@@ -113,8 +113,10 @@ void run(const Flags& flags) {
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
     bool damaged = !recording->intact();
     for (const record::Segment& segment : recording->segments())
-        if (const std::string end = record::end_of(segment); !end.empty())
+        if (const std::string end = record::end_of(segment); !end.empty()) {
             std::cerr << segment.file << ": " << end << std::endl;
+            damaged = true;
+        }
 
     for (const std::string& folder : {flags.ply, flags.png})
         if (!folder.empty())
