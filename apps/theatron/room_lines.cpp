@@ -16,7 +16,7 @@ namespace {
 
 namespace request = session::request;
 
-constexpr double least_distance_m = 1e-6;
+constexpr double same_place_m = 1e-6;
 const char* const needs_places =
     "It needs numbers of metres, none beyond 1000: for example 'brick 0.2 1.25 0.3'.";
 const char* const not_joined = "The room is not known yet.";
@@ -33,7 +33,7 @@ bool read(std::istream& words, Vec3& place) {
 
 // The pose of a head or a hand at `place` that looks or points at `at`: y up, -z forward.
 Pose towards(Vec3 place, Vec3 at) {
-    const bool is_vertical = length(cross(at - place, {0, 1, 0})) < least_distance_m;
+    const bool is_vertical = length(cross(at - place, {0, 1, 0})) < same_place_m;
     return look_at(place, at, is_vertical ? Vec3{0, 0, -1} : Vec3{0, 1, 0}) *
            Pose{Quat{0, 1, 0, 0}, {}};
 }
@@ -85,7 +85,7 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
         Vec3 place, at;
         if (!read(words, place) || !read(words, at))
             return needs_places;
-        if (length(at - place) < least_distance_m)
+        if (length(at - place) < same_place_m)
             return "The two places are the same.";
         (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
         sent_ = {};

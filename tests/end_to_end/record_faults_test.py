@@ -86,7 +86,8 @@ class RecordFaults(unittest.TestCase):
         depth = json.loads(out)["cameras"][0]["depth"]
         target = self.folder / "png"
         code, _, errors = run("export", file, "--camera", 0, "--png", target)
-        self.assertEqual(code, 0, errors)
+        # A file that a fault ended may be without its end, which is an exit code of its own.
+        self.assertEqual(code, INCOMPLETE if "ends without its end" in errors else 0, errors)
         self.assertEqual(len(list(target.glob("depth/*.png"))), depth["frames"])
         self.assertGreaterEqual(depth["frames"], at_least)
         shutil.rmtree(target)
