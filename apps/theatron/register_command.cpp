@@ -6,20 +6,20 @@
 #include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "base/error.h"
 #include "base/steady_clock.h"
 #include "board_option.h"
-#include "capture/camera.h"
 #include "capture/camera_places.h"
 #include "cli/camera_option.h"
 #include "cli/progress.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "commands.h"
+#include "depth_source.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
+#include "link_argument.h"
 #include "registration/board_session.h"
 #include "registration/room_alignment.h"
 
@@ -29,7 +29,10 @@ namespace {
 using registration::BoardSession;
 using registration::RigSolution;
 
+using Cameras = std::vector<DepthSource::Camera>;
+
 struct Flags {
+    std::string link;
     std::vector<std::string> cameras;
     BoardFlags board;
     std::string output;
@@ -38,33 +41,19 @@ struct Flags {
     bool json = false;
 };
 
-struct OpenCamera {
-    std::unique_ptr<capture::Camera> camera;
-    bool ended = false;
-    std::string name() const { return camera->info().name; }
-};
-
-std::vector<OpenCamera> open_all(const Flags& flags) {
-    std::vector<OpenCamera> cameras;
-    std::set<std::string> names;
-    for (const std::string& specification : flags.cameras) {
-        cameras.push_back({capture::open_camera(specification, cli::show_progress())});
-        if (!names.insert(cameras.back().name()).second)
-            throw Error("Two cameras are called '" + cameras.back().name() +
-                        "'; the file of places tells cameras apart by their names.");
-    }
-    if (cameras.size() < 2)
-        throw Error("Cameras are registered to each other: give at least two with --camera.");
-    return cameras;
+std::unique_ptr<DepthSource> open(const Flags& flags) {
+    if (flags.link.empty() == flags.cameras.empty())
+        throw Error(
+            "Say which cameras: the link of a running session, or --camera for each that this "
+            "computer opens itself.");
+    return flags.link.empty() ? open_cameras(flags.cameras, cli::show_progress())
+                              : join_for_depth(parse_link_argument(flags.link));
 }
 
-BoardSession make_session(const std::vector<OpenCamera>& cameras,
-                          const registration::LatticeTarget& target) {
+BoardSession make_session(const Cameras& cameras, const registration::LatticeTarget& target) {
     std::vector<registration::SessionCamera> about;
-    for (const OpenCamera& camera : cameras) {
-        const Calibration& calibration = camera.camera->info().calibration;
-        about.push_back({camera.name(), calibration.depth, calibration.depth_unit_mm});
-    }
+    for (const DepthSource::Camera& camera : cameras)
+        about.push_back({camera.name, camera.calibration.depth, camera.calibration.depth_unit_mm});
     return BoardSession(std::move(about), target);
 }
 
@@ -83,70 +72,68 @@ const char* in_words(BoardSession::Sight sight) {
 }
 
 // Prints the state of the registration after a view.
-void tell(const BoardSession& session, const std::vector<OpenCamera>& cameras, std::size_t taken,
-          bool json) {
+void tell(const BoardSession& session, const Cameras& cameras, std::size_t taken,
+          const Flags& flags) {
     const RigSolution solution = session.solve();
+    const Vec3 span = BoardSession::span_m(solution);
+    const std::string next = session.next_step(solution, flags.poses);
     nlohmann::json report{{"event", "view"},
-                          {"camera", cameras[taken].name()},
+                          {"camera", cameras[taken].name},
                           {"places", session.places()},
+                          {"span_m", {span.x, span.y, span.z}},
+                          {"next", next},
                           {"cameras", nlohmann::json::array()},
                           {"pairs", nlohmann::json::array()}};
     std::string line = "Place " + std::to_string(session.places()) + ", seen by " +
-                       cameras[taken].name() + ". Views:";
+                       cameras[taken].name + ". Views:";
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-        report["cameras"].push_back({{"camera", cameras[c].name()},
+        report["cameras"].push_back({{"camera", cameras[c].name},
                                      {"views", session.views(c)},
                                      {"coverage_ninths", session.coverage(c)}});
-        line += " " + cameras[c].name() + " " + std::to_string(session.views(c)) + " (" +
+        line += " " + cameras[c].name + " " + std::to_string(session.views(c)) + " (" +
                 std::to_string(session.coverage(c)) + "/9 of its picture)";
     }
+    char text[100];
     for (const BoardSession::Pair& pair : session.pairs(solution)) {
-        report["pairs"].push_back({{"a", cameras[pair.a].name()},
-                                   {"b", cameras[pair.b].name()},
+        report["pairs"].push_back({{"a", cameras[pair.a].name},
+                                   {"b", cameras[pair.b].name},
                                    {"places", pair.places},
                                    {"apart_mm", pair.apart_m * 1000}});
-        char text[60];
         std::snprintf(text, sizeof(text), ": %d common, %.1f mm apart", pair.places,
                       pair.apart_m * 1000);
-        line += "; " + cameras[pair.a].name() + "-" + cameras[pair.b].name() + text;
+        line += "; " + cameras[pair.a].name + "-" + cameras[pair.b].name + text;
     }
-    if (json)
+    if (flags.json) {
         std::cout << files::json_text(report) << std::endl;
-    else
-        std::cout << "\r\033[K" << line << std::endl;
+        return;
+    }
+    std::snprintf(text, sizeof(text), "; places span %.1f x %.1f x %.1f m", span.x, span.y, span.z);
+    std::cout << "\r\033[K" << line << text << "\n  " << next << std::endl;
 }
 
-void watch(std::vector<OpenCamera>& cameras, BoardSession& session, const Flags& flags) {
+void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
+    const Cameras& cameras = source.cameras();
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
-    for (std::size_t ended = 0; ended < cameras.size() && !cli::stop_requested();) {
+    bool complete = false, filter_said = false;
+    const auto look = [&](std::size_t camera, DepthView depth, TimePoint captured) {
+        if (complete || !session.add(camera, depth, captured))
+            return;
+        tell(session, cameras, camera, flags);
+        complete = session.is_complete(flags.poses);
+        if (!cameras[camera].filter.empty() && !std::exchange(filter_said, true))
+            std::fprintf(stderr,
+                         "The host filters depth, which moves the board's edges a little. For the "
+                         "best places start it with --filter off meanwhile.\n");
+    };
+    while (!complete && !cli::stop_requested() && source.next(look)) {
         if (flags.seconds > 0 && steady_now() - begin > seconds_to_duration(flags.seconds))
             return;
-        for (std::size_t c = 0; c < cameras.size(); ++c) {
-            if (cameras[c].ended)
-                continue;
-            const capture::Capture got = cameras[c].camera->next(std::chrono::milliseconds(5));
-            using Kind = capture::Capture::Kind;
-            if (got.kind == Kind::failed)
-                throw Error(got.problem);
-            if (got.kind == Kind::end) {
-                cameras[c].ended = true;
-                ++ended;
-            }
-            const bool fits =
-                got.kind == Kind::frame &&
-                got.frame->depth.size == cameras[c].camera->info().calibration.depth.size;
-            if (!fits || !session.add(c, got.frame->depth.view(), got.frame->times.captured))
-                continue;
-            tell(session, cameras, c, flags.json);
-            if (session.is_complete(flags.poses))
-                return;
-        }
         if (live_line && steady_now() >= next_line) {
             std::string line;
             for (std::size_t c = 0; c < cameras.size(); ++c)
-                line += (c ? "  |  " : "") + cameras[c].name() + ": " + in_words(session.sight(c));
+                line += (c ? "  |  " : "") + cameras[c].name + ": " + in_words(session.sight(c));
             std::cout << "\r\033[K" << line << std::flush;
             next_line = steady_now() + 200ms;
         }
@@ -154,15 +141,14 @@ void watch(std::vector<OpenCamera>& cameras, BoardSession& session, const Flags&
 }
 
 // The floor in the reference's frame, measured by the camera that sees most of it.
-std::optional<registration::Plane> floor_of(const std::vector<OpenCamera>& cameras,
-                                            const BoardSession& session,
+std::optional<registration::Plane> floor_of(const Cameras& cameras, const BoardSession& session,
                                             const RigSolution& solution) {
     std::optional<registration::Plane> floor;
     double area = 0;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         const auto found =
             registration::find_floor(session.last_mean(c).view(), session.mean_unit_mm(c),
-                                     make_ray_table(cameras[c].camera->info().calibration.depth));
+                                     make_ray_table(cameras[c].calibration.depth));
         if (!found || found->area_m2 < area)
             continue;
         area = found->area_m2;
@@ -183,13 +169,13 @@ std::string utc_now() {
     return text;
 }
 
-void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
-          const RigSolution& solution, const Flags& flags) {
+void save(const Cameras& cameras, const BoardSession& session, const RigSolution& solution,
+          const Flags& flags) {
     Vec3 middle{};
     for (const Pose& board : solution.reference_from_board)
         middle = middle + board.translation * (1.0 / double(session.places()));
     // A place of the first camera, by hand or in its own calibration, overrides the found one.
-    const Calibration& first = cameras[0].camera->info().calibration;
+    const Calibration& first = cameras[0].calibration;
     const auto floor = floor_of(cameras, session, solution);
     const Pose room = first.registered ? first.room_from_camera
                                        : registration::room_from_reference(floor, middle);
@@ -205,7 +191,7 @@ void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         const registration::CameraPlace& found = solution.cameras[c];
         capture::CameraPlaces::Entry entry{
-            cameras[c].name(), room * found.reference_from_camera, {}, found.bias.offset_m * 1000};
+            cameras[c].name, room * found.reference_from_camera, {}, found.bias.offset_m * 1000};
         auto& covariance = entry.covariance.emplace();
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j)
@@ -231,7 +217,7 @@ void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
             std::sqrt(found.covariance.topLeftCorner<3, 3>().trace()) / radians_of(1);
         const double offset_mm = found.bias.offset_m * 1000,
                      sigma_mm = found.bias_sigma.offset_m * 1000;
-        report["cameras"].push_back({{"camera", cameras[c].name()},
+        report["cameras"].push_back({{"camera", cameras[c].name},
                                      {"sigma_mm", shift_mm},
                                      {"sigma_deg", turn_deg},
                                      {"depth_offset_mm", offset_mm},
@@ -240,7 +226,7 @@ void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
             std::printf(
                 "  %s: good to %.1f mm and %.2f degrees; measures %+.1f mm too far "
                 "(+- %.1f)\n",
-                cameras[c].name().c_str(), shift_mm, turn_deg, offset_mm, sigma_mm);
+                cameras[c].name.c_str(), shift_mm, turn_deg, offset_mm, sigma_mm);
     }
     if (flags.json)
         std::cout << files::json_text(report) << std::endl;
@@ -248,14 +234,16 @@ void save(const std::vector<OpenCamera>& cameras, const BoardSession& session,
 
 void run(const Flags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
-    std::vector<OpenCamera> cameras = open_all(flags);
+    files::require_writable(flags.output);
+    const std::unique_ptr<DepthSource> source = open(flags);
+    const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);
     cli::catch_stop_signals();
     if (!flags.json)
         std::cout << "Hold the board still for two seconds where two cameras or more see it, at "
                   << flags.poses << " places, nearer and farther, tilted to all sides and turned a "
                   << "little in itself.\nCtrl-C ends early and uses what there is.\n";
-    watch(cameras, session, flags);
+    watch(*source, session, flags);
     const RigSolution solution = session.solve();
     if (const std::string problem = session.problem(solution); !problem.empty())
         throw Error(problem);
@@ -272,8 +260,11 @@ void add_register_command(CLI::App& app) {
         "'theatron target' draws the board. Nothing is written unless all cameras were found.\n"
         "\nExamples:\n"
         "  theatron register --camera k4a:0 --camera k4a:1 --output places.json\n"
+        "  theatron register LINK --output places.json\n"
         "  theatron host --camera k4a:0 --camera k4a:1 --places places.json");
-    cli::add_camera_option(*command, flags->cameras)->required();
+    command->add_option("link", flags->link,
+                        "The link of a running session (or @FILE with it), whose cameras are used");
+    cli::add_camera_option(*command, flags->cameras);
     command->add_option("--output", flags->output, "The file of places to write")->required();
     add_board_options(*command, flags->board);
     command->add_option("--poses", flags->poses, "So many places of the board for each camera")

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace theatron::registration {
@@ -125,7 +124,8 @@ int BoardSession::views(std::size_t camera) const {
                              [&](const BoardView& v) { return v.camera == int(camera); }));
 }
 
-int BoardSession::coverage(std::size_t camera) const {
+// Row by row from the upper left.
+std::set<int> BoardSession::covered_ninths(std::size_t camera) const {
     const CameraModel& model = cameras_[camera].about.depth;
     std::set<int> ninths;
     for (const BoardView& view : views_) {
@@ -134,7 +134,62 @@ int BoardSession::coverage(std::size_t camera) const {
             ninths.insert(std::clamp(int(3 * pixel->y / model.size.height), 0, 2) * 3 +
                           std::clamp(int(3 * pixel->x / model.size.width), 0, 2));
     }
-    return int(ninths.size());
+    return ninths;
+}
+
+int BoardSession::coverage(std::size_t camera) const {
+    return int(covered_ninths(camera).size());
+}
+
+int BoardSession::common_places(std::size_t a, std::size_t b) const {
+    int count = 0;
+    for (const BoardView& left : views_)
+        for (const BoardView& right : views_)
+            count += left.camera == int(a) && right.camera == int(b) && left.place == right.place;
+    return count;
+}
+
+Vec3 BoardSession::span_m(const RigSolution& solution) {
+    if (!solution.converged || solution.reference_from_board.empty())
+        return {};
+    Vec3 low = solution.reference_from_board[0].translation, high = low;
+    for (const Pose& board : solution.reference_from_board) {
+        const Vec3 at = board.translation;
+        low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+    }
+    return high - low;
+}
+
+std::string BoardSession::next_step(const RigSolution& solution, int least) const {
+    const auto quoted = [&](std::size_t camera) { return "'" + cameras_[camera].about.name + "'"; };
+    // A camera that nothing joins comes first, then the one with the fewest views.
+    std::size_t needy = 0;
+    for (std::size_t c = 1; c < cameras_.size(); ++c)
+        if (views(c) < views(needy))
+            needy = c;
+    if (views(needy) >= least && solution.separate.empty())
+        return "";
+    if (views(needy) > 0 && !solution.separate.empty())
+        needy = std::size_t(solution.separate[0]);
+    std::size_t partner = needy == 0 ? 1 : 0;
+    for (std::size_t c = 0; c < cameras_.size(); ++c)
+        if (c != needy && common_places(needy, c) > common_places(needy, partner))
+            partner = c;
+    if (cameras_.size() < 2)
+        return "Hold the board where " + quoted(needy) + " sees it.";
+    // The corners come last: not every lens lights them.
+    constexpr std::pair<int, const char*> parts[] = {
+        {4, "middle"},      {3, "left"},       {5, "right"},
+        {1, "upper part"},  {7, "lower part"}, {0, "upper left"},
+        {2, "upper right"}, {6, "lower left"}, {8, "lower right"}};
+    const std::set<int> covered = covered_ninths(needy);
+    std::string part;
+    for (const auto& [ninth, name] : parts)
+        if (part.empty() && !covered.contains(ninth))
+            part = std::string(", in the ") + name + " of the picture of " + quoted(needy);
+    return "Next: hold the board where " + quoted(needy) + " and " + quoted(partner) +
+           " both see it" + part + ".";
 }
 
 std::vector<BoardSession::Pair> BoardSession::pairs(const RigSolution& solution) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,12 @@ public:
     std::vector<Pair> pairs(const RigSolution& solution) const;
 
     int places() const { return int(places_.size()); }
+    // The size of the box that holds the board's middles, along the axes of camera 0, metres; zero
+    // before the solution converged.
+    static Vec3 span_m(const RigSolution& solution);
+    // A sentence on where to hold the board next, so that each camera gets this many views, all
+    // over its picture, and all cameras are joined; empty once is_complete().
+    std::string next_step(const RigSolution& solution, int views) const;
     // True if all cameras are joined by shared places, and each has at least this many views.
     bool is_complete(int views) const;
     // The mean of the last still frames; empty before there was one.
@@ -79,6 +86,8 @@ private:
         TimePoint begin{}, end{};
     };
     bool finish(std::size_t camera, const Pose& last);
+    std::set<int> covered_ninths(std::size_t camera) const;
+    int common_places(std::size_t a, std::size_t b) const;
     int place_for(std::size_t camera, TimePoint begin, TimePoint end);
 
     LatticeTarget target_;

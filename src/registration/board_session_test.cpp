@@ -74,8 +74,20 @@ TEST_F(Carrying, AStillBoardIsOnePlaceAndRegistersTheCameras) {
     EXPECT_EQ(session_.views(1), 2);
 }
 
+TEST_F(Carrying, TheNextStepLeadsToPartsOfThePictureWithoutAView) {
+    const auto next = [&](int views) { return session_.next_step(session_.solve(), views); };
+    EXPECT_THAT(next(2), HasSubstr("in the middle of the picture of 'left'"));
+    hold(target_, board_);
+    EXPECT_THAT(next(2), HasSubstr("where 'left' and 'right' both see it, in the left of the"));
+    EXPECT_EQ(next(1), "");
+    EXPECT_EQ(BoardSession::span_m(session_.solve()), Vec3());
+    hold(target_, Pose{{}, {0, 0.3, 0}} * board_);
+    EXPECT_NEAR(length(BoardSession::span_m(session_.solve())), 0.3, 0.02);
+}
+
 TEST_F(Carrying, ABlindCameraIsNamed) {
     hold(target_, board_, 42, 1);
+    EXPECT_THAT(session_.next_step(session_.solve(), 1), HasSubstr("'right' and 'left'"));
     EXPECT_FALSE(session_.is_complete(1));
     EXPECT_THAT(session_.problem(session_.solve()), HasSubstr("'right' never saw the board"));
 }

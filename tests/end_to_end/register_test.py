@@ -92,6 +92,33 @@ class Register(unittest.TestCase):
             self.assertEqual(code, 0, errors)
             self.assertFalse([line for line in h.errors if "Nobody knows where" in line])
 
+    def test_the_cameras_of_a_running_session_are_registered_by_its_link(self):
+        file = self.folder / "live.json"
+        with host(self.folder / "state", self.left + ",loop=1", self.right + ",loop=1", options=("--filter", "off")) as h:
+            code, out, errors = run("register", h.greeting["link"], "--output", file, "--poses", "1", "--json")
+        self.assertEqual(code, 0, errors)
+        views = [json.loads(line) for line in out.splitlines()][:-1]
+        self.assertRegex(views[0]["next"], "hold the board where '(left|right)' and '(left|right)' both see it")
+        self.assertEqual(views[-1]["next"], "")
+        places = json.loads(file.read_text())
+        self.assertEqual([camera["camera"] for camera in places["cameras"]], ["left", "right"])
+        at = [camera["room_from_camera"]["translation"] for camera in places["cameras"]]
+        self.assertAlmostEqual(math.dist(*at), math.dist(position(-30), position(30)), delta=0.01)
+
+    def test_a_session_of_one_camera_and_a_link_that_leads_nowhere_are_refused(self):
+        file = self.folder / "kept.json"
+        file.write_text("as it was")
+        with host(self.folder / "state", self.left + ",loop=1") as h:
+            link = h.greeting["link"]
+            code, _, errors = run("register", link, "--output", file)
+            self.assertEqual(code, 1)
+            self.assertIn("give at least two", errors)
+        for arguments in ((link, "--camera", self.left), ()):
+            code, _, errors = run("register", *arguments, "--output", file)
+            self.assertEqual(code, 1)
+            self.assertIn("Say which cameras", errors)
+        self.assertEqual(file.read_text(), "as it was")
+
     def test_cameras_whose_place_nobody_knows_are_named(self):
         with host(self.folder / "state", self.left + ",loop=1", self.right + ",loop=1,place=1:1.5:2:30") as h:
             while not any("Nobody knows where these cameras are in the room: left." in line for line in h.errors):
