@@ -52,7 +52,7 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"publisher", int(camera.description.publisher)},
             {"name", camera.description.name},
             {"state", wire::text_of(camera.state.condition)},
-            {"problem", camera.state.problem},
+            {"problem", wire::english(camera.state.problem)},
             {"filter", camera.state.filter},
             {"fps", depth.frames_per_second},
             {"frames", depth.frames},
@@ -91,8 +91,8 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"max_mbit_per_s", status.goal.max_kbit_per_s / 1000.0},
             {"level", status.delivery.level},
             {"levels", status.delivery.levels},
-            {"sent", status.delivery.level > 0 ? status.delivery.what : "everything"},
-            {"level_reason", status.delivery.reason}};
+            {"sent", wire::sent_part(status.delivery)},
+            {"level_reason", wire::english(status.delivery.reason)}};
 }
 
 std::string status_line(const client::Participant& participant) {
@@ -109,7 +109,8 @@ std::string status_line(const client::Participant& participant) {
                   static_cast<unsigned long long>(figures.dropped()));
     std::string line = text + codecs_of_last(figures);
     if (status.delivery.level > 0)
-        line += "  sent: " + status.delivery.what + " (" + status.delivery.reason + ")";
+        line += "  sent: " + wire::sent_part(status.delivery) + " (" +
+                wire::english(status.delivery.reason) + ")";
     return line;
 }
 

@@ -37,7 +37,7 @@ nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
     return {{"id", camera.number ? nlohmann::json(int(*camera.number)) : nlohmann::json()},
             {"name", camera.lane.name},
             {"state", wire::text_of(camera.lane.camera.condition)},
-            {"problem", camera.lane.camera.problem},
+            {"problem", wire::english(camera.lane.camera.problem)},
             {"filter", camera.lane.filter},
             {"fps", camera.lane.frames_per_second},
             {"frames", camera.lane.frames},

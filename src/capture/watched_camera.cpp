@@ -19,20 +19,27 @@ CameraCare::Options care_options(const CameraInfo& info) {
     return {seconds_to_duration(1 / info.frames_per_second), info.live};
 }
 
-std::string sentence(Trouble trouble, const std::string& problem) {
+wire::Text text_of(Trouble trouble, const std::string& problem) {
+    using wire::TextCode;
     switch (trouble) {
         case Trouble::none:
             return {};
         case Trouble::silent:
-            return "It sends no pictures.";
+            return {TextCode::camera_silent};
         case Trouble::repeating:
-            return "It sends the same picture again and again.";
+            return {TextCode::camera_repeating};
         case Trouble::time_jump:
-            return "The times of its pictures cannot be.";
+            return {TextCode::camera_time_jump};
         case Trouble::gone:
             break;
     }
-    return problem.empty() ? "It does not answer." : problem;
+    return problem.empty() ? wire::Text{TextCode::camera_gone} : wire::as_written(problem);
+}
+
+wire::Text lost_text(std::uint64_t pictures) {
+    if (pictures == 1)
+        return {wire::TextCode::recording_lost_one};
+    return {wire::TextCode::recording_lost_pictures, {std::to_string(pictures)}};
 }
 
 }  // namespace
@@ -193,17 +200,16 @@ WatchedCamera::Status WatchedCamera::status() const {
     Status status;
     if (over_) {
         status.condition = how_over_;
-        status.problem = problem_;
+        status.problem = wire::as_written(problem_);
     } else {
         care_.on_time(now);
         status.condition = care_.stale() ? CameraCondition::stale : CameraCondition::live;
         status.trouble = care_.trouble();
-        status.problem = sentence(status.trouble, care_.problem());
+        status.problem = text_of(status.trouble, care_.problem());
     }
     status.lost_pictures = lost_pictures_;
     if (status.problem.empty() && lost_pictures_ > 0)
-        status.problem = "Its recording is damaged: " + std::to_string(lost_pictures_) +
-                         (lost_pictures_ == 1 ? " picture is lost." : " pictures are lost.");
+        status.problem = lost_text(lost_pictures_);
     status.figures = care_.figures();
     status.without_picture = now - care_.last_good();
     status.hangs = entered_driver_ != TimePoint{} &&

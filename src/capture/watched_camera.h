@@ -56,7 +56,7 @@ public:
     struct Status {
         wire::CameraCondition condition{};
         Trouble trouble = Trouble::none;
-        std::string problem;  // one sentence if the camera is not live
+        wire::Text problem;  // if the camera is not live
         CameraCare::Figures figures;
         Duration without_picture{};  // since the last good one
         bool hangs = false;          // step() does not return from the camera's code

@@ -154,9 +154,10 @@ void Participant::run() {
             return;
         const bool refused = end.final || !session_.refusal().empty();
         const bool ended = !session_.goodbye().empty();
-        const std::string why = refused && !session_.refusal().empty() ? session_.refusal()
-                                : ended                                ? session_.goodbye()
-                                                                       : end.why;
+        const std::string why = refused && !session_.refusal().empty()
+                                    ? wire::english(session_.refusal())
+                                : ended ? wire::english(session_.goodbye())
+                                        : end.why;
         const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
         if (shared_->status.phase == Phase::joined) {
             was_joined = true;
@@ -282,7 +283,7 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::settings:
             if (!session_.note().empty())
-                remark(session_.note());
+                remark(wire::english(session_.note()));
             {
                 const std::lock_guard lock(shared_->mutex);
                 shared_->settings = session_.settings();

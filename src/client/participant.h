@@ -182,7 +182,7 @@ private:
     void tell_room();
     void offer_cameras();
     void on_published();
-    void refuse_cameras(const std::string& problem);
+    void refuse_cameras(const wire::Text& why);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
     void on_welcome();

@@ -19,7 +19,7 @@ std::vector<Participant::Camera> described_cameras(const session::ViewerSession&
         });
         cameras.push_back(
             {camera, calibration.value(),
-             known == before.end() ? wire::CameraState{camera.id, {}, "", ""} : known->state});
+             known == before.end() ? wire::CameraState{camera.id, {}, {}, ""} : known->state});
     }
     return cameras;
 }
@@ -44,8 +44,8 @@ void Participant::on_welcome() {
     shared_->room.begin(session_.welcome().participant);
     const bool again = ++shared_->status.joins > 1;
     lock.unlock();
-    for (const std::string& problem : session_.left_out())
-        remark(problem);
+    for (const wire::Text& problem : session_.left_out())
+        remark(wire::english(problem));
     ping(steady_now());
     // Not where only messages were lost: the host still has them.
     if (numbers_.empty())
@@ -58,7 +58,9 @@ void Participant::on_welcome() {
 }
 
 void Participant::on_cameras() {
-    std::vector<std::string> news = session_.left_out();
+    std::vector<std::string> news;
+    for (const wire::Text& problem : session_.left_out())
+        news.push_back(wire::english(problem));
     decoders_->change_cameras(session_.cameras());
     {
         const std::lock_guard lock(shared_->mutex);
@@ -99,18 +101,19 @@ void Participant::on_camera_states() {
             camera.state = found->second;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
+            const std::string problem = wire::english(camera.state.problem);
             const bool plays_damage =
                 camera.state.condition == Condition::live && !camera.state.problem.empty();
             if (plays_damage && (!had_problem || before != Condition::live))
-                news.push_back(name + ": " + camera.state.problem);
+                news.push_back(name + ": " + problem);
             if (camera.state.condition == before)
                 continue;
             if (camera.state.condition == Condition::ended)
                 news.push_back(name + " has ended; its last picture stays.");
             else if (camera.state.condition == Condition::failed)
-                news.push_back(name + " has failed: " + camera.state.problem);
+                news.push_back(name + " has failed: " + problem);
             else if (camera.state.condition == Condition::stale)
-                news.push_back(name + " stands still. " + camera.state.problem);
+                news.push_back(name + " stands still. " + problem);
             else
                 news.push_back(name + " is live again.");
         }

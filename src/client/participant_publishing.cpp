@@ -33,13 +33,13 @@ void Participant::offer_cameras() {
     if (!numbers_.empty())
         shared_->client->send_control(wire::encode(wire::Unpublish{std::exchange(numbers_, {})}));
     if (!offer.cameras.empty() && !session_.may_publish())
-        refuse_cameras(
-            "This link lets nobody send cameras; ask for the host's link for publishers.");
+        refuse_cameras({wire::TextCode::link_without_cameras});
     else if (!offer.cameras.empty())
         shared_->client->send_control(wire::encode(offer));
 }
 
-void Participant::refuse_cameras(const std::string& problem) {
+void Participant::refuse_cameras(const wire::Text& why) {
+    const std::string problem = wire::english(why);
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->status.publish_problem = clean_text(problem, max_remark_characters);

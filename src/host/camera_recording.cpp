@@ -144,20 +144,21 @@ private:
         using Condition = wire::CameraCondition;
         const std::lock_guard lock(mutex_);
         const std::string camera = "Camera " + names_[std::size_t(state.camera)];
+        const std::string problem = wire::english(state.problem);
         Condition& before = conditions_[state.camera];
         const bool plays_damage = !state.problem.empty() && (state.condition == Condition::live ||
                                                              state.condition == Condition::ended);
         if (plays_damage && (damage_said_.insert(state.camera).second || state.condition != before))
-            std::fprintf(stderr, "%s: %s\n", camera.c_str(), state.problem.c_str());
+            std::fprintf(stderr, "%s: %s\n", camera.c_str(), problem.c_str());
         if (state.condition == before)
             return;
         before = state.condition;
         if (state.condition == Condition::stale) {
-            std::fprintf(stderr, "%s stands still. %s\n", camera.c_str(), state.problem.c_str());
+            std::fprintf(stderr, "%s stands still. %s\n", camera.c_str(), problem.c_str());
         } else if (state.condition == Condition::live) {
             std::fprintf(stderr, "%s is live again.\n", camera.c_str());
         } else if (state.condition == Condition::failed) {
-            std::fprintf(stderr, "%s has failed: %s\n", camera.c_str(), state.problem.c_str());
+            std::fprintf(stderr, "%s has failed: %s\n", camera.c_str(), problem.c_str());
             failed_.insert(state.camera);
             over_since_ = steady_now();
         } else {

@@ -56,7 +56,7 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
         troubles[capture::text_of(capture::Trouble(i))] = f.camera.figures.troubles[std::size_t(i)];
     return {{"name", f.name},
             {"state", text_of(f.camera.condition)},
-            {"problem", f.camera.problem},
+            {"problem", wire::english(f.camera.problem)},
             {"trouble", capture::text_of(f.camera.trouble)},
             {"fps", f.frames_per_second},
             {"frames", f.frames},

@@ -263,13 +263,13 @@ void Host::Impl::on_camera_states() {
         using Condition = wire::CameraCondition;
         if (state.condition == Condition::failed)
             log::error("host", "camera failed",
-                       {{"camera", int(camera)}, {"problem", state.problem}});
+                       {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
         else if (state.condition == Condition::stale)
             log::warning("host", "camera is stale",
-                         {{"camera", int(camera)}, {"problem", state.problem}});
+                         {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
         else if (!state.problem.empty())
             log::warning("host", "camera plays a damaged recording",
-                         {{"camera", int(camera)}, {"problem", state.problem}});
+                         {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
         else if (state.condition == Condition::live)
             log::info("host", "camera is live", {{"camera", int(camera)}});
         session->on_camera(state);

@@ -312,7 +312,7 @@ TEST_F(Lane, AFailureIsToldWithItsSentence) {
     std::unique_lock lock(mutex);
     ASSERT_TRUE(changed.wait_for(lock, patience, [&] { return !states.empty(); }));
     EXPECT_EQ(states[0].condition, wire::CameraCondition::failed);
-    EXPECT_EQ(states[0].problem, "The cable is out.");
+    EXPECT_EQ(states[0].problem, wire::as_written("The cable is out."));
     EXPECT_EQ(states[0].camera, CameraId{3});
 }
 

@@ -6,6 +6,8 @@
 namespace theatron::session {
 namespace {
 
+using wire::TextCode;
+
 std::string shown_name(const std::string& name) {
     return name.find_first_not_of(' ') == std::string::npos ? "guest" : name;
 }
@@ -29,31 +31,27 @@ Admission::Participant* Admission::find(ParticipantId id) {
 Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) const {
     if (hello.protocol_min > wire::protocol_max)
         return {{},
-                "This host is older than your Theatron (protocol " +
-                    std::to_string(wire::protocol_max) + ", you need " +
-                    std::to_string(hello.protocol_min) + "); update the host."};
+                {TextCode::host_too_old,
+                 {std::to_string(wire::protocol_max), std::to_string(hello.protocol_min)}}};
     if (hello.protocol_max < wire::protocol_min)
         return {{},
-                "Your Theatron is too old for this host (protocol " +
-                    std::to_string(hello.protocol_max) + ", it needs " +
-                    std::to_string(wire::protocol_min) + "); update it."};
+                {TextCode::program_too_old,
+                 {std::to_string(hello.protocol_max), std::to_string(wire::protocol_min)}}};
     // All are compared, so that the time that it takes says nothing about which one is right.
     const Token* shown = nullptr;
     for (const Token& token : config_.tokens)
         if (config_.equal_secrets(hello.token, token.secret))
             shown = &token;
     if (!shown)
-        return {{}, "The join token is wrong; ask for the host's current link."};
+        return {{}, {TextCode::wrong_token}};
     if (shown->expires && now >= *shown->expires)
-        return {{}, "This link has expired; ask for a new one."};
+        return {{}, {TextCode::link_expired}};
     const auto recorders = std::count_if(
         participants_.begin(), participants_.end(),
         [](const auto& entry) { return entry.second.takes_part() && entry.second.records; });
     if (hello.records && recorders >= max_recorders)
-        return {{},
-                "This session is recorded " + std::to_string(max_recorders) +
-                    " times already, which is as often as can be; end another recording."};
-    return {shown->role, ""};
+        return {{}, {TextCode::too_many_recordings, {std::to_string(max_recorders)}}};
+    return {shown->role, {}};
 }
 
 void Admission::admit(Participant& participant, const wire::Join& hello, Role role) {

@@ -80,10 +80,10 @@ public:
     std::map<ParticipantId, Participant>& participants() { return participants_; }
     void remove(ParticipantId id) { participants_.erase(id); }
 
-    // The answer to Join: the role, or one sentence on why the connection is refused.
+    // The answer to Join: the role, or why the connection is refused.
     struct Verdict {
         Role role = Role::viewer;
-        std::string refusal;  // empty: welcome
+        wire::Text refusal;  // empty: welcome
     };
     Verdict judge(const wire::Join& hello, TimePoint now) const;
     // Marks the participant as joined, in this role.

@@ -3,26 +3,30 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "geometry/calibration.h"
 
 namespace theatron::session {
 namespace {
 
+using wire::TextCode;
+
 constexpr double max_frames_per_second = 1000;
 
-// The problem of a camera by itself, as the end of a sentence for the user; empty if none.
-std::string problem_of(const wire::Camera& camera, const Result<Calibration>& calibration) {
+// The problem of a camera by itself; none if it has no problem.
+wire::Text problem_of(const wire::Camera& camera, const Result<Calibration>& calibration) {
     if (int(camera.id) > max_camera_number)
-        return "has the number " + std::to_string(int(camera.id)) + ", beyond all that there are";
+        return {TextCode::camera_number_too_high, {camera.name, std::to_string(int(camera.id))}};
     if (camera.depth_stream != depth_stream(camera.id) ||
         (camera.has_color && camera.color_stream != color_stream(camera.id)))
-        return "names streams that are not its own";
+        return {TextCode::camera_foreign_streams, {camera.name}};
     if (!(camera.frames_per_second >= 0 && camera.frames_per_second <= max_frames_per_second))
-        return "has a frame rate that is none";
+        return {TextCode::camera_bad_rate, {camera.name}};
     if (!calibration)
-        return "has a calibration that is " + std::string(to_text(calibration.error()));
-    return "";
+        return {TextCode::camera_bad_calibration,
+                {camera.name, std::string(to_text(calibration.error()))}};
+    return {};
 }
 
 // The pictures of all accepted cameras together.
@@ -63,18 +67,17 @@ AnnouncedCameras judge_cameras(std::vector<wire::Camera> announced) {
     Room room;
     for (wire::Camera& camera : announced) {
         const auto calibration = decode_calibration(camera.calibration);
-        std::string problem = problem_of(camera, calibration);
+        wire::Text problem = problem_of(camera, calibration);
         if (problem.empty() && result.accepted.size() == wire::max_cameras)
-            problem = "is one more than there can be";
+            problem = {TextCode::one_camera_too_many, {camera.name}};
         if (problem.empty() && !known.insert(camera.id).second)
-            problem = "has a number that another one has";
+            problem = {TextCode::camera_number_taken, {camera.name}};
         if (problem.empty() && !room.take(*calibration))
-            problem = "has more pixels than there is room for beside the others";
+            problem = {TextCode::camera_too_many_pixels, {camera.name}};
         if (problem.empty())
             result.accepted.push_back(std::move(camera));
         else
-            result.left_out.push_back("The camera " + camera.name + " " + problem +
-                                      "; it is left out.");
+            result.left_out.push_back(std::move(problem));
     }
     return result;
 }

@@ -20,7 +20,7 @@ inline constexpr std::size_t max_array_factor = 2;
 
 struct AnnouncedCameras {
     std::vector<wire::Camera> accepted;
-    std::vector<std::string> left_out;  // one sentence for the user about each other one
+    std::vector<wire::Text> left_out;  // one about each other camera
 };
 
 // Streams have 16-bit numbers, and a camera has two of them.

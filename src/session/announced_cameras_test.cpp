@@ -53,7 +53,7 @@ TEST(AnnouncedCameras, NumbersAreInRangeAndDiffer) {
     EXPECT_EQ(accepted(many), wire::max_cameras);
     EXPECT_EQ(accepted({camera(5), camera(5)}), 1u);
     EXPECT_EQ(judge_cameras({camera(5), camera(5)}).left_out.front(),
-              "The camera camera 5 has a number that another one has; it is left out.");
+              (wire::Text{wire::TextCode::camera_number_taken, {"camera 5"}}));
 }
 
 TEST(AnnouncedCameras, StreamsAreTheirOwn) {
@@ -107,10 +107,10 @@ TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
     EXPECT_EQ(viewer.left_out().size(), 1u);
 
     for (int id = 0; id < 4000; ++id)
-        (void)viewer.on_control(wire::encode(wire::ToParticipant(
-            wire::CameraState{CameraId(id), wire::CameraCondition::failed, "gone", ""})));
+        (void)viewer.on_control(wire::encode(wire::ToParticipant(wire::CameraState{
+            CameraId(id), wire::CameraCondition::failed, wire::as_written("gone"), ""})));
     EXPECT_EQ(viewer.camera_states().size(), 2u);
-    EXPECT_EQ(viewer.camera_states().at(CameraId{4}).problem, "gone");
+    EXPECT_EQ(viewer.camera_states().at(CameraId{4}).problem, wire::as_written("gone"));
 }
 
 TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
@@ -119,7 +119,7 @@ TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
     EXPECT_TRUE(viewer.cameras().empty()) << "it has not joined";
     (void)viewer.on_control(wire::encode(wire::Welcome{2, {}, "host", {camera(0), camera(1)}}));
     (void)viewer.on_control(wire::encode(wire::Settings{
-        {{StreamId{0}, SettingId{1}, "raw"}, {StreamId{2}, SettingId{2}, "rvl"}}, ""}));
+        {{StreamId{0}, SettingId{1}, "raw"}, {StreamId{2}, SettingId{2}, "rvl"}}, {}}));
     EXPECT_EQ(viewer.on_control(wire::encode(wire::CamerasAdded{{camera(900), camera(1)}})),
               ViewerSession::Change::cameras);
     ASSERT_EQ(viewer.cameras().size(), 3u);
@@ -127,7 +127,7 @@ TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
     (void)viewer.on_control(
         wire::encode(wire::Settings{{{depth_stream(CameraId{900}), SettingId{3}, "lz4"},
                                      {depth_stream(CameraId{33}), SettingId{4}, "lz4"}},
-                                    ""}));
+                                    {}}));
     EXPECT_EQ(viewer.settings().size(), 3u) << "nothing is kept of a camera that is not there";
     wire::Camera foreign = camera(901);
     foreign.session = wire::SessionId{1};
@@ -143,7 +143,7 @@ TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
 
 TEST(ViewerSession, KeepsNoStateOfCamerasBeforeTheyAreAnnounced) {
     ViewerSession viewer({});
-    const wire::ToParticipant state = wire::CameraState{CameraId{0}, {}, "", ""};
+    const wire::ToParticipant state = wire::CameraState{CameraId{0}, {}, {}, ""};
     EXPECT_EQ(viewer.on_control(wire::encode(state)), ViewerSession::Change::nothing);
     EXPECT_TRUE(viewer.camera_states().empty());
 }

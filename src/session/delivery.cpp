@@ -2,22 +2,21 @@
 #include "session/delivery.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace theatron::session {
 namespace {
 
+using wire::TextCode;
+
 // Estimated bytes with loss outside the region, relative to lossless, before it is measured.
 constexpr double lossy_size = 0.6;
-
-std::string milliseconds(Duration d) {
-    return std::to_string(d.count() / 1000) + " ms";
-}
 
 // Rounded to a tenth, which is not written if it is 0.
 std::string megabits_per_second(std::uint32_t kbit_per_second) {
     const std::uint32_t tenths = (kbit_per_second + 50) / 100;
     return std::to_string(tenths / 10) +
-           (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10)) + " Mbit/s";
+           (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10));
 }
 
 }  // namespace
@@ -126,24 +125,28 @@ wire::Delivery Delivery::message(Duration delay) {
     wire::Delivery message;
     message.level = std::uint8_t(policy_.step());
     message.levels = std::uint8_t(steps());
-    message.what = step().what;
+    const LadderStep& sent = step();
+    message.one_frame_of = std::uint8_t(std::lround(1 / sent.frames));
+    if (sent.color_codec != wish_.second)
+        message.color_codec = sent.color_codec;
+    message.lossy_outside_region = sent.lossy_outside_region;
     switch (policy_.reason()) {
         case SendingReason::none:
             break;
         case SendingReason::late:
-            message.reason = "frames took " + milliseconds(delay) + " to arrive";
+            message.reason = {TextCode::frames_were_late, {std::to_string(delay.count() / 1000)}};
             break;
         case SendingReason::ceiling:
-            message.reason = "your ceiling is " + megabits_per_second(goal_.max_kbit_per_s);
+            message.reason = {TextCode::ceiling, {megabits_per_second(goal_.max_kbit_per_s)}};
             break;
         case SendingReason::room:
-            message.reason = "the link has room for more";
+            message.reason = {TextCode::link_has_room};
             break;
         case SendingReason::trial:
-            message.reason = "trying whether the link carries more";
+            message.reason = {TextCode::link_is_tried};
             break;
         case SendingReason::trial_failed:
-            message.reason = "the link did not carry more";
+            message.reason = {TextCode::trial_failed};
             break;
     }
     return message;

@@ -26,7 +26,7 @@ std::string reason_with_ceiling_of(std::uint32_t kbit_per_second) {
     link.bytes_per_second = 1e7;
     const Delivery::Given given{&depth, nullptr, "rvl", ""};
     delivery.update(link, {&given, 1}, 30, rates, Duration(0), now);
-    return delivery.message(Duration(0)).reason;
+    return wire::english(delivery.message(Duration(0)).reason);
 }
 
 TEST(Delivery, NamesTheCeilingAsItWasGiven) {

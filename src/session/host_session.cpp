@@ -9,6 +9,7 @@ namespace {
 
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 using Kind = RequestBudget::Kind;
+using wire::TextCode;
 
 Kind kind_of(const wire::Join&) {
     return Kind::other;
@@ -65,10 +66,10 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     auto message = wire::decode_to_host(bytes);
     // A newer participant may send messages that this host does not know.
     if (!message && message.error() != Status::unsupported)
-        return refuse(id, "A message was " + std::string(to_text(message.error())) + ".");
+        return refuse(id, {TextCode::damaged_message, {std::string(to_text(message.error()))}});
     if (message && !participant->joined) {
         const auto* hello = std::get_if<wire::Join>(&*message);
-        return hello ? join(id, *hello, now) : refuse(id, "Join first.");
+        return hello ? join(id, *hello, now) : refuse(id, {TextCode::not_joined});
     }
     const Kind kind =
         message ? std::visit([](const auto& m) { return kind_of(m); }, *message) : Kind::other;
@@ -79,7 +80,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
             break;
         case RequestBudget::Answer::too_often:
             if (message && std::holds_alternative<wire::Publish>(*message))
-                send(id, wire::Published{{}, "Cameras were offered too often; wait a little."});
+                send(id, wire::Published{{}, {TextCode::offered_too_often}});
             else if (message && std::holds_alternative<wire::Unpublish>(*message))
                 carry_out(id, std::get<wire::Unpublish>(*message), now);
             else if (message && std::holds_alternative<wire::RoomRequest>(*message))
@@ -88,7 +89,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
                 Admission::keep_for_later(*participant, std::move(*message));
             break;
         case RequestBudget::Answer::flood:
-            refuse(id, "There were far more requests than a host answers.");
+            refuse(id, {TextCode::too_many_requests});
             break;
     }
 }
@@ -101,7 +102,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     const CheckedCodec color = config_.check_color(hello.color_codec);
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())
-            return refuse(id, problem);
+            return refuse(id, wire::as_written(problem));
 
     Participant& participant = *admission_.find(id);
     admission_.admit(participant, hello, verdict.role);
@@ -142,7 +143,7 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, Ti
         color = config_.check_color(wish.color_codec);
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())  // the old codecs stay
-            return send(id, wire::Settings{{}, problem});
+            return send(id, wire::Settings{{}, wire::as_written(problem)});
     streams_.choose(id, {depth.codec, color.codec}, wish.cameras);
 }
 
@@ -208,7 +209,7 @@ void HostSession::on_tick(TimePoint now) {
     for (auto& [id, participant] : admission_.participants()) {
         if (!participant.joined && !participant.closing &&
             now - participant.connected > Admission::join_deadline)
-            refuse(id, "No join came in time.");
+            refuse(id, {TextCode::joined_too_late});
         if (participant.takes_part())
             carry_out_late(id, participant, now);
     }
@@ -230,7 +231,7 @@ void HostSession::end() {
         if (!participant.takes_part())
             continue;
         participant.closing = true;
-        actions_.push_back(action::End{id, {"The host has ended the session."}});
+        actions_.push_back(action::End{id, {{TextCode::session_over}}});
     }
 }
 
@@ -277,12 +278,14 @@ std::vector<Action> HostSession::take_actions() {
 }
 
 // The participant gets no more messages, and its cameras leave with its connection.
-void HostSession::refuse(ParticipantId id, std::string reason) {
-    send(id, wire::Refused{reason});
+void HostSession::refuse(ParticipantId id, wire::Text reason) {
+    wire::Refused refusal = wire::refused(std::move(reason));
     admission_.find(id)->closing = true;
     streams_.leave(id);
     room_.leave(id);
-    actions_.push_back(action::Close{id, std::move(reason)});
+    std::string why = refusal.in_english;
+    send(id, std::move(refusal));
+    actions_.push_back(action::Close{id, std::move(why)});
 }
 
 void HostSession::send(ParticipantId id, wire::ToParticipant message) {

@@ -128,13 +128,13 @@ private:
     void carry_out(ParticipantId id, const wire::CameraState& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::RoomRequest& message, TimePoint now);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
-    std::string problem_of(ParticipantId id, const wire::Publish& offer,
-                           const std::vector<wire::Camera>& cameras) const;
+    wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
+                          const std::vector<wire::Camera>& cameras) const;
     void describe_session(ParticipantId id);
     void take_media(ParticipantId publisher);
     void set_budgets();
     void tell_renderer(ParticipantId id);
-    void refuse(ParticipantId id, std::string reason);
+    void refuse(ParticipantId id, wire::Text reason);
     void send(ParticipantId id, wire::ToParticipant message);
 
     const Config config_;

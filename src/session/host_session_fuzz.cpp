@@ -170,7 +170,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             }
             case 9:
-                host.on_camera({CameraId(choice % 2), wire::CameraCondition(choice % 4), "", ""});
+                host.on_camera({CameraId(choice % 2), wire::CameraCondition(choice % 4), {}, ""});
                 break;
             default: {
                 const std::size_t length = in.get<std::uint16_t>();

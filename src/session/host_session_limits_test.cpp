@@ -80,7 +80,8 @@ TEST_F(Host, AFloodOfRequestsEndsTheConnectionWithAReason) {
     EXPECT_LE(said, RequestBudget::patience.at_once + 10);
     const auto actions = session.take_actions();
     ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
-    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("requests"), std::string::npos);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].in_english.find("requests"),
+              std::string::npos);
     EXPECT_EQ(count<action::Close>(actions), 1);
     EXPECT_TRUE(session.participants().at(bob).takes_part());
     EXPECT_EQ(session.participants().at(alice).budget.refused(),
@@ -119,7 +120,8 @@ TEST_F(Host, ASettingThatCannotKeepUpIsToldToThoseWhoGetIt) {
     ASSERT_EQ(sent<wire::Settings>(bob, actions).size(), 1u);
     const auto announced = sent<wire::Settings>(bob, actions)[0];
     EXPECT_TRUE(announced.settings.empty());
-    EXPECT_EQ(announced.note.find("Encoding zstd:level=19 takes 152 ms"), 0u) << announced.note;
+    EXPECT_EQ(announced.note,
+              (wire::Text{wire::TextCode::encoding_is_slow, {"zstd:level=19", "152"}}));
     session.on_encoding(CameraId{0}, slow, false, 160);
     EXPECT_TRUE(session.take_actions().empty()) << "once is enough";
     session.on_encoding(CameraId{0}, SettingId{999}, false, 160);

@@ -10,6 +10,8 @@
 namespace theatron::session {
 namespace {
 
+using wire::TextCode;
+
 // No codec makes a picture much larger than its pixels (receive::max_media_size).
 std::size_t max_media_size(Size size) {
     constexpr std::size_t overhead = 64 * 1024, bytes_per_pixel = 4;
@@ -29,7 +31,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
         camera.session = config_.session;
         cameras.push_back(std::move(camera));
     }
-    if (std::string problem = problem_of(id, offer, cameras); !problem.empty())
+    if (wire::Text problem = problem_of(id, offer, cameras); !problem.empty())
         return send(id, wire::Published{{}, std::move(problem)});
     // The publisher gets its cameras' numbers before the settings for them.
     wire::Published answer;
@@ -42,20 +44,18 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
 }
 
 // The reason why these cameras cannot join the session; empty if they can.
-std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
-                                    const std::vector<wire::Camera>& cameras) const {
+wire::Text HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
+                                   const std::vector<wire::Camera>& cameras) const {
     if (!admission_.participants().at(id).has(wire::Feature::publish))
-        return "This link lets nobody send cameras; ask for the host's link for publishers.";
+        return {TextCode::link_without_cameras};
     if (offer.cameras.empty())
-        return "No camera was offered.";
+        return {TextCode::no_camera_offered};
     if (streams_.of(id).size() + cameras.size() > max_published)
-        return "A participant can send " + std::to_string(max_published) + " cameras at once.";
+        return {TextCode::too_many_own_cameras, {std::to_string(max_published)}};
     if (streams_.size() + cameras.size() > wire::max_cameras)
-        return "The session has " + std::to_string(wire::max_cameras) +
-               " cameras, which is as many as can be.";
+        return {TextCode::session_full, {std::to_string(wire::max_cameras)}};
     if (!streams_.has_numbers_for(cameras.size()))
-        return "The session has had so many cameras that there are no numbers left; the host has "
-               "to be started anew.";
+        return {TextCode::no_camera_numbers};
     // The same check as in every participant.
     std::vector<wire::Camera> all = streams_.cameras();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -65,7 +65,7 @@ std::string HostSession::problem_of(ParticipantId id, const wire::Publish& offer
         all.back().color_stream = color_stream(all.back().id);
     }
     const AnnouncedCameras judged = judge_cameras(std::move(all));
-    return judged.left_out.empty() ? "" : judged.left_out.back();
+    return judged.left_out.empty() ? wire::Text() : judged.left_out.back();
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimePoint) {
@@ -107,7 +107,7 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         return {};
     const auto header = wire::parse_media_header(message);
     if (!header) {
-        refuse(id, "A picture was " + std::string(to_text(header.error())) + ".");
+        refuse(id, {TextCode::damaged_picture, {std::string(to_text(header.error()))}});
         return {};
     }
     const CameraStreams* camera = streams_.find(camera_of(header->stream));
@@ -116,7 +116,7 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         return {};
     if (!camera || camera->publisher() != id ||
         (!is_depth(header->stream) && !camera->description().has_color)) {
-        refuse(id, "A picture belongs to no camera of this participant.");
+        refuse(id, {TextCode::foreign_picture});
         return {};
     }
     return streams_.on_media(*header, message.size(), now);

@@ -24,7 +24,7 @@ TEST_F(Host, RefusesAWrongTokenWithASentence) {
     join(alice, "trvl", "guess");
     const auto actions = session.take_actions();
     ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
-    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].reason.find("token"), std::string::npos);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].in_english.find("token"), std::string::npos);
     EXPECT_TRUE(sent<wire::Welcome>(alice, actions).empty());
     EXPECT_EQ(count<action::Close>(actions), 1);
     // Nothing that follows counts any more.
@@ -36,13 +36,13 @@ TEST_F(Host, RefusesAWrongTokenWithASentence) {
 TEST_F(Host, RefusesAnUnknownCodecAndANewerProtocol) {
     join(alice, "bad");
     EXPECT_EQ(sent<wire::Refused>(alice, session.take_actions())[0].reason,
-              "There is no codec bad.");
+              wire::as_written("There is no codec bad."));
     session.on_connected(bob, now);
     wire::Join newer;
     newer.protocol_min = newer.protocol_max = wire::protocol_max + 1;
     newer.token = "secret";
     say(bob, newer);
-    EXPECT_NE(sent<wire::Refused>(bob, session.take_actions())[0].reason.find("older"),
+    EXPECT_NE(sent<wire::Refused>(bob, session.take_actions())[0].in_english.find("older"),
               std::string::npos);
 }
 
@@ -80,7 +80,7 @@ TEST_F(Host, ABadWishKeepsTheOldCodecAndSaysSo) {
     say(alice, wire::ChooseCodecs{"bad", ""});
     const auto settings = sent<wire::Settings>(alice, session.take_actions());
     ASSERT_EQ(settings.size(), 1u);
-    EXPECT_EQ(settings[0].note, "There is no codec bad.");
+    EXPECT_EQ(settings[0].note, wire::as_written("There is no codec bad."));
     EXPECT_EQ(session.depth_settings()[0].codec, "trvl");
 }
 
@@ -93,7 +93,7 @@ TEST_F(Host, AFourthCodecIsServedTheNearestWithANote) {
     const auto settings = sent<wire::Settings>(dave, session.take_actions());
     ASSERT_EQ(settings.size(), 1u);
     EXPECT_EQ(settings[0].settings[0].codec, "zstd");
-    EXPECT_NE(settings[0].note.find("zstd:level=3"), std::string::npos);
+    EXPECT_NE(wire::english(settings[0].note).find("zstd:level=3"), std::string::npos);
 }
 
 TEST_F(Host, OnlyOwnStreamsMayBeAskedForKeyFrames) {
@@ -111,11 +111,11 @@ TEST_F(Host, OnlyOwnStreamsMayBeAskedForKeyFrames) {
 }
 
 TEST_F(Host, TellsJoinersAboutCameras) {
-    session.on_camera({CameraId{0}, wire::CameraCondition::failed, "unplugged"});
+    session.on_camera({CameraId{0}, wire::CameraCondition::failed, wire::as_written("unplugged")});
     join(alice);
     const auto states = sent<wire::CameraState>(alice, session.take_actions());
     ASSERT_EQ(states.size(), 1u);
-    EXPECT_EQ(states[0].problem, "unplugged");
+    EXPECT_EQ(states[0].problem, wire::as_written("unplugged"));
 }
 
 TEST_F(Host, DamagedMessagesEndTheConnection) {
@@ -136,7 +136,8 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
     const auto given = sent<wire::Settings>(dave, actions);
     ASSERT_EQ(given.size(), 1u);
     EXPECT_EQ(given[0].settings[0].codec, "trvl");
-    EXPECT_NE(given[0].note.find("strata"), std::string::npos) << "the reason is reported";
+    EXPECT_NE(wire::english(given[0].note).find("strata"), std::string::npos)
+        << "the reason is reported";
 
     // A place becomes free, the participant whose setting it shares leaves, others choose again.
     session.on_closed(bob);
@@ -161,7 +162,8 @@ TEST_F(Host, ARecordersEncodingStaysWhateverOthersDo) {
 TEST_F(Host, WhoLostMessagesIsToldEverythingAgain) {
     join(alice);
     join(bob);
-    session.on_camera({CameraId{0}, wire::CameraCondition::stale, "It is dark.", ""});
+    session.on_camera(
+        {CameraId{0}, wire::CameraCondition::stale, wire::as_written("It is dark."), ""});
     session.set_renderer(wire::SetRenderer{"mesh", true});
     session.take_actions();
     session.resynchronise(alice);

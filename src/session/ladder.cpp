@@ -18,34 +18,28 @@ Ladder make_ladder(const std::string& depth, const std::string& color, const Cod
     step.highest_layer = served_layers - 1;
     step.depth_codec = depth;
     step.color_codec = color;
-    step.what = "everything";
     Ladder ladder{step};
 
     const CodecSteps::Layered layered =
         codecs.layered ? codecs.layered(depth) : CodecSteps::Layered{};
-    std::string frames;
     if (layered.layered || layered.independent) {
         step.depth_codec = layered.codec;
-        for (const char* share : {"half of the frames", "a quarter of the frames"}) {
+        while (step.highest_layer > 0) {
             --step.highest_layer;
             step.frames /= 2;
-            step.what = share;
             ladder.push_back(step);
         }
-        frames = step.what + ", ";
     }
     if (codecs.coarser)
         for (const CodecSteps::Coarser& coarser : codecs.coarser(color)) {
             step.color_codec = coarser.codec;
             step.color_size = coarser.size;
-            step.what = frames + "colour as " + coarser.codec;
             ladder.push_back(step);
         }
     if (region_is_drawn && codecs.lossy_outside_region)
         if (std::string lossy = codecs.lossy_outside_region(step.depth_codec); !lossy.empty()) {
             step.depth_codec = std::move(lossy);
             step.lossy_outside_region = true;
-            step.what += ", bounded loss outside the region";
             ladder.push_back(step);
         }
     return ladder;

@@ -53,7 +53,6 @@ struct LadderStep {
     std::string depth_codec, color_codec;
     double color_size = 1;  // as in Coarser
     bool lossy_outside_region = false;
-    std::string what;  // for people
 };
 
 using Ladder = std::vector<LadderStep>;

@@ -142,7 +142,8 @@ TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     actions = session.take_actions();
     EXPECT_TRUE(sent<wire::Welcome>(alice).at(0).features.empty());
     EXPECT_TRUE(publish(alice, 1).empty());
-    EXPECT_NE(sent<wire::Published>(alice).at(0).problem.find("link"), std::string::npos);
+    EXPECT_EQ(sent<wire::Published>(alice).at(0).problem.code,
+              wire::TextCode::link_without_cameras);
     EXPECT_EQ(session.streams().size(), 1u);
     EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{1}, SettingId{1}), now).empty());
     actions = session.take_actions();
@@ -337,17 +338,19 @@ TEST_F(SessionOfMany, StatesAreBelievedOfOnesOwnCamerasOnly) {
     join(alice, "publish");
     join(bob, "publish");
     const CameraId face = publish(alice, 1).at(0);
-    say(bob, wire::CameraState{face, wire::CameraCondition::failed, "a lie", ""});
-    say(bob, wire::CameraState{CameraId{0}, wire::CameraCondition::failed, "a lie", ""});
+    say(bob, wire::CameraState{face, wire::CameraCondition::failed, wire::as_written("a lie"), ""});
+    say(bob, wire::CameraState{CameraId{0}, wire::CameraCondition::failed,
+                               wire::as_written("a lie"), ""});
     actions = session.take_actions();
     EXPECT_TRUE(sent<wire::CameraState>(bob).empty());
     EXPECT_TRUE(sent<wire::CameraState>(alice).empty());
-    say(alice, wire::CameraState{face, wire::CameraCondition::stale, "covered", ""});
+    say(alice,
+        wire::CameraState{face, wire::CameraCondition::stale, wire::as_written("covered"), ""});
     actions = session.take_actions();
     ASSERT_EQ(sent<wire::CameraState>(bob).size(), 1u);
     join(carol);
     actions = session.take_actions();
-    EXPECT_EQ(sent<wire::CameraState>(carol).at(0).problem, "covered");
+    EXPECT_EQ(sent<wire::CameraState>(carol).at(0).problem, wire::as_written("covered"));
 }
 
 TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
@@ -356,7 +359,7 @@ TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
     EXPECT_TRUE(publish(alice, HostSession::max_published + 1).empty());
     EXPECT_EQ(publish(alice, HostSession::max_published).size(), HostSession::max_published);
     EXPECT_TRUE(publish(alice, 1).empty());
-    EXPECT_NE(sent<wire::Published>(alice).at(0).problem, "");
+    EXPECT_FALSE(sent<wire::Published>(alice).at(0).problem.empty());
     join(bob, "publish");
     say(bob, wire::Publish{{{"too large", true, 30, calibration({2048, 2049})}}});
     say(bob, wire::Publish{{{"no calibration", true, 30, {}}}});
@@ -367,7 +370,7 @@ TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
     ASSERT_EQ(sent<wire::Published>(bob).size(), 4u);
     for (const wire::Published& answer : sent<wire::Published>(bob)) {
         EXPECT_TRUE(answer.cameras.empty());
-        EXPECT_NE(answer.problem, "");
+        EXPECT_FALSE(answer.problem.empty());
     }
     EXPECT_EQ(session.streams().size(), 1 + HostSession::max_published);
     for (int i = 3; session.streams().size() < wire::max_cameras && i < 60; ++i) {
@@ -401,7 +404,7 @@ TEST_F(SessionOfMany, ALinkThatHasExpiredLetsNobodyInAndPutsNobodyOut) {
     join(bob, "short");
     session.on_tick(now);
     actions = session.take_actions();
-    EXPECT_NE(sent<wire::Refused>(bob).at(0).reason.find("expired"), std::string::npos);
+    EXPECT_EQ(sent<wire::Refused>(bob).at(0).reason.code, wire::TextCode::link_expired);
     EXPECT_TRUE(session.participants().at(alice).takes_part());
     EXPECT_EQ(publish(alice, 1).size(), 1u);
 }

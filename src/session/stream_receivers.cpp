@@ -143,7 +143,8 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
     if (!delivery.update(link, given, frames_per_second(), rates_, made_in(id), now))
         return;
     const wire::Delivery message = delivery.message(link.delay);
-    actions_.push_back(action::Stepped{id, message.what + ": " + message.reason});
+    actions_.push_back(
+        action::Stepped{id, wire::sent_part(message) + ": " + wire::english(message.reason)});
     send(id, message);
     take_step(id, receiver);
     apply();
@@ -151,7 +152,7 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
 
 std::string Streams::step_of(ParticipantId id) {
     const auto found = receivers_.find(id);
-    return found == receivers_.end() ? "" : found->second.delivery.step().what;
+    return found == receivers_.end() ? "" : wire::sent_part(found->second.delivery.message({}));
 }
 
 double Streams::frames_per_second() const {
@@ -242,7 +243,7 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
 }
 
 // Empty if the receiver gets the settings that it requested.
-std::string Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
+wire::Text Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
     for (const bool depth : {true, false}) {
         const LadderStep& step = step_for(id, receiver, camera);
         const std::string& asked = receiver.records
@@ -250,10 +251,10 @@ std::string Streams::note_for(ParticipantId id, Receiver& receiver, const Camera
                                    : depth ? step.depth_codec
                                            : step.color_codec;
         if (camera.table(depth).given(id).codec != asked)
-            return "The host already encodes in " + std::to_string(SettingTable::max_active) +
-                   " ways; instead of " + asked + " you get the nearest of them.";
+            return {wire::TextCode::all_encodings_taken,
+                    {std::to_string(SettingTable::max_active), asked}};
     }
-    return "";
+    return {};
 }
 
 }  // namespace theatron::session

@@ -165,10 +165,8 @@ void Streams::on_encoding(CameraId id, SettingId setting, bool keeps_up, double 
     if (!camera.set_slow(depth, setting, !keeps_up))
         return;
     if (!keeps_up && !is_known) {
-        const std::string note =
-            "Encoding " + active->codec + " takes " + std::to_string(int(ms_per_picture + 0.5)) +
-            " ms a picture here, more than its share, so you get fewer pictures than the cameras "
-            "take; another codec would be faster.";
+        const wire::Text note{wire::TextCode::encoding_is_slow,
+                              {active->codec, std::to_string(int(ms_per_picture + 0.5))}};
         for (const auto& [receiver, announced] : camera.receivers)
             if (announced.of(depth) == setting)
                 send(receiver, wire::Settings{{}, note});

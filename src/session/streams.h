@@ -122,7 +122,7 @@ private:
     void apply();
     void tell_publisher(ParticipantId publisher);
     void tell_receiver(ParticipantId id, Receiver& receiver);
-    std::string note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera);
+    wire::Text note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera);
     Duration made_in(ParticipantId id) const;
     double frames_per_second() const;
 

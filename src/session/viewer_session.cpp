@@ -8,15 +8,29 @@
 #include "session/announced_cameras.h"
 
 namespace theatron::session {
+namespace {
+
+// A host of another age may know only the English sentence.
+wire::Text refusal_text(wire::Refused& refused) {
+    if (!refused.reason.empty() &&
+        (wire::is_known(refused.reason.code) || refused.in_english.empty()))
+        return std::move(refused.reason);
+    if (!refused.in_english.empty())
+        return wire::as_written(std::move(refused.in_english));
+    return {wire::TextCode::no_reason};
+}
+
+}  // namespace
+
 Bytes ViewerSession::begin() {
     joined_ = false;
-    refusal_.clear();
-    note_.clear();
+    refusal_ = {};
+    note_ = {};
     settings_.clear();
     camera_states_.clear();
     delivery_ = {};
     renderer_word_ = {};
-    goodbye_.clear();
+    goodbye_ = {};
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -44,7 +58,7 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         return Change::welcomed;
     }
     if (auto* refused = std::get_if<wire::Refused>(&*message)) {
-        refusal_ = refused->reason.empty() ? "The host gave no reason." : refused->reason;
+        refusal_ = refusal_text(*refused);
         return Change::refused;
     }
     if (auto* settings = std::get_if<wire::Settings>(&*message)) {
@@ -98,7 +112,8 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         return Change::renderer;
     }
     if (auto* goodbye = std::get_if<wire::Goodbye>(&*message)) {
-        goodbye_ = goodbye->reason.empty() ? "The session has ended." : goodbye->reason;
+        goodbye_ = goodbye->reason.empty() ? wire::Text{wire::TextCode::session_over}
+                                           : std::move(goodbye->reason);
         return Change::goodbye;
     }
     if (std::holds_alternative<wire::RoomSnapshot>(*message) ||

@@ -66,22 +66,21 @@ public:
     const wire::Welcome& welcome() const { return welcome_; }
     // The cameras that judge_cameras() accepts; their calibrations can be decoded.
     const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
-    // A sentence for the user about each camera that was not accepted, of the last message that
-    // named cameras.
-    const std::vector<std::string>& left_out() const { return left_out_; }
+    // About each camera that was not accepted, of the last message that named cameras.
+    const std::vector<wire::Text>& left_out() const { return left_out_; }
     // The settings of accepted cameras only.
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
     bool may_publish() const;
-    const std::string& note() const { return note_; }
+    const wire::Text& note() const { return note_; }
     // The states of accepted cameras only.
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
-    const std::string& refusal() const { return refusal_; }
+    const wire::Text& refusal() const { return refusal_; }
     const wire::Pong& pong() const { return pong_; }
     const wire::Delivery& delivery() const { return delivery_; }
     // The newest command of this connection's host; empty before the first.
     const wire::SetRenderer& renderer_word() const { return renderer_word_; }
-    // One sentence for the user; empty as long as the session goes on.
-    const std::string& goodbye() const { return goodbye_; }
+    // Empty as long as the session goes on.
+    const wire::Text& goodbye() const { return goodbye_; }
     const wire::Published& published() const { return published_; }
     const wire::Encode& encode() const { return encode_; }
     const wire::EncodeKey& encode_key() const { return encode_key_; }
@@ -97,15 +96,15 @@ private:
     Wishes wishes_;
     bool joined_ = false;
     wire::Welcome welcome_;
-    std::vector<std::string> left_out_;
+    std::vector<wire::Text> left_out_;
     std::vector<wire::StreamSetting> settings_;
-    std::string note_;
+    wire::Text note_;
     std::map<CameraId, wire::CameraState> camera_states_;
-    std::string refusal_;
+    wire::Text refusal_;
     wire::Pong pong_;
     wire::Delivery delivery_;
     wire::SetRenderer renderer_word_;
-    std::string goodbye_;
+    wire::Text goodbye_;
     wire::Published published_;
     wire::Encode encode_;
     wire::EncodeKey encode_key_;

@@ -33,9 +33,10 @@ void check(const session::ViewerSession& viewer) {
         color_pixels > session::max_total_color_pixels)
         std::abort();
     for (const auto& [camera, state] : viewer.camera_states())
-        if (!known.contains(camera) || !is_shown_as_it_is(state.problem))
+        if (!known.contains(camera) || !is_shown_as_it_is(wire::english(state.problem)))
             std::abort();
-    for (const std::string& text : {viewer.note(), viewer.refusal(), viewer.delivery().what,
+    for (const std::string& text : {wire::english(viewer.note()), wire::english(viewer.refusal()),
+                                    wire::sent_part(viewer.delivery()),
                                     viewer.renderer_word().renderer, viewer.welcome().host_name})
         if (!is_shown_as_it_is(text))
             std::abort();

@@ -31,7 +31,7 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
 
     session.on_control(alice, viewer.choose("bad", ""), now);
     deliver();
-    EXPECT_EQ(viewer.note(), "There is no codec bad.");
+    EXPECT_EQ(viewer.note(), wire::as_written("There is no codec bad."));
     EXPECT_EQ(viewer.settings()[0].codec, "rvl");
 
     session.set_renderer({"mesh", true});
@@ -56,16 +56,27 @@ TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
 
     ViewerSession viewer({});
     EXPECT_EQ(viewer.on_control(wire::encode(end->message)), ViewerSession::Change::goodbye);
-    EXPECT_EQ(viewer.goodbye(), "The host has ended the session.");
+    EXPECT_EQ(viewer.goodbye().code, wire::TextCode::session_over);
     (void)viewer.begin();
-    EXPECT_EQ(viewer.goodbye(), "");
+    EXPECT_TRUE(viewer.goodbye().empty());
 }
 
 TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
     ViewerSession viewer({});
     EXPECT_EQ(viewer.on_control(Bytes(7)), ViewerSession::Change::nothing);
-    EXPECT_EQ(viewer.on_control(wire::encode(wire::Refused{""})), ViewerSession::Change::refused);
-    EXPECT_FALSE(viewer.refusal().empty());
+    EXPECT_EQ(viewer.on_control(wire::encode(wire::Refused{})), ViewerSession::Change::refused);
+    EXPECT_EQ(viewer.refusal().code, wire::TextCode::no_reason);
+}
+
+TEST(ViewerSession, ANewerHostRefusesInAnUnderstandableSentence) {
+    ViewerSession viewer({});
+    (void)viewer.on_control(
+        wire::encode(wire::Refused{"The door is locked.", {wire::TextCode{199}, {"7"}}}));
+    EXPECT_EQ(wire::english(viewer.refusal()), "The door is locked.");
+    (void)viewer.on_control(wire::encode(wire::Refused{"", {wire::TextCode{199}, {"7"}}}));
+    EXPECT_NE(wire::english(viewer.refusal()).find("199, 7"), std::string::npos);
+    (void)viewer.on_control(wire::encode(wire::Refused{"Falsch.", {wire::TextCode::link_expired}}));
+    EXPECT_EQ(viewer.refusal().code, wire::TextCode::link_expired) << "the code counts";
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
         line.push_back({"Data", rounded(facts.received.mbit_per_second(), 1, "Mbit/s")});
         line.push_back({"Dropped", std::to_string(facts.received.dropped())});
         if (status.delivery.level > 0)
-            line.push_back({"Sent", status.delivery.what, true});
+            line.push_back({"Sent", wire::sent_part(status.delivery), true});
         line.push_back(depth_fact(cameras));
         line.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
         const std::string filter =

@@ -2,34 +2,31 @@
 // Reasons why the host refused a change of the room, for a person.
 #pragma once
 
+#include <string>
+
 #include "session/room_object.h"
+#include "wire/text.h"
 
 namespace theatron::viewer {
 
+// The text of each reason has its number, counted from the first one.
+constexpr wire::TextCode code_of(session::Refusal refusal) {
+    return refusal == session::Refusal::none
+               ? wire::TextCode::none
+               : wire::TextCode(int(wire::TextCode::object_gone) - 1 + int(refusal));
+}
+static_assert(code_of(session::Refusal::no_such_object) == wire::TextCode::object_gone);
+static_assert(code_of(session::Refusal::held_by_another) == wire::TextCode::held_by_another);
+static_assert(code_of(session::Refusal::not_held_by_you) == wire::TextCode::not_held);
+static_assert(code_of(session::Refusal::role) == wire::TextCode::role_forbids);
+static_assert(code_of(session::Refusal::no_such_participant) == wire::TextCode::person_gone);
+static_assert(code_of(session::Refusal::too_many) == wire::TextCode::room_full);
+static_assert(code_of(session::Refusal::malformed) == wire::TextCode::beyond_room_limits);
+static_assert(code_of(session::Refusal::too_often) == wire::TextCode::room_too_often);
+
 // Part of a sentence, without a full stop; empty where nothing was refused.
-inline const char* text_of(session::Refusal refusal) {
-    using session::Refusal;
-    switch (refusal) {
-        case Refusal::none:
-            break;
-        case Refusal::no_such_object:
-            return "That object is gone";
-        case Refusal::held_by_another:
-            return "Somebody else holds this";
-        case Refusal::not_held_by_you:
-            return "You no longer hold this";
-        case Refusal::role:
-            return "Your role does not allow this";
-        case Refusal::no_such_participant:
-            return "That person has left";
-        case Refusal::too_many:
-            return "The room holds no more objects";
-        case Refusal::malformed:
-            return "The object would be out of the room's limits";
-        case Refusal::too_often:
-            return "That was too much at once; try again";
-    }
-    return "";
+inline std::string text_of(session::Refusal refusal) {
+    return wire::english({code_of(refusal)});
 }
 
 }  // namespace theatron::viewer

@@ -22,6 +22,12 @@ using flatbuffers::voffset_t;
 constexpr voffset_t first_slot = 2 * sizeof(voffset_t);
 constexpr voffset_t next_slot = sizeof(voffset_t);
 
+// A struct that is a table of its own.
+template <class T>
+concept IsTable = requires(T& value) {
+    T::fields(value, [](auto&&...) {});
+};
+
 // The number by which a table holds a value.
 template <class T>
 requires std::is_arithmetic_v<T> T to_number(T value) {
@@ -67,6 +73,10 @@ Offset<void> pack_part(Builder& b, const Bytes& bytes) {
         .Union();
 }
 
+Offset<void> pack_part(Builder& b, const std::vector<std::string>& texts) {
+    return b.CreateVectorOfStrings(texts).Union();
+}
+
 template <class Id>
 requires std::is_enum_v<Id> Offset<void> pack_part(Builder& b, const std::vector<Id>& ids) {
     std::vector<Number<Id>> numbers;
@@ -87,7 +97,10 @@ struct PackParts {
     Builder& b;
     std::vector<Offset<void>>& parts;
     template <class T>
-    void operator()(const T&) {}
+    void operator()(const T& value) {
+        if constexpr (IsTable<T>)
+            parts.push_back(pack(b, value).Union());
+    }
     template <class T>
     void operator()(const T& value, std::size_t) {
         parts.push_back(pack_part(b, value));
@@ -100,7 +113,10 @@ struct PackFields {
     voffset_t slot = first_slot;
     template <class T>
     void operator()(const T& value) {
-        b.AddElement(slot, to_number(value), Number<T>());
+        if constexpr (IsTable<T>)
+            b.AddOffset(slot, *part++);
+        else
+            b.AddElement(slot, to_number(value), Number<T>());
         slot = voffset_t(slot + next_slot);
     }
     template <class T>
@@ -129,6 +145,9 @@ bool is_sound(const Message&) {
 bool is_sound(const StreamSetting& setting) {
     return setting.setting != SettingId{};
 }
+bool is_sound(const Delivery& delivery) {
+    return delivery.one_frame_of > 0;
+}
 bool is_sound(const Join& join) {
     return join.person.empty() || join.person.size() == person_id_size;
 }
@@ -143,6 +162,18 @@ bool unpack(const Table& table, Message& message);
 bool unpack_part(const Table& table, voffset_t slot, std::size_t limit, std::string& text) {
     if (const auto* part = table.GetPointer<const flatbuffers::String*>(slot))
         text = clean_text(part->string_view(), limit);
+    return true;
+}
+
+bool unpack_part(const Table& table, voffset_t slot, std::size_t limit,
+                 std::vector<std::string>& texts) {
+    const auto* part = table.GetPointer<const Vector<Offset<flatbuffers::String>>*>(slot);
+    if (!part)
+        return true;
+    if (part->size() > limit)
+        return false;
+    for (const auto* text : *part)
+        texts.push_back(clean_text(text->string_view(), max_sentence));
     return true;
 }
 
@@ -189,6 +220,13 @@ struct UnpackFields {
     const Table& table;
     bool& sound;
     voffset_t slot = first_slot;
+    template <class T>
+    requires IsTable<T>
+    void operator()(T& value) {
+        if (const auto* part = table.GetPointer<const Table*>(slot))
+            sound = sound && unpack(*part, value);
+        slot = voffset_t(slot + next_slot);
+    }
     template <class T>
     void operator()(T& value) {
         value = from_number<T>(table.GetField<Number<T>>(slot, Number<T>()));
@@ -268,6 +306,31 @@ static_assert(int(fbs::ToParticipantBody::MAX) == std::variant_size_v<ToParticip
 static_assert(int(fbs::ToHostBody::Join) == 1 && int(fbs::ToParticipantBody::Refused) == 7);
 
 }  // namespace
+
+Refused refused(Text reason) {
+    std::string sentence = english(reason);
+    return {std::move(sentence), std::move(reason)};
+}
+
+std::string sent_part(const Delivery& delivery) {
+    std::vector<Text> parts;
+    if (delivery.one_frame_of == 2)
+        parts.push_back({TextCode::half_of_frames});
+    else if (delivery.one_frame_of == 4)
+        parts.push_back({TextCode::quarter_of_frames});
+    else if (delivery.one_frame_of != 1)
+        parts.push_back({TextCode::one_frame_of, {std::to_string(delivery.one_frame_of)}});
+    if (!delivery.color_codec.empty())
+        parts.push_back({TextCode::coarser_color, {delivery.color_codec}});
+    if (delivery.lossy_outside_region)
+        parts.push_back({TextCode::loss_outside_region});
+    if (parts.empty())
+        parts.push_back({TextCode::everything_is_sent});
+    std::string result;
+    for (const Text& part : parts)
+        result += (result.empty() ? "" : ", ") + english(part);
+    return result;
+}
 
 Bytes encode(const ToHost& message) {
     return encode_union(message);

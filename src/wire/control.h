@@ -16,12 +16,13 @@
 #include "base/ids.h"
 #include "base/status.h"
 #include "base/time.h"
+#include "wire/text.h"
 
 namespace theatron::wire {
 
 // Versions of the protocol that this build speaks.
-inline constexpr std::uint16_t protocol_min = 2;
-inline constexpr std::uint16_t protocol_max = 2;
+inline constexpr std::uint16_t protocol_min = 3;
+inline constexpr std::uint16_t protocol_max = 3;
 
 // Limits of decoding, in characters and elements. Decoding makes every text clean
 // (base/outside_text.h) and cuts it to its limit; a longer list makes its message malformed.
@@ -29,7 +30,6 @@ inline constexpr std::size_t max_name = 64;                // of a participant, 
 inline constexpr std::size_t max_token = 256;              // the host compares it whole
 inline constexpr std::size_t max_codec = 200;              // one codec in its spelling
 inline constexpr std::size_t max_renderer = 40;            // one renderer's name
-inline constexpr std::size_t max_sentence = 500;           // a reason, a problem, a note, a step
 inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
 inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
 inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
@@ -258,22 +258,27 @@ struct CamerasRemoved {
 };
 
 // The host's answer to Publish: the numbers of the cameras, in their order. Where `problem` is not
-// empty, none was taken, and it is one sentence for the user.
+// empty, none was taken.
 struct Published {
     std::vector<CameraId> cameras;
-    std::string problem;
+    Text problem;
 
     static void fields(auto& m, auto&& field) {
         field(m.cameras, max_cameras);
-        field(m.problem, max_sentence);
+        field(m.problem);
     }
 };
 
-// The host will close the connection; `reason` is one sentence for the user.
+// The host will close the connection. `in_english` is for programs of every age: theirs may be a
+// protocol without `reason`, or not know its code.
 struct Refused {
-    std::string reason;
+    std::string in_english;
+    Text reason;
 
-    static void fields(auto& m, auto&& field) { field(m.reason, max_sentence); }
+    static void fields(auto& m, auto&& field) {
+        field(m.in_english, max_sentence);
+        field(m.reason);
+    }
 };
 
 struct StreamSetting {
@@ -290,14 +295,14 @@ struct StreamSetting {
 };
 
 // The settings of these streams for this participant from now on; others do not change. `note` is
-// empty, or a sentence on why they are not the requested ones.
+// empty, or says why they are not the requested ones.
 struct Settings {
     std::vector<StreamSetting> settings;
-    std::string note;
+    Text note;
 
     static void fields(auto& m, auto&& field) {
         field(m.settings, max_streams);
-        field(m.note, max_sentence);
+        field(m.note);
     }
 };
 
@@ -307,13 +312,13 @@ enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, fail
 struct CameraState {
     CameraId camera{};
     CameraCondition condition{};
-    std::string problem;
+    Text problem;
     std::string filter;  // the filters that run on its depth (docs/filters.md); empty: none
 
     static void fields(auto& m, auto&& field) {
         field(m.camera);
         field(m.condition);
-        field(m.problem, max_sentence);
+        field(m.problem);
         field(m.filter, max_filter);
     }
 };
@@ -351,16 +356,20 @@ struct Pong {
 
 // The ladder step of this participant: the data that the host leaves out to keep latency low.
 struct Delivery {
-    std::uint8_t level = 0;   // 0: all that was requested
-    std::uint8_t levels = 1;  // number of levels
-    std::string what;         // "half of the frames", for people
-    std::string reason;       // "frames were too old", for people
+    std::uint8_t level = 0;             // 0: all that was requested
+    std::uint8_t levels = 1;            // number of levels
+    std::uint8_t one_frame_of = 1;      // of so many frames one is sent
+    std::string color_codec;            // coarser colour; empty: as requested
+    bool lossy_outside_region = false;  // depth has bounded loss outside the region of interest
+    Text reason;
 
     static void fields(auto& m, auto&& field) {
         field(m.level);
         field(m.levels);
-        field(m.what, max_sentence);
-        field(m.reason, max_sentence);
+        field(m.one_frame_of);
+        field(m.color_codec, max_codec);
+        field(m.lossy_outside_region);
+        field(m.reason);
     }
 };
 
@@ -416,12 +425,11 @@ struct RoomDecision {
     }
 };
 
-// The session is over; `reason` is one sentence for the user. The host closes the connection,
-// and coming back is of no use.
+// The session is over. The host closes the connection, and coming back is of no use.
 struct Goodbye {
-    std::string reason;
+    Text reason;
 
-    static void fields(auto& m, auto&& field) { field(m.reason, max_sentence); }
+    static void fields(auto& m, auto&& field) { field(m.reason); }
 };
 
 // In the order of the unions in control.fbs.
@@ -430,6 +438,11 @@ using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, Choose
 using ToParticipant = std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer,
                                    Refused, Goodbye, CamerasAdded, CamerasRemoved, Published,
                                    Encode, EncodeKey, RoomSnapshot, RoomChange, RoomDecision>;
+
+// A refusal with its English sentence.
+Refused refused(Text reason);
+// The part of the requested data that is sent, in English: "half of the frames, colour as jpeg".
+std::string sent_part(const Delivery& delivery);
 
 Bytes encode(const ToHost& message);
 Bytes encode(const ToParticipant& message);

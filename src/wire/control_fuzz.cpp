@@ -14,7 +14,10 @@ using namespace theatron;
 struct Measure {
     std::size_t& bytes;
     template <class T>
-    void operator()(const T&) {}
+    void operator()(const T& value) {
+        if constexpr (requires { T::fields(value, *this); })
+            T::fields(value, *this);
+    }
     void operator()(const std::string& text, std::size_t limit) {
         if (clean_text(text, limit) != text)
             std::abort();
@@ -28,6 +31,9 @@ struct Measure {
         if constexpr (requires(const T& element) { T::fields(element, *this); })
             for (const T& element : list)
                 T::fields(element, *this);
+        if constexpr (std::is_same_v<T, std::string>)
+            for (const std::string& text : list)
+                (*this)(text, wire::max_sentence);
     }
 };
 

@@ -286,9 +286,13 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(join.max_kbit_per_s, 9000u);
     EXPECT_TRUE(join.records);
     EXPECT_EQ(round_trip(ChooseDelivery{100, 5000}).max_kbit_per_s, 5000u);
-    const Delivery delivery = round_trip(Delivery{2, 6, "a quarter of the frames", "too old"});
+    const Delivery delivery = round_trip(
+        Delivery{2, 6, 4, "jpeg:quality=60", true, {TextCode::frames_were_late, {"312"}}});
     EXPECT_EQ(int(delivery.level) * 10 + delivery.levels, 26);
-    EXPECT_EQ(delivery.what + delivery.reason, "a quarter of the framestoo old");
+    EXPECT_EQ(
+        sent_part(delivery),
+        "a quarter of the frames, colour as jpeg:quality=60, bounded loss outside the region");
+    EXPECT_EQ(english(delivery.reason), "frames took 312 ms to arrive");
     const std::vector<CameraId> cameras{CameraId{3}, CameraId{0x7fff}};
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).depth_codec, "rvl");
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).cameras, cameras);
@@ -298,8 +302,8 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));
     EXPECT_EQ(round_trip(Unpublish{cameras}).cameras, cameras);
     EXPECT_EQ(round_trip(CamerasRemoved{cameras}).cameras, cameras);
-    EXPECT_EQ(round_trip(Published{cameras, "no"}).cameras, cameras);
-    EXPECT_EQ(round_trip(Published{cameras, "no"}).problem, "no");
+    EXPECT_EQ(round_trip(Published{cameras, {}}).cameras, cameras);
+    EXPECT_EQ(round_trip(Published{cameras, as_written("no")}).problem, as_written("no"));
     const CamerasAdded added = round_trip(CamerasAdded{{{CameraId{9},
                                                          "a",
                                                          StreamId{18},
@@ -314,16 +318,16 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(added.cameras[0].publisher, ParticipantId{4});
     EXPECT_EQ(round_trip(Encode{{{StreamId{18}, SettingId{2}, "raw"}}}).settings[0].codec, "raw");
     EXPECT_EQ(round_trip(EncodeKey{StreamId{18}, SettingId{2}}).setting, SettingId{2});
-    EXPECT_EQ(
-        std::get<CameraState>(*decoded_again(ToHost(CameraState{CameraId{1}, {}, "gone", ""})))
-            .problem,
-        "gone");
+    EXPECT_EQ(std::get<CameraState>(
+                  *decoded_again(ToHost(CameraState{CameraId{1}, {}, as_written("gone"), ""})))
+                  .problem,
+              as_written("gone"));
     EXPECT_EQ(round_trip(RequestKey{StreamId{3}, SettingId{4}}).setting, SettingId{4});
     EXPECT_EQ(round_trip(Ping{from_us(-5)}).sent, from_us(-5));
     const Report report = round_trip(Report{{{StreamId{1}, 2, 3, 4, Duration(5)}}, "blend"});
     EXPECT_EQ(report.renderer, "blend");
     EXPECT_EQ(round_trip(SetRenderer{"mesh", true}), (SetRenderer{"mesh", true}));
-    EXPECT_EQ(round_trip(Goodbye{"It is over."}).reason, "It is over.");
+    EXPECT_EQ(round_trip(Goodbye{{TextCode::session_over}}).reason.code, TextCode::session_over);
     ASSERT_EQ(report.streams.size(), 1u);
     EXPECT_EQ(report.streams[0].bytes, 4u);
     EXPECT_EQ(report.streams[0].age, Duration(5));
@@ -335,14 +339,18 @@ TEST(Control, EveryMessageRoundTrips) {
     ASSERT_EQ(welcome.cameras.size(), 1u);
     EXPECT_EQ(welcome.cameras[0].calibration, numbered(9));
     EXPECT_EQ(welcome.cameras[0].color_stream, StreamId{1});
-    EXPECT_EQ(round_trip(Refused{"no"}).reason, "no");
-    const Settings settings = round_trip(Settings{{{StreamId{1}, SettingId{2}, "rvl"}}, "busy"});
+    const Refused no = round_trip(refused({TextCode::host_too_old, {"3", "4"}}));
+    EXPECT_EQ(no.reason, (Text{TextCode::host_too_old, {"3", "4"}}));
+    EXPECT_EQ(no.in_english, english(no.reason));
+    const Settings settings =
+        round_trip(Settings{{{StreamId{1}, SettingId{2}, "rvl"}}, as_written("busy")});
     ASSERT_EQ(settings.settings.size(), 1u);
     EXPECT_EQ(settings.settings[0].codec, "rvl");
-    EXPECT_EQ(settings.note, "busy");
-    EXPECT_EQ(round_trip(CameraState{CameraId{1}, {}, "", "kalman"}).filter, "kalman");
-    EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, "gone", ""}).problem,
-              "gone");
+    EXPECT_EQ(settings.note, as_written("busy"));
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, {}, {}, "kalman"}).filter, "kalman");
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, as_written("gone"), ""})
+                  .problem,
+              as_written("gone"));
     EXPECT_EQ(round_trip(Pong{from_us(1), from_us(2), from_us(3)}).sent, from_us(3));
 }
 
@@ -384,7 +392,7 @@ TEST(Control, RefusesDamage) {
         EXPECT_FALSE(decode_to_host(ByteView(whole).first(n)));
     EXPECT_FALSE(decode_to_host(numbered(100)));
     EXPECT_FALSE(decode_to_participant(numbered(100)));
-    EXPECT_FALSE(decoded_again(CameraState{CameraId{1}, CameraCondition(9), "", ""}));
+    EXPECT_FALSE(decoded_again(CameraState{CameraId{1}, CameraCondition(9), {}, ""}));
 }
 
 TEST(Control, TextsAreCleanAndCutToTheirLimits) {
@@ -406,18 +414,17 @@ TEST(Control, TextsAreCleanAndCutToTheirLimits) {
     EXPECT_EQ(characters(codecs.color_codec), max_codec);
     EXPECT_EQ(characters(round_trip(Report{{}, bad}).renderer), max_renderer);
     EXPECT_EQ(characters(round_trip(SetRenderer{bad, true}).renderer), max_renderer);
-    EXPECT_EQ(characters(round_trip(Refused{bad}).reason), max_sentence);
-    EXPECT_EQ(characters(round_trip(Delivery{0, 1, bad, bad}).what), max_sentence);
-    EXPECT_EQ(characters(round_trip(Delivery{0, 1, bad, bad}).reason), max_sentence);
-    EXPECT_EQ(characters(round_trip(CameraState{CameraId{1}, {}, bad, bad}).problem), max_sentence);
-    EXPECT_EQ(characters(round_trip(CameraState{CameraId{1}, {}, bad, bad}).filter), max_filter);
+    EXPECT_EQ(characters(round_trip(Refused{bad, {}}).in_english), max_sentence);
+    EXPECT_EQ(characters(round_trip(Delivery{0, 1, 1, bad, false, {}}).color_codec), max_codec);
+    const CameraState state = round_trip(CameraState{CameraId{1}, {}, as_written(bad), bad});
+    EXPECT_EQ(characters(state.problem.arguments.at(0)), max_sentence);
+    EXPECT_EQ(characters(state.filter), max_filter);
     const Welcome welcome =
         round_trip(Welcome{1, {}, bad, {{CameraId{0}, bad, {}, {}, true, 30, {}}}});
     EXPECT_EQ(characters(welcome.host_name), max_name);
     EXPECT_EQ(characters(welcome.cameras[0].name), max_name);
-    const Settings settings = round_trip(Settings{{{StreamId{1}, SettingId{2}, bad}}, bad});
+    const Settings settings = round_trip(Settings{{{StreamId{1}, SettingId{2}, bad}}, {}});
     EXPECT_EQ(characters(settings.settings[0].codec), max_codec);
-    EXPECT_EQ(characters(settings.note), max_sentence);
 }
 
 TEST(Control, RefusesMoreThanItsLimits) {
@@ -425,10 +432,14 @@ TEST(Control, RefusesMoreThanItsLimits) {
     EXPECT_TRUE(accepted(Report{std::vector<StreamReport>(max_streams), ""}));
     EXPECT_FALSE(accepted(Report{std::vector<StreamReport>(max_streams + 1), ""}));
     const StreamSetting setting{StreamId{0}, SettingId{1}, "rvl"};
-    EXPECT_TRUE(accepted(Settings{std::vector<StreamSetting>(max_streams, setting), ""}));
-    EXPECT_FALSE(accepted(Settings{std::vector<StreamSetting>(max_streams + 1, setting), ""}));
+    EXPECT_TRUE(accepted(Settings{std::vector<StreamSetting>(max_streams, setting), {}}));
+    EXPECT_FALSE(accepted(Settings{std::vector<StreamSetting>(max_streams + 1, setting), {}}));
     EXPECT_TRUE(accepted(Welcome{1, {}, "", std::vector<Camera>(max_cameras)}));
     EXPECT_FALSE(accepted(Welcome{1, {}, "", std::vector<Camera>(max_cameras + 1)}));
+    EXPECT_TRUE(accepted(Goodbye{{TextCode{9}, std::vector<std::string>(max_text_arguments)}}));
+    EXPECT_FALSE(
+        accepted(Goodbye{{TextCode{9}, std::vector<std::string>(max_text_arguments + 1)}}));
+    EXPECT_FALSE(accepted(Delivery{1, 2, 0, "", false, {}}));
     Camera camera;
     camera.calibration = numbered(max_calibration_size);
     EXPECT_TRUE(accepted(Welcome{1, {}, "", {camera}}));
@@ -443,7 +454,7 @@ TEST(Control, RefusesMoreThanItsLimits) {
 }
 
 TEST(Control, RefusesASettingWithoutANumber) {
-    EXPECT_FALSE(decoded_again(Settings{{{StreamId{0}, SettingId{0}, "rvl"}}, ""}));
+    EXPECT_FALSE(decoded_again(Settings{{{StreamId{0}, SettingId{0}, "rvl"}}, {}}));
 }
 
 }  // namespace

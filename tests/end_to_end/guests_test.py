@@ -150,7 +150,7 @@ class HostileHosts(unittest.TestCase):
     def test_states_of_cameras_that_nobody_announced_are_not_kept(self):
         def script(guest):
             guest.welcome()
-            message = control_message("ToParticipant", "CameraState", camera=0x1234, state=1, problem="x" * 50_000)
+            message = control_message("ToParticipant", "CameraState", camera=0x1234, state=1, problem={"code": 1, "arguments": ["x" * 50_000]})
             for number in range(1, 2000):
                 guest.send(bytes([CONTROL]) + message.replace(b"\x34\x12", struct.pack("<H", number)))
 

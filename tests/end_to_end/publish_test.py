@@ -116,7 +116,7 @@ class Publishing(unittest.TestCase):
                 self.assertEqual(peer.receive_control("EncodeKey")[1]["stream"], 2 * number)
                 self.assertEqual(names(seen.newest_json()), ["lamp", "made up"])
                 peer.send_media(media_message(b"a lie", stream=0, setting=1))
-                self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["reason"])
+                self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["in_english"])
                 peer.wait_for_end(10)
             alone = seen.wait_for(lambda f: names(f) == ["lamp"], 10)
             self.assertEqual(camera(alone, 0)["dropped"], 0)

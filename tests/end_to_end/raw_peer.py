@@ -31,7 +31,7 @@ import typing
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "src/wire/control.fbs"
 
 SPACE = "theatron.wire.fbs."
-PROTOCOL = 2
+PROTOCOL = 3
 
 CONTROL, CHUNK, STATES, VOICE, ACKNOWLEDGEMENT = 1, 2, 3, 4, 5  # kinds of envelopes
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10  # kinds of WebSocket frames
@@ -334,8 +334,8 @@ class _Guest(WebSocket):
                  "cameras": [camera(0)] if cameras is None else cameras}
         self.send_control("Welcome", **(usual | fields))
 
-    def settings(self, depth="strata", color="jpeg:quality=85", number=1, camera=0, note=""):
-        self.send_control("Settings", note=note, settings=[
+    def settings(self, depth="strata", color="jpeg:quality=85", number=1, camera=0):
+        self.send_control("Settings", settings=[
             {"stream": 2 * camera, "setting": number, "codec": depth},
             {"stream": 2 * camera + 1, "setting": number, "codec": color}])
 

@@ -33,7 +33,7 @@ class RawPeers(unittest.TestCase):
         recording = make_recording(self.folder / "box", frames=3)
         with host(self.folder / "state", f"folder:{recording},loop=1") as h, RawPeer(h.greeting["link"]) as peer:
             peer.join(protocol_min=1, protocol_max=1)
-            self.assertIn("too old", peer.receive_control("Refused")[1]["reason"])
+            self.assertIn("too old", peer.receive_control("Refused")[1]["in_english"])
 
     def test_a_viewer_joins_a_fake_host_and_notices_damage(self):
         asked, left = threading.Event(), threading.Event()

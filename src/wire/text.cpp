@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/text.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace theatron::wire {
+namespace {
+
+struct Row {
+    TextCode code;
+    std::string_view text;
+};
+
+// In the order of the codes.
+constexpr Row rows[] = {
+    {TextCode::as_written, "{0}"},
+
+    {TextCode::host_too_old,
+     "This host is older than your Theatron (protocol {0}, you need {1}); update the host."},
+    {TextCode::program_too_old,
+     "Your Theatron is too old for this host (protocol {0}, it needs {1}); update it."},
+    {TextCode::wrong_token, "The join token is wrong; ask for the host's current link."},
+    {TextCode::link_expired, "This link has expired; ask for a new one."},
+    {TextCode::too_many_recordings,
+     "This session is recorded {0} times already, which is as often as can be; end another "
+     "recording."},
+    {TextCode::damaged_message, "A message was {0}."},
+    {TextCode::not_joined, "Join first."},
+    {TextCode::joined_too_late, "No join came in time."},
+    {TextCode::too_many_requests, "There were far more requests than a host answers."},
+    {TextCode::damaged_picture, "A picture was {0}."},
+    {TextCode::foreign_picture, "A picture belongs to no camera of this participant."},
+    {TextCode::session_over, "The host has ended the session."},
+    {TextCode::no_reason, "The host gave no reason."},
+
+    {TextCode::camera_silent, "It sends no pictures."},
+    {TextCode::camera_repeating, "It sends the same picture again and again."},
+    {TextCode::camera_time_jump, "The times of its pictures cannot be."},
+    {TextCode::camera_gone, "It does not answer."},
+    {TextCode::recording_lost_one, "Its recording is damaged: 1 picture is lost."},
+    {TextCode::recording_lost_pictures, "Its recording is damaged: {0} pictures are lost."},
+    {TextCode::camera_number_too_high,
+     "The camera {0} has the number {1}, beyond all that there are; it is left out."},
+    {TextCode::camera_foreign_streams,
+     "The camera {0} names streams that are not its own; it is left out."},
+    {TextCode::camera_bad_rate, "The camera {0} has a frame rate that is none; it is left out."},
+    {TextCode::camera_bad_calibration,
+     "The camera {0} has a calibration that is {1}; it is left out."},
+    {TextCode::one_camera_too_many,
+     "The camera {0} is one more than there can be; it is left out."},
+    {TextCode::camera_number_taken,
+     "The camera {0} has a number that another one has; it is left out."},
+    {TextCode::camera_too_many_pixels,
+     "The camera {0} has more pixels than there is room for beside the others; it is left out."},
+
+    {TextCode::all_encodings_taken,
+     "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},
+    {TextCode::encoding_is_slow,
+     "Encoding {0} takes {1} ms a picture here, more than its share, so you get fewer pictures "
+     "than the cameras take; another codec would be faster."},
+    {TextCode::frames_were_late, "frames took {0} ms to arrive"},
+    {TextCode::ceiling, "your ceiling is {0} Mbit/s"},
+    {TextCode::link_has_room, "the link has room for more"},
+    {TextCode::link_is_tried, "trying whether the link carries more"},
+    {TextCode::trial_failed, "the link did not carry more"},
+    {TextCode::everything_is_sent, "everything"},
+    {TextCode::half_of_frames, "half of the frames"},
+    {TextCode::quarter_of_frames, "a quarter of the frames"},
+    {TextCode::one_frame_of, "one frame of {0}"},
+    {TextCode::coarser_color, "colour as {0}"},
+    {TextCode::loss_outside_region, "bounded loss outside the region"},
+
+    {TextCode::link_without_cameras,
+     "This link lets nobody send cameras; ask for the host's link for publishers."},
+    {TextCode::no_camera_offered, "No camera was offered."},
+    {TextCode::too_many_own_cameras, "A participant can send {0} cameras at once."},
+    {TextCode::session_full, "The session has {0} cameras, which is as many as can be."},
+    {TextCode::no_camera_numbers,
+     "The session has had so many cameras that there are no numbers left; the host has to be "
+     "started anew."},
+    {TextCode::offered_too_often, "Cameras were offered too often; wait a little."},
+
+    {TextCode::object_gone, "That object is gone"},
+    {TextCode::held_by_another, "Somebody else holds this"},
+    {TextCode::not_held, "You no longer hold this"},
+    {TextCode::role_forbids, "Your role does not allow this"},
+    {TextCode::person_gone, "That person has left"},
+    {TextCode::room_full, "The room holds no more objects"},
+    {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
+    {TextCode::room_too_often, "That was too much at once; try again"},
+};
+
+constexpr bool is_in_order() {
+    for (std::size_t i = 1; i < std::size(rows); ++i)
+        if (rows[i - 1].code >= rows[i].code)
+            return false;
+    return true;
+}
+static_assert(is_in_order());
+
+// Null if there is none.
+const Row* find(TextCode code) {
+    const auto* row =
+        std::lower_bound(std::begin(rows), std::end(rows), code,
+                         [](const Row& r, TextCode wanted) { return r.code < wanted; });
+    return row == std::end(rows) || row->code != code ? nullptr : row;
+}
+
+// A number of a newer program.
+std::string_view subject_of(TextCode code) {
+    switch (std::uint16_t(code) / 100) {
+        case 1:
+            return "The host ends the connection for a reason";
+        case 2:
+            return "Something is wrong with a camera";
+        case 3:
+            return "The host has changed what it sends for a reason";
+        case 4:
+            return "The host does not take the cameras for a reason";
+        case 5:
+            return "The host does not allow this change of the room for a reason";
+        default:
+            return "The other program says something";
+    }
+}
+
+std::string unknown(const Text& text) {
+    std::string result = std::string(subject_of(text.code)) +
+                         " that this version of Theatron does not know (number " +
+                         std::to_string(int(text.code));
+    for (const std::string& argument : text.arguments)
+        result += ", " + argument;
+    return result + "); a newer version can show it.";
+}
+
+}  // namespace
+
+bool is_known(TextCode code) {
+    return find(code) != nullptr;
+}
+
+Text as_written(std::string sentence) {
+    if (sentence.empty())
+        return {};
+    return {TextCode::as_written, {std::move(sentence)}};
+}
+
+std::string english(const Text& text) {
+    if (text.empty())
+        return {};
+    const Row* row = find(text.code);
+    if (!row)
+        return unknown(text);
+    std::string result;
+    for (std::size_t i = 0; i < row->text.size(); ++i) {
+        if (row->text[i] != '{') {
+            result += row->text[i];
+            continue;
+        }
+        const auto argument = std::size_t(row->text[i + 1] - '0');
+        result += argument < text.arguments.size() ? text.arguments[argument] : "?";
+        i += 2;
+    }
+    return result;
+}
+
+}  // namespace theatron::wire

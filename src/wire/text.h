@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texts for people as a code and arguments. A receiver makes the sentence, in its own language.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace theatron::wire {
+
+// Numbers are never used for another text. The hundreds name a subject, so that a receiver can say
+// at least that much about a number of a newer program. {0} and {1} are the arguments.
+enum class TextCode : std::uint16_t {
+    none = 0,
+    as_written = 1,  // {0}: a sentence of a driver, a file or a codec, in English
+
+    // Why a connection ends.
+    host_too_old = 100,     // {0}: the host's highest protocol, {1}: the participant's lowest
+    program_too_old = 101,  // {0}: the participant's highest protocol, {1}: the host's lowest
+    wrong_token = 102,
+    link_expired = 103,
+    too_many_recordings = 104,  // {0}: how many there can be
+    damaged_message = 105,      // {0}: a Status
+    not_joined = 106,
+    joined_too_late = 107,
+    too_many_requests = 108,
+    damaged_picture = 109,  // {0}: a Status
+    foreign_picture = 110,
+    session_over = 111,
+    no_reason = 112,
+
+    // Cameras. With a name in {0}: the camera is left out.
+    camera_silent = 200,
+    camera_repeating = 201,
+    camera_time_jump = 202,
+    camera_gone = 203,
+    recording_lost_one = 204,
+    recording_lost_pictures = 205,  // {0}: how many
+    camera_number_too_high = 206,   // {0}: name, {1}: number
+    camera_foreign_streams = 207,   // {0}: name
+    camera_bad_rate = 208,          // {0}: name
+    camera_bad_calibration = 209,   // {0}: name, {1}: a Status
+    one_camera_too_many = 210,      // {0}: name
+    camera_number_taken = 211,      // {0}: name
+    camera_too_many_pixels = 212,   // {0}: name
+
+    // What a participant is sent.
+    all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for
+    encoding_is_slow = 301,     // {0}: codec, {1}: ms a picture
+    frames_were_late = 302,     // {0}: ms
+    ceiling = 303,              // {0}: Mbit/s
+    link_has_room = 304,
+    link_is_tried = 305,
+    trial_failed = 306,
+    everything_is_sent = 307,
+    half_of_frames = 308,
+    quarter_of_frames = 309,
+    one_frame_of = 310,   // {0}: how many
+    coarser_color = 311,  // {0}: codec
+    loss_outside_region = 312,
+
+    // Cameras of participants.
+    link_without_cameras = 400,
+    no_camera_offered = 401,
+    too_many_own_cameras = 402,  // {0}: how many there can be
+    session_full = 403,          // {0}: how many there can be
+    no_camera_numbers = 404,
+    offered_too_often = 405,
+
+    // Requests to change the room.
+    object_gone = 500,
+    held_by_another = 501,
+    not_held = 502,
+    role_forbids = 503,
+    person_gone = 504,
+    room_full = 505,
+    beyond_room_limits = 506,
+    room_too_often = 507,
+};
+
+inline constexpr std::size_t max_text_arguments = 4;
+inline constexpr std::size_t max_sentence = 500;  // characters of an argument, or of a text
+
+struct Text {
+    TextCode code = TextCode::none;
+    std::vector<std::string> arguments = {};
+
+    bool empty() const { return code == TextCode::none; }
+    bool operator==(const Text&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.code);
+        field(m.arguments, max_text_arguments);
+    }
+};
+
+// True if this program has a text for the code.
+bool is_known(TextCode code);
+
+// A text that is known in English only; none if it is empty.
+Text as_written(std::string sentence);
+
+// The English text, from the table in text.cpp: most are sentences with a full stop; parts of a
+// step and its reasons are not, since several of them stand in one line. Of an unknown code: its
+// subject, its number and its arguments. Empty for TextCode::none.
+std::string english(const Text& text);
+
+}  // namespace theatron::wire

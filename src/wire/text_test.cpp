@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/text.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::wire {
+namespace {
+
+TEST(Text, ArgumentsStandInTheSentence) {
+    EXPECT_EQ(english({TextCode::all_encodings_taken, {"3", "zstd:level=3"}}),
+              "The host already encodes in 3 ways; instead of zstd:level=3 you get the nearest of "
+              "them.");
+    EXPECT_EQ(english(as_written("The cable is {0} out.")), "The cable is {0} out.");
+}
+
+TEST(Text, WithoutACodeThereIsNone) {
+    EXPECT_EQ(english({}), "");
+    EXPECT_TRUE(as_written("").empty());
+}
+
+TEST(Text, AnUnknownCodeStillNamesItsSubjectAndItsArguments) {
+    EXPECT_FALSE(is_known(TextCode{199}));
+    EXPECT_EQ(english({TextCode{199}, {"room 3", "8"}}),
+              "The host ends the connection for a reason that this version of Theatron does not "
+              "know (number 199, room 3, 8); a newer version can show it.");
+    EXPECT_EQ(english({TextCode{60'000}}),
+              "The other program says something that this version of Theatron does not know "
+              "(number 60000); a newer version can show it.");
+}
+
+TEST(Text, MissingAndSurplusArgumentsDoNoHarm) {
+    EXPECT_EQ(english({TextCode::ceiling}), "your ceiling is ? Mbit/s");
+    EXPECT_EQ(english({TextCode::wrong_token, {"a", "b"}}),
+              "The join token is wrong; ask for the host's current link.");
+}
+
+}  // namespace
+}  // namespace theatron::wire
