@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "export/export_formats.h"
 #include "export/export_places.h"
+#include "export/room_of_recording.h"
 #include "files/json_text.h"
 #include "host/filter_choice.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 struct Flags {
     std::string file;
-    std::string ply, png, k4a;
+    std::string ply, png, k4a, room;
     std::optional<int> camera;
     bool merged = false;
     bool undistort = false;
@@ -92,8 +93,9 @@ void say_unregistered(const exporting::ExportSource& source) {
 }
 
 void run(const Flags& flags) {
-    if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty())
-        throw Error("Say into what to export: --ply DIR, --png DIR or --k4a FILE.mkv.");
+    if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty() && flags.room.empty())
+        throw Error(
+            "Say into what to export: --ply DIR, --png DIR, --k4a FILE.mkv or --room FILE.jsonl.");
     if (flags.merged && flags.ply.empty())
         throw Error("Only points can be merged; --merged goes with --ply.");
     if (flags.undistort && flags.png.empty())
@@ -118,11 +120,15 @@ void run(const Flags& flags) {
             damaged = true;
         }
 
+    if (!flags.room.empty() && !recording->room().present)
+        throw Error("'" + flags.file + "' has no room: only recordings of sessions have one.");
     for (const std::string& folder : {flags.ply, flags.png})
         if (!folder.empty())
             exporting::clear_folder(folder, flags.overwrite);
     if (!flags.k4a.empty())
         exporting::clear_file(flags.k4a, flags.overwrite);
+    if (!flags.room.empty())
+        exporting::clear_file(flags.room, flags.overwrite);
 
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;
@@ -179,6 +185,20 @@ void run(const Flags& flags) {
                   [&](exporting::ExportSource& source, const std::filesystem::path& place) {
                       return exporting::export_k4a(source, place);
                   });
+    if (!flags.room.empty()) {
+        capture::RecordedRoom::Figures figures;
+        const std::size_t lines = exporting::export_room(recording, flags.room, figures);
+        damaged |= figures.damaged + figures.undecodable > 0;
+        if (flags.json)
+            std::cout << files::json_text({{"format", "room"},
+                                           {"count", lines},
+                                           {"path", flags.room},
+                                           {"damaged", figures.damaged},
+                                           {"undecodable", figures.undecodable}})
+                      << std::endl;
+        else
+            std::cout << flags.room << ": " << lines << " moments" << std::endl;
+    }
     if (!damaged)
         return;
     std::cerr << "Parts of the recording are damaged or missing; what is whole was exported. "
@@ -201,6 +221,7 @@ void add_export_command(CLI::App& app) {
         "  theatron export operation.mkv --png pictures --camera 1\n"
         "  theatron export operation.mkv --png for_others --undistort\n"
         "  theatron export operation.mkv --png rgbd --registered\n"
+        "  theatron export operation.mkv --room room.jsonl\n"
         "  theatron host --camera folder:pictures,loop=1\n"
         "  theatron export operation.mkv --camera 0 --k4a kinect.mkv");
     command->add_option("file", flags->file, "The recording")->required();
@@ -218,6 +239,9 @@ void add_export_command(CLI::App& app) {
                       "does not see it");
     command->add_option("--k4a", flags->k4a,
                         "Write a file like an Azure Kinect's, as mkv:FILE reads it");
+    command->add_option("--room", flags->room,
+                        "Write people, objects and poses into this file, a JSON line for each "
+                        "moment at which something changed");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")
         ->check(CLI::Range(0, 62));
     command->add_flag("--overwrite", flags->overwrite,

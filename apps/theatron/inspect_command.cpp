@@ -9,6 +9,7 @@
 
 #include "cli/progress.h"
 #include "commands.h"
+#include "export/room_of_recording.h"
 #include "export/verify_recording.h"
 #include "geometry/calibration.h"
 #include "host/filter_choice.h"
@@ -144,6 +145,17 @@ Json describe_segments(const record::RecordingFile& recording) {
     return list;
 }
 
+Json describe_room(const record::StreamContent& room) {
+    std::uint64_t bytes = 0;
+    for (const record::RecordedFrame& part : room.frames)
+        bytes += part.payload_size;
+    return {{"parts", room.frames.size()},
+            {"bytes", bytes},
+            {"seconds", room.frames.empty()
+                            ? 0
+                            : to_seconds(room.frames.back().time() - room.frames.front().time())}};
+}
+
 Json describe(const std::string& file, const record::RecordingFile& recording) {
     Json cameras = Json::array();
     for (const record::CameraContent& camera : recording.cameras()) {
@@ -157,16 +169,30 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
         json["calibration"] = describe_calibration(camera.calibration);
         cameras.push_back(std::move(json));
     }
-    return {{"file", file},
-            {"bytes", recording.bytes()},
-            {"seconds", to_seconds(recording.duration())},
-            {"complete", recording.complete()},
-            {"refused", recording.refused()},
-            {"missing_segments", recording.missing_segments()},
-            {"unreadable_files", recording.unreadable_files()},
-            {"begins_in", recording.begins_in()},
-            {"segments", describe_segments(recording)},
-            {"cameras", cameras}};
+    Json json{{"file", file},
+              {"bytes", recording.bytes()},
+              {"seconds", to_seconds(recording.duration())},
+              {"complete", recording.complete()},
+              {"refused", recording.refused()},
+              {"missing_segments", recording.missing_segments()},
+              {"unreadable_files", recording.unreadable_files()},
+              {"begins_in", recording.begins_in()},
+              {"segments", describe_segments(recording)},
+              {"cameras", cameras}};
+    if (recording.room().present)
+        json["room"] = describe_room(recording.room());
+    return json;
+}
+
+// Reads the whole track of the room. True if nothing of it is damaged.
+bool add_room(const std::shared_ptr<const record::RecordingFile>& recording, Json& json) {
+    const exporting::RoomSummary room = exporting::summarize_room(recording);
+    json["people"] = room.people;
+    json["objects"] = room.objects;
+    json["changes"] = room.figures.changes;
+    json["damaged"] = recording->room().damaged + room.figures.damaged;
+    json["undecodable"] = room.figures.undecodable;
+    return json["damaged"] == 0 && json["undecodable"] == 0;
 }
 
 template <class... Args>
@@ -274,6 +300,20 @@ void print_minutes(const Json& camera) {
         }
 }
 
+void print_room(const Json& room) {
+    std::string names;
+    for (const Json& name : room["people"])
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    const double seconds = room["seconds"];
+    print("room: %s; %llu objects, %llu changes, %.1f kB, %.2f kB/s\n",
+          names.empty() ? "nobody" : names.c_str(), (unsigned long long)room["objects"],
+          (unsigned long long)room["changes"], double(room["bytes"]) * 1e-3,
+          seconds > 0 ? double(room["bytes"]) * 1e-3 / seconds : 0.0);
+    if (room["damaged"] > 0 || room["undecodable"] > 0)
+        print("  %llu of its parts are damaged, and %llu refer to missing ones\n",
+              (unsigned long long)room["damaged"], (unsigned long long)room["undecodable"]);
+}
+
 // Decodes everything and prints the damage. True if there is none.
 bool add_verification(const std::shared_ptr<const record::RecordingFile>& recording,
                       const std::string& file, Json& json) {
@@ -301,7 +341,8 @@ void run(const std::string& file, bool as_json, bool verified) {
     const std::shared_ptr<const record::RecordingFile> recording =
         record::RecordingFile::open(file);
     Json json = describe(file, *recording);
-    const bool undamaged = !verified || add_verification(recording, file, json);
+    const bool room_is_whole = !json.contains("room") || add_room(recording, json["room"]);
+    const bool undamaged = !verified || (add_verification(recording, file, json) && room_is_whole);
     const bool sound = undamaged && (!verified || recording->complete());
     if (as_json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
@@ -322,6 +363,8 @@ void run(const std::string& file, bool as_json, bool verified) {
             if (verified)
                 print_minutes(camera);
         }
+        if (json.contains("room"))
+            print_room(json["room"]);
         if (verified)
             print("%s\n", sound ? "every picture was decoded, and nothing is damaged"
                           : undamaged

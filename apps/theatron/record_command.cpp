@@ -306,6 +306,7 @@ void run(const Flags& flags) {
                                     {"pictures", f.frames},
                                     {"dropped", missing.dropped},
                                     {"lost", missing.lost},
+                                    {"room_bytes", f.room_bytes},
                                     {"cut_bytes", f.cut_bytes},
                                     {"missing_end_seconds", missing_end},
                                     {"complete", complete},

@@ -40,6 +40,11 @@ void print(const record::RecordingFile& recording, const record::Recovered& save
                     (unsigned long long)s["saved"], (unsigned long long)s["damaged"],
                     (unsigned long long)s["undecodable"]);
         }
+    if (const record::RecoveredStream& room = saved.room; room.saved + room.damaged > 0)
+        std::printf(
+            "room: %llu parts saved; %llu damaged and %llu that refer to them were left out\n",
+            (unsigned long long)room.saved, (unsigned long long)room.damaged,
+            (unsigned long long)room.undecodable);
     if (places > 0)
         std::printf("%llu damaged places were passed over\n", (unsigned long long)places);
     if (repeated > 0)
@@ -69,10 +74,10 @@ void run(const Flags& flags) {
                 show("recovering", done);
         });
     Json cameras = Json::array();
+    const auto describe = [](const record::RecoveredStream& s) {
+        return Json{{"saved", s.saved}, {"damaged", s.damaged}, {"undecodable", s.undecodable}};
+    };
     for (std::size_t i = 0; i < saved.cameras.size(); ++i) {
-        const auto describe = [](const record::RecoveredStream& s) {
-            return Json{{"saved", s.saved}, {"damaged", s.damaged}, {"undecodable", s.undecodable}};
-        };
         cameras.push_back({{"camera", int(recording->cameras()[i].id)},
                            {"depth", describe(saved.cameras[i].depth)},
                            {"color", describe(saved.cameras[i].color)}});
@@ -105,7 +110,8 @@ void run(const Flags& flags) {
                           {"foreign_files", foreign.files},
                           {"foreign_bytes", foreign.bytes},
                           {"missing_ends", ends},
-                          {"cameras", cameras}}
+                          {"cameras", cameras},
+                          {"room", describe(saved.room)}}
                          .dump(-1, ' ', false, Json::error_handler_t::replace)
                   << std::endl;
     else

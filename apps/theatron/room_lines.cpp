@@ -54,6 +54,13 @@ const char* text_of(session::ObjectKind kind) {
     return "unknown";
 }
 
+std::string hash_text(const session::RoomObjects& objects) {
+    char hash[17];
+    std::snprintf(hash, sizeof(hash), "%016llx",
+                  static_cast<unsigned long long>(session::hash_of(objects)));
+    return hash;
+}
+
 }  // namespace
 
 const char* RoomLines::help() {
@@ -186,20 +193,20 @@ nlohmann::json room_json(const client::Participant& participant) {
             if (const auto facts = session::decode_person(object.properties))
                 people.push_back({{"id", std::uint32_t(object.creator)},
                                   {"name", facts->name},
-                                  {"records", facts->records}});
+                                  {"records", facts->records},
+                                  {"recorded", session::is_recorded(id)}});
             continue;
         }
         const Vec3& p = object.room_from_object.translation;
         objects.push_back({{"id", std::uint32_t(id)},
                            {"kind", text_of(object.kind)},
+                           {"recorded", session::is_recorded(id)},
                            {"held_by", std::uint32_t(object.grip.holder)},
                            {"position", {p.x, p.y, p.z}},
                            {"scale", object.scale}});
     }
-    char hash[17];
-    std::snprintf(hash, sizeof(hash), "%016llx",
-                  static_cast<unsigned long long>(session::hash_of(room.objects)));
-    return {{"hash", hash},
+    return {{"hash", hash_text(room.objects)},
+            {"recorded_hash", hash_text(session::as_recorded(room.objects))},
             {"self", std::uint32_t(room.self)},
             {"people", people},
             {"objects", objects}};

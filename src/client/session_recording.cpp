@@ -12,6 +12,7 @@
 #include "client/person_id.h"
 #include "files/state_folder.h"
 #include "session/request_budget.h"
+#include "session/room_track.h"
 
 namespace theatron::client {
 namespace {
@@ -20,6 +21,8 @@ constexpr Duration join_patience = std::chrono::seconds(15);
 // A host that was lost may be started again by hand.
 constexpr Duration return_patience = std::chrono::minutes(10);
 constexpr Duration said_after = std::chrono::seconds(1);
+constexpr Duration room_interval = std::chrono::milliseconds(10),
+                   room_part = std::chrono::milliseconds(100);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -35,12 +38,17 @@ std::string seconds_text(Duration duration) {
     return text;
 }
 
+record::Recorder::Options with_room(record::Recorder::Options options) {
+    options.has_room = true;
+    return options;
+}
+
 class SessionRecording final : public record::RecordSource {
 public:
     SessionRecording(const net::Link& link, const std::string& file,
                      const record::RecordCodecs& codecs, const record::Recorder::Options& recorder,
                      std::optional<Duration> patience)
-        : created_(steady_now()), patience_(patience), intake_(file, recorder) {
+        : created_(steady_now()), patience_(patience), intake_(file, with_room(recorder)) {
         Participant::Options options;
         options.link = link;
         options.name = "recorder";
@@ -56,6 +64,11 @@ public:
             on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
         };
         options.described = [this] { on_described(); };
+        options.keeps_room = true;
+        options.room_changed = [this] { on_room(false); };
+        options.pose = [this](ParticipantId person, const wire::PersonPose& pose) {
+            on_pose(person, pose);
+        };
         // Its thread may be in on_described() at once, and waits there until it can be used.
         const std::lock_guard lock(mutex_);
         participant_ = std::make_unique<Participant>(options);
@@ -78,6 +91,7 @@ public:
             end_ = End{"", false};  // the participant has said it
         if (status.phase == Participant::Phase::joined)
             note_states();
+        on_room(true);
     }
 
     record::Intake& intake() override { return intake_; }
@@ -169,6 +183,8 @@ private:
         if (status.joins != joins_) {
             joins_ = status.joins;
             new_connection_ = true;
+            room_.forget();
+            room_version_ = 0;
             early_.clear();
             early_bytes_ = 0;
         }
@@ -243,6 +259,40 @@ private:
             intake_.on_end(camera);
     }
 
+    // Poses of objects come many times a second, and finding the changes takes all objects.
+    void on_room(bool from_tick) {
+        const std::lock_guard lock(mutex_);
+        const TimePoint local = steady_now();
+        if (stopped_ || !clock_known_ || (!from_tick && local - room_noted_ < room_interval))
+            return;
+        const TimePoint now = participant_->now();
+        if (const std::uint64_t version = participant_->room_version(); version != room_version_) {
+            const Participant::Room room = participant_->room();
+            if (room.objects.empty())
+                return;  // not known yet
+            room_.note_objects(room.objects, now);
+            room_version_ = room.version;
+            room_noted_ = local;
+        }
+        record_room(local, now);
+    }
+
+    void on_pose(ParticipantId person, const wire::PersonPose& pose) {
+        const std::lock_guard lock(mutex_);
+        if (!stopped_)
+            room_.note_pose(person, pose, participant_->now());
+    }
+
+    // As often as pictures go to the disk.
+    void record_room(TimePoint local, TimePoint now) {
+        if (local - room_recorded_ < room_part)
+            return;
+        room_recorded_ = local;
+        if (const auto part = room_.take(now);
+            part && !intake_.take_room(part->bytes, part->key, part->begin, now))
+            room_.want_key();
+    }
+
     // The filters of a frame whose header says that it was filtered.
     std::string filters_of(StreamId stream) {
         const std::string& filters = filters_[stream];
@@ -290,6 +340,9 @@ private:
     std::map<CameraId, CameraId> numbers_;  // in the recording, by that in the session
     std::size_t next_number_ = 0;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
+    session::RoomTrackWriter room_;
+    std::uint64_t room_version_ = 0;
+    TimePoint room_noted_, room_recorded_;
 
     // Last: its thread uses all of the above.
     std::unique_ptr<Participant> participant_;

@@ -134,6 +134,18 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });
     });
+    start_replay(options.cameras);
+}
+
+// Of several recordings, the room of the first one that has a room.
+void Host::Impl::start_replay(const std::vector<std::string>& specifications) {
+    for (std::size_t i = 0; i < specifications.size() && !replay; ++i)
+        if (auto room = replayed_room(specifications[i]))
+            replay = std::make_unique<RoomReplay>(
+                *std::move(room), [this, i] { return lanes[i]->figures().frames > 0; },
+                [this](RoomReplay::Change change) {
+                    server->post([this, change = std::move(change)] { replay_room(change); });
+                });
 }
 
 void Host::Impl::start_lanes(const std::vector<std::string>& specifications,

@@ -323,6 +323,27 @@ void Host::Impl::forward_object_pose(net::PeerId peer, const wire::State& state)
         server->send_states(peer_of(receiver), {&state, 1});
 }
 
+void Host::Impl::replay_room(const RoomReplay::Change& change) {
+    const TimePoint now = steady_now();
+    const std::vector<session::ObjectPose> moved = session->replay_room(change.objects, now);
+    carry_out();
+    for (const session::ObjectPose& pose : moved) {
+        const Bytes body = session::encode_object_pose(pose);
+        const wire::State state{{wire::StateTopic::object, std::uint32_t(pose.object)}, body};
+        for (const ParticipantId receiver : session->room().receivers())
+            server->send_states(peer_of(receiver), {&state, 1});
+    }
+    const auto replayed = [](ParticipantId person) {
+        return std::uint32_t(person) | session::recorded_bit;
+    };
+    for (const ParticipantId person : change.left)
+        poses.remove(ParticipantId(replayed(person)), now);
+    for (const auto& [person, body] : change.poses)
+        (void)poses.put(ParticipantId(replayed(person)),
+                        {{wire::StateTopic::pose, replayed(person)}, body}, now);
+    wait_for_poses();
+}
+
 void Host::Impl::wait_for_poses() {
     const auto due = poses.due();
     if (!due || poses_are_due == due)

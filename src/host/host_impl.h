@@ -13,6 +13,7 @@
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "host/room_file.h"
+#include "host/room_replay.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "send/color_watch.h"
@@ -65,10 +66,13 @@ struct Host::Impl {
     std::condition_variable goodbye_changed;
     bool all_left = false;  // guarded by goodbye_mutex
 
+    std::unique_ptr<RoomReplay> replay;  // uses the lanes and the server
+
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
         if (thread.joinable())
             say_goodbye();
+        replay.reset();
         // The server's thread uses the lanes: it ends first.
         if (server)
             server->stop();
@@ -81,6 +85,7 @@ struct Host::Impl {
 
     void open(const HostOptions& options, const capture::Progress& progress);
     net::Server::Handler handler();
+    void start_replay(const std::vector<std::string>& specifications);
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);
 
@@ -108,6 +113,7 @@ struct Host::Impl {
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);
     void forward_object_pose(net::PeerId peer, const wire::State& state);
+    void replay_room(const RoomReplay::Change& change);
     void wait_for_poses();
     void send_poses();
     void send_poses_to(ParticipantId receiver,

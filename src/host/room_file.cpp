@@ -70,7 +70,7 @@ session::RoomSnapshot RoomFile::load() {
         return {};
     const auto room = decode_room(as_bytes(*text));
     if (room) {
-        saved_revision_ = room->revision;
+        saved_version_ = room->revision;
         return *room;
     }
     const auto kept = std::filesystem::path(path_) += ".damaged";
@@ -82,14 +82,14 @@ session::RoomSnapshot RoomFile::load() {
 }
 
 void RoomFile::on_tick(const session::HostRoom& room, TimePoint now) {
-    if (room.revision() == saved_revision_ || now - saved_ < interval)
+    if (room.version() == saved_version_ || now - saved_ < interval)
         return;
     saved_ = now;
     save(room);
 }
 
 void RoomFile::save(const session::HostRoom& room) {
-    saved_revision_ = room.revision();
+    saved_version_ = room.version();
     Bytes bytes = encode_room(room.snapshot());
     {
         const std::lock_guard lock(mutex_);

@@ -42,7 +42,7 @@ private:
     void run();
 
     const std::filesystem::path path_;
-    std::uint64_t saved_revision_ = 0;
+    std::uint64_t saved_version_ = 0;
     TimePoint saved_;
     std::mutex mutex_;
     std::condition_variable changed_;

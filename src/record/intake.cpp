@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "record/recording_layout.h"
 
 namespace theatron::record {
 namespace {
@@ -150,6 +151,7 @@ bool Intake::begin(Description description, const wire::MediaHeader& header, con
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
+    ++segments_begun_;
     wants_segment_ = false;
     return true;
 }
@@ -163,6 +165,30 @@ void Intake::begin_segment() {
         entry.gate.want_key();
         ++entry.stream.interruptions;
     }
+}
+
+bool Intake::take_room(ByteView part, bool key, TimePoint begin, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    // Until the segment of a new connection begins, times are of another clock.
+    const bool is_between = pending_ && pending_->new_connection;
+    if (!problem_.empty() || !recorder_ || is_between || part.size() > wire::max_payload_size ||
+        (room_segment_ != segments_begun_ && !key))
+        return false;
+    wire::MediaHeader header;
+    header.codec = room_codec;
+    header.key = key;
+    header.stream = room_stream;
+    header.frame = room_parts_;
+    header.reference = room_parts_ - (key ? 0 : 1);
+    header.payload_size = std::uint32_t(part.size());
+    header.moment = header.captured = begin;
+    auto message = std::make_shared<Bytes>(wire::media_header_size);
+    wire::write_media_header(header, message->data());
+    message->insert(message->end(), part.begin(), part.end());
+    ++room_parts_;
+    const bool is_taken = recorder_->add(header, std::move(message), now) == Recorder::Added::taken;
+    room_segment_ = is_taken ? segments_begun_ : 0;
+    return is_taken;
 }
 
 // Late pictures are not missing: their times of exposure are compared.

@@ -48,6 +48,12 @@ public:
     [[nodiscard]] bool take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
                             const std::string& filters, const Now& now);
 
+    // A part of the room's state, which begins at session time `begin`. A key part needs no part
+    // before it; the first one of each segment must be one. False if it was not recorded, because
+    // it is none or nothing is recorded yet: then the next part must be a key part. Never waits,
+    // never throws. From any thread, in order.
+    [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, TimePoint now);
+
     // The last file is not at its name any more: a new one begins with the next key frame, which
     // take() requests. Until then pictures go into the last one, which may only be renamed.
     void begin_segment();
@@ -115,6 +121,8 @@ private:
     bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;
+    std::uint64_t segments_begun_ = 0, room_segment_ = 0;  // that of the newest part of the room
+    FrameNumber room_parts_ = 0;
 };
 
 }  // namespace theatron::record

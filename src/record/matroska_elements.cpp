@@ -32,6 +32,8 @@ namespace {
 using namespace libebml;
 using namespace libmatroska;
 
+// TrackType of RFC 9559 that the library has no name for.
+constexpr std::uint64_t metadata_track = 33;
 constexpr std::int64_t ns_per_tick = 1000;  // block times count microseconds
 
 // Appends the bytes that libebml renders to a byte sequence.
@@ -138,7 +140,8 @@ void render_tracks(const MatroskaLayout& layout, Bytes& out) {
         auto& entry = add<KaxTrackEntry>(tracks);
         add_number<KaxTrackNumber>(entry, std::uint64_t(track.number));
         add_number<KaxTrackUID>(entry, std::uint64_t(track.number));
-        add_number<KaxTrackType>(entry, track_video);
+        add_number<KaxTrackType>(entry,
+                                 track.is_video ? std::uint64_t(track_video) : metadata_track);
         add_number<KaxTrackFlagDefault>(entry, track.shown);
         add_number<KaxTrackFlagLacing>(entry, 0);
         if (!track.name.empty())
@@ -166,6 +169,8 @@ void render_tracks(const MatroskaLayout& layout, Bytes& out) {
         for (const auto& [id, name] : additions)
             if (!name->empty())
                 add_mapping(id, *name);
+        if (!track.is_video)
+            continue;
         auto& video = add<KaxTrackVideo>(entry);
         add_number<KaxVideoPixelWidth>(video, std::uint64_t(track.width));
         add_number<KaxVideoPixelHeight>(video, std::uint64_t(track.height));

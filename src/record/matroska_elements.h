@@ -17,7 +17,8 @@
 namespace theatron::record {
 
 struct Track {
-    int number = 1;  // 1 to 126, each once
+    int number = 1;        // 1 to 256, each once
+    bool is_video = true;  // else metadata, which players ignore
     std::string name;
     std::string codec_id;
     Bytes codec_private;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "record/recording_layout.h"
 #include "record/segment_chain.h"
 #include "record/segment_files.h"
 
@@ -63,13 +64,14 @@ void block_file_size_signal() {
 
 Recorder::Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
                    const ClockPair& clock, const Options& options)
-    : path_(path), buffer_bytes_(options.buffer_bytes) {
+    : path_(path), buffer_bytes_(options.buffer_bytes), has_room_(options.has_room) {
     if (const std::string problem = name_problem(path_); !problem.empty())
         throw Error(problem);
     info_.recording = make_uid();
     info_.clock = clock;
     const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};
-    writer_ = std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace);
+    writer_ =
+        std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace, "", has_room_);
     // Later segments of the replaced recording must not remain beside the new one.
     for (const fs::path& later : replaced) {
         std::error_code ignored;
@@ -114,13 +116,17 @@ Recorder::Added Recorder::add(const wire::MediaHeader& header, std::shared_ptr<c
         const std::lock_guard lock(mutex_);
         if (finishing_ || !figures_.problem.empty())
             return Added::ended;
-        if (std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
+        const bool is_room = header.stream == room_stream;
+        if (is_room ? !has_room_
+                    : std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
             return Added::not_recorded;
         const Duration came = own_time(now);
         const std::size_t cost = cost_of(message);
         if (waiting_bytes_ + cost > buffer_bytes_) {
-            ++figures_.dropped;
-            ++figures_.dropped_of[header.stream];
+            if (!is_room) {
+                ++figures_.dropped;
+                ++figures_.dropped_of[header.stream];
+            }
             return Added::dropped;
         }
         waiting_bytes_ += cost;
@@ -221,16 +227,22 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
         if (std::string problem = begin_next(); !problem.empty())
             return problem;
     std::string problem = writer_->write(messages);
-    std::size_t bytes = 0;
-    for (const RecordedMessage& one : messages)
+    std::size_t bytes = 0, room_bytes = 0, room_parts = 0;
+    for (const RecordedMessage& one : messages) {
         bytes += cost_of(one.message);
+        if (one.header.stream != room_stream)
+            continue;
+        ++room_parts;
+        room_bytes += one.message->size();
+    }
     const std::lock_guard lock(mutex_);
     waiting_bytes_ -= bytes;
     oldest_.reset();
     figures_.bytes = bytes_before_ + writer_->bytes();
     figures_.cut_bytes = cut_before_ + writer_->cut_bytes();
     if (problem.empty()) {
-        figures_.frames += messages.size();
+        figures_.frames += messages.size() - room_parts;
+        figures_.room_bytes += room_bytes;
         figures_.duration = duration_before_ + writer_->duration();
         figures_.segments = info_.number;
     }
@@ -256,7 +268,8 @@ std::string Recorder::begin_next() {
         file = segment_path(path_, ++file_number_);
     } while (std::filesystem::exists(file, ignored));
     try {
-        auto writer = std::make_unique<SegmentWriter>(file, *next.cameras, info_);
+        auto writer =
+            std::make_unique<SegmentWriter>(file, *next.cameras, info_, true, "", has_room_);
         duration_before_ += writer_->duration();
         bytes_before_ += writer_->bytes();
         cut_before_ += writer_->cut_bytes();

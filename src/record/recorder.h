@@ -35,6 +35,8 @@ public:
         std::size_t buffer_bytes = std::size_t(1) << 30;
         // Replaces an existing file and the later segments of its recording; false: refuses it.
         bool replace = true;
+        // Messages of room_stream (recording_layout.h) are recorded as well.
+        bool has_room = false;
     };
 
     enum class Added {
@@ -47,8 +49,9 @@ public:
     struct Figures {
         Duration duration{};  // from the first picture to the last, of all segments together
         std::uint64_t bytes = 0;
-        std::uint64_t frames = 0;                      // written, depth and colour counted each
-        std::uint64_t dropped = 0;                     // came faster than the disk could write
+        std::uint64_t frames = 0;      // pictures written, depth and colour counted each
+        std::uint64_t room_bytes = 0;  // of messages of the room, written
+        std::uint64_t dropped = 0;     // came faster than the disk could write
         std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
         std::size_t waiting_bytes = 0;                 // of messages that are not written yet
         Duration late{};                               // waiting time of the oldest of them
@@ -73,8 +76,8 @@ public:
     // made when the segment's first message is written. From any thread, in order with add().
     void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock);
 
-    // Takes a whole media message of one of the cameras' streams, which arrived at session time
-    // `now`. Never waits. From any thread. `filters` names the filters of the depth
+    // Takes a whole media message of one of the cameras' streams, or of the room, which arrived at
+    // session time `now`. Never waits. From any thread. `filters` names the filters of the depth
     // (docs/filters.md); empty: none. A message that was not taken leaves a gap: the stream's next
     // one must be a key frame, because references to the missing one cannot be decoded.
     [[nodiscard]] Added add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
@@ -104,6 +107,7 @@ private:
 
     const std::filesystem::path path_;
     const std::size_t buffer_bytes_;
+    const bool has_room_;
     // The writing thread's only.
     SegmentInfo info_;
     std::uint32_t file_number_ = 1;  // of the newest file's name

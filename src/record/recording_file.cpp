@@ -173,7 +173,16 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         return std::any_of(head.tracks.begin(), head.tracks.end(),
                            [&](const FoundTrack& t) { return t.number == track; });
     };
+    segment.has_room =
+        info && std::any_of(head.tracks.begin(), head.tracks.end(), [](const FoundTrack& t) {
+            return t.number == track_number(room_stream) && t.codec_id == room_codec_id;
+        });
+    if (segment.has_room)
+        streams[room_stream] = &room_;
+    room_.present |= segment.has_room;
+    const std::size_t first_room = room_.frames.size();
     bool any = false;
+    Duration last_block{};
     std::optional<TimePoint> first_captured;
     const auto visit = [&](const FoundBlock& block) {
         // A file has blocks of its own tracks only, those that this reader does not know included.
@@ -182,7 +191,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             ++segment.refused;
             return;
         }
-        if (block.track < 1 || block.track > max_camera_track)
+        if (block.track < 1)
             return;
         const StreamId id = stream_of_track(block.track);
         const auto at = streams.find(id);
@@ -191,7 +200,8 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         StreamContent& stream = *at->second;
         const auto header = header_of(block, id, info.has_value());
         // Version 1 says the exact time in the header only, and may have begun before time 0.
-        if (header && !first_captured)
+        const bool is_room = id == room_stream;
+        if (header && !first_captured && !is_room)
             first_captured = header->captured;
         const std::int64_t time_us =
             header && !info ? (header->captured - *first_captured).count() : block.time_us;
@@ -203,11 +213,14 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             return;
         }
         ++frames_;
-        ++segment.frames;
         const Duration time(time_us);
-        segment.begin = any ? std::min(segment.begin, time) : time;
-        segment.end = any ? std::max(segment.end, time) : time;
-        any = true;
+        last_block = std::max(last_block, time);
+        if (!is_room) {
+            ++segment.frames;
+            segment.begin = any ? std::min(segment.begin, time) : time;
+            segment.end = any ? std::max(segment.end, time) : time;
+            any = true;
+        }
         if (is_depth(id))
             note_filters(stream, block.note);
         RecordedFrame frame;
@@ -250,19 +263,18 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
     if (end < whole)
         member.source = std::make_shared<PartSource>(member.source, 0, end);
     if (!segment.closed && head.duration_us > 0) {
-        const Duration until = any ? segment.end : Duration(0);
-        segment.missing_end = std::max(Duration(head.duration_us) - until, Duration(0)) +
+        segment.missing_end = std::max(Duration(head.duration_us) - last_block, Duration(0)) +
                               (head.segment_end == 0 ? usual_unsynced : Duration(0));
     }
     segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));
     sources_.push_back(std::move(member.source));
-    leave_out_repeated(index);
+    leave_out_repeated(index, first_room);
 }
 
 // Drops the second copies of frames that a segment contains twice, for example because a part of
 // the file was copied behind itself.
-void RecordingFile::leave_out_repeated(std::size_t segment) {
+void RecordingFile::leave_out_repeated(std::size_t segment, std::size_t first_room) {
     if (!segments_[segment].has_info)
         return;  // in version 1 numbers may restart
     const auto leave_out = [&](StreamContent& stream, std::size_t begin) {
@@ -297,7 +309,7 @@ void RecordingFile::leave_out_repeated(std::size_t segment) {
         frames.resize(kept);
         std::erase_if(stream.filters, [&](const FilterChange& c) { return c.frame >= kept; });
         segments_[segment].repeated += repeated;
-        segments_[segment].frames -= repeated;
+        segments_[segment].frames -= &stream == &room_ ? 0 : repeated;
         frames_ -= repeated;
     };
     for (CameraContent& camera : cameras_)
@@ -305,6 +317,7 @@ void RecordingFile::leave_out_repeated(std::size_t segment) {
             leave_out(camera.depth, part.first_depth);
             leave_out(camera.color, part.first_color);
         }
+    leave_out(room_, first_room);
 }
 
 // Puts the segments one behind the other, and moves all frames to where they then are.
@@ -347,6 +360,8 @@ void RecordingFile::place_segments() {
         for (StreamContent* stream : {&camera.depth, &camera.color})
             for (RecordedFrame& frame : stream->frames)
                 frame.time_us = frame.time_us + moves[frame.segment].count();
+    for (RecordedFrame& frame : room_.frames)
+        frame.time_us = std::max<std::int64_t>(frame.time_us + moves[frame.segment].count(), 0);
 }
 
 Result<std::unique_ptr<RecordingFile>> RecordingFile::read(

@@ -92,8 +92,9 @@ struct Segment {
     Duration begin{}, end{};   // its first frame and its last, since the recording's first
     Duration origin{};         // its own time 0, on the same scale
     TimePoint first_captured;  // session time of the first frame in the file
-    std::uint64_t frames = 0;
-    bool closed = false;  // false: never closed, or cut off
+    std::uint64_t frames = 0;  // pictures
+    bool has_room = false;     // the state of the room was recorded
+    bool closed = false;       // false: never closed, or cut off
     // Unless closed: the most that may be missing at its end; empty if unknown.
     std::optional<Duration> missing_end;
     std::string recovered;      // a recovered file: losses_of() of the original
@@ -128,6 +129,9 @@ public:
     static Result<std::unique_ptr<RecordingFile>> read(std::unique_ptr<ByteSource> source);
 
     const std::vector<CameraContent>& cameras() const { return cameras_; }
+    // The parts of the room's state, if it was recorded (docs/formats/room.md): in `frames`, not
+    // counted as pictures anywhere.
+    const StreamContent& room() const { return room_; }
     const std::vector<Segment>& segments() const { return segments_; }
     // Segments missing before the first one and between it and the last one, and at least as many
     // as unreadable_files().
@@ -157,13 +161,14 @@ public:
 private:
     RecordingFile() = default;
     void add_segment(SegmentChain::Member member, SegmentChain& chain);
-    void leave_out_repeated(std::size_t segment);
+    void leave_out_repeated(std::size_t segment, std::size_t first_room);
     void note_earlier(const std::filesystem::path& path);
     void place_segments();
 
     std::vector<std::shared_ptr<ByteSource>> sources_;
     std::vector<Segment> segments_;
     std::vector<CameraContent> cameras_;
+    StreamContent room_;
     std::uint64_t refused_ = 0, missing_segments_ = 0;
     std::vector<std::string> unreadable_files_;
     std::string begins_in_;

@@ -48,6 +48,12 @@ void read_all(std::vector<ByteView> files) {
                     frame.time() > (*recording)->duration())
                     std::abort();
             }
+    for (const record::RecordedFrame& part : (*recording)->room().frames) {
+        const Status status = (*recording)->read_payload(part, payload);
+        if ((status != Status::ok && status != Status::malformed) || part.time() < Duration(0) ||
+            !(*recording)->read_header(part))
+            std::abort();
+    }
     if (std::filesystem::exists("/dev/shm"))
         recover_all(**recording);
 }

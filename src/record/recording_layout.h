@@ -11,6 +11,7 @@ namespace theatron::record {
 inline constexpr const char* depth_codec_id = "V_THEATRON/DEPTH";
 inline constexpr const char* color_codec_id = "V_THEATRON/COLOR";  // all but JPEG
 inline constexpr const char* jpeg_codec_id = "V_MJPEG";
+inline constexpr const char* room_codec_id = "D_THEATRON/ROOM";
 inline constexpr const char* calibration_mime_type = "application/x-theatron-calibration";
 inline constexpr const char* segment_info_name = "segment.bin";
 inline constexpr const char* segment_info_mime_type = "application/x-theatron-segment";
@@ -22,8 +23,14 @@ inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
 inline constexpr const char* no_filters = "off";
 inline constexpr const char* unnamed_filters = "unnamed";
 
-// Those of cameras; 128 to 255 are kept for voices, 256 for the state of the room.
+// Those of cameras; 128 to 255 are kept for voices.
 inline constexpr int max_camera_track = 126;
+// The state of the room is one more stream, in track 256.
+inline constexpr StreamId room_stream{255};
+// In its media headers: the version of the parts (docs/formats/room.md).
+inline constexpr std::uint8_t room_codec = 1;
+
+inline constexpr const char* room_track_name = "room";
 
 constexpr int track_number(StreamId stream) {
     return int(stream) + 1;

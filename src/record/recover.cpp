@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "record/crc32c.h"
+#include "record/recording_layout.h"
 #include "record/segment_writer.h"
 
 namespace theatron::record {
@@ -136,11 +137,13 @@ std::vector<RecordedCamera> cameras_in(const RecordingFile& recording, std::size
     return cameras;
 }
 
-// Reads the new file again and checks that it is complete and has this number of frames.
-void check(const std::filesystem::path& file, std::uint64_t frames) {
+// Reads the new file again and checks that it is complete and has this number of frames and of
+// parts of the room's state.
+void check(const std::filesystem::path& file, std::uint64_t frames, std::uint64_t room_parts) {
     const auto written = RecordingFile::read(open_file_source(file));
     if (!written || !(*written)->segments()[0].complete() || (*written)->refused() > 0 ||
-        (*written)->segments()[0].frames != frames)
+        (*written)->segments()[0].frames != frames ||
+        (*written)->room().frames.size() != room_parts)
         throw Error("What was saved into '" + file.string() +
                     "' is not what can be read from it; its disk may be failing.");
 }
@@ -168,7 +171,7 @@ bool saved_all(const RecordingFile& recording, const Recovered& result) {
     for (const Recovered::Camera& camera : result.cameras)
         for (const RecoveredStream* stream : {&camera.depth, &camera.color})
             all = all && stream->damaged == 0 && stream->undecodable == 0;
-    return all;
+    return all && result.room.damaged == 0 && result.room.undecodable == 0;
 }
 
 void require(const std::string& problem) {
@@ -190,6 +193,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         streams.emplace_back(camera.depth, result.cameras[i].depth);
         streams.emplace_back(camera.color, result.cameras[i].color);
     }
+    streams.emplace_back(recording.room(), result.room);
     NewFiles new_files;
     std::uint64_t bytes_before = 0;
     const Uid new_uid = make_uid();
@@ -206,12 +210,14 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             info.recording = new_uid;
             info.clock.session = segment.first_captured;
         }
-        SegmentWriter writer(file, cameras_in(recording, s), info, true, losses_of(segment));
+        SegmentWriter writer(file, cameras_in(recording, s), info, true, losses_of(segment),
+                             segment.has_room);
         std::vector<RecordedMessage> messages;
         std::size_t waiting = 0;
-        std::uint64_t frames = 0;
+        std::uint64_t frames = 0, room_parts = 0;
         const auto flush = [&] {
-            frames += messages.size();
+            for (const RecordedMessage& message : messages)
+                ++(message.header.stream == room_stream ? room_parts : frames);
             require(writer.write(messages));
             messages.clear();
             waiting = 0;
@@ -249,7 +255,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         flush();
         require(writer.finish());
-        check(file, frames);
+        check(file, frames, room_parts);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();
         result.files.push_back(file.string());

@@ -28,6 +28,7 @@ struct Recovered {
         RecoveredStream depth, color;
     };
     std::vector<Camera> cameras;  // in the order of the recording
+    RecoveredStream room;         // parts of the room's state
 };
 
 // Writes segment by segment into new files with names from `out` (segment_path), which must not

@@ -14,7 +14,7 @@ constexpr std::int64_t far_us = std::int64_t(1) << 60;
 
 MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
                                  const SegmentInfo& info, bool replace,
-                                 const std::string& recovered) {
+                                 const std::string& recovered, bool has_room) {
     MatroskaWriter::Layout layout;
     layout.replace = replace;
     layout.side_name = side_name;
@@ -52,6 +52,15 @@ MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
         layout.attachments.push_back(
             {calibration_name(camera.id), calibration_mime_type, camera.calibration});
     }
+    if (has_room) {
+        Track room;
+        room.number = track_number(room_stream);
+        room.is_video = false;
+        room.name = room_track_name;
+        room.codec_id = room_codec_id;
+        room.shown = false;
+        layout.tracks.push_back(std::move(room));
+    }
     layout.attachments.push_back(
         {segment_info_name, segment_info_mime_type, encode_segment_info(info)});
     if (!recovered.empty())
@@ -73,8 +82,9 @@ std::int64_t block_time_us(TimePoint captured, TimePoint arrived, TimePoint begi
 
 SegmentWriter::SegmentWriter(const std::filesystem::path& path,
                              const std::vector<RecordedCamera>& cameras, const SegmentInfo& info,
-                             bool replace, const std::string& recovered)
-    : begin_(info.clock.session), writer_(path, layout_of(cameras, info, replace, recovered)) {}
+                             bool replace, const std::string& recovered, bool has_room)
+    : begin_(info.clock.session),
+      writer_(path, layout_of(cameras, info, replace, recovered, has_room)) {}
 
 std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
     std::vector<Block> blocks;
@@ -83,9 +93,11 @@ std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
         Block block;
         block.track = track_number(header.stream);
         block.time_us = block_time_us(header.captured, one.arrived, begin_);
-        first_us_ = any_ ? std::min(first_us_, block.time_us) : block.time_us;
-        last_us_ = any_ ? std::max(last_us_, block.time_us) : block.time_us;
-        any_ = true;
+        if (header.stream != room_stream) {
+            first_us_ = any_ ? std::min(first_us_, block.time_us) : block.time_us;
+            last_us_ = any_ ? std::max(last_us_, block.time_us) : block.time_us;
+            any_ = true;
+        }
         block.key = header.key;
         block.reference_us = block.time_us;
         if (const auto found = recent_us_.find({header.stream, header.reference});

@@ -38,9 +38,11 @@ inline constexpr std::int64_t max_block_us = std::int64_t(1) << 52;
 class SegmentWriter {
 public:
     // Creates the file; `replace`: in place of an existing one. `recovered`: losses of the original
-    // of a recovered file; empty if there are none or it is no recovered file. Throws Error.
+    // of a recovered file; empty if there are none or it is no recovered file. `has_room`: messages
+    // of room_stream (recording_layout.h) will come, too. Throws Error.
     SegmentWriter(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-                  const SegmentInfo& info, bool replace = true, const std::string& recovered = {});
+                  const SegmentInfo& info, bool replace = true, const std::string& recovered = {},
+                  bool has_room = false);
 
     // Each returns one sentence if it failed; then only finish() may be called.
     std::string write(std::span<const RecordedMessage> messages);
@@ -49,7 +51,7 @@ public:
 
     std::uint64_t bytes() const { return writer_.bytes(); }
     std::uint64_t cut_bytes() const { return writer_.cut_bytes(); }
-    // From the first block to the last.
+    // From the first picture to the last.
     Duration duration() const { return Duration(last_us_ - first_us_); }
 
 private:

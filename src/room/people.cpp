@@ -67,7 +67,9 @@ Vec3 color_of(ParticipantId id) {
                                                                    {204, 121, 167},
                                                                    {213, 94, 0},
                                                                    {0, 114, 178}}};
-    const auto& srgb = palette[std::size_t(id) % palette.size()];
+    // A person in a replay has the recorded number with bit 31 set, and the colour that it had.
+    const std::uint32_t number = std::uint32_t(id) & 0x7fff'ffffu;
+    const auto& srgb = palette[number % palette.size()];
     const auto linear = [](double value) { return std::pow(value / 255, 2.2); };
     return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])};
 }

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/host_room.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace theatron::session {
+
+namespace {
+
+bool names_recorded(const Request& request) {
+    return std::visit(
+        [](const auto& wanted) {
+            if constexpr (requires { wanted.object; })
+                return is_recorded(wanted.object);
+            return false;
+        },
+        request);
+}
+
+}  // namespace
 
 void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room) {
     tell(state_.on_joined(id, encode_person(facts)));
@@ -27,7 +42,9 @@ void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
         return send_snapshot(id);
     const auto request = decode_request(message.request);
     RoomState::Decision decision{Refusal::malformed, {}};
-    if (request)
+    if (request && names_recorded(*request))
+        decision.refusal = Refusal::recorded;
+    else if (request)
         decision = state_.on_request(id, message.number, *request, true);
     for (const RoomChange& change : decision.changes)
         tell(change);
@@ -49,13 +66,14 @@ void HostRoom::send_snapshot(ParticipantId id) {
         return;
     std::vector<Bytes> parts(1);
     Bytes one;
-    for (const auto& [object, facts] : state_.objects()) {
-        one.clear();
-        append_object(object, facts, one);
-        if (parts.back().size() + one.size() > wire::max_room_part_size)
-            parts.emplace_back();
-        parts.back().insert(parts.back().end(), one.begin(), one.end());
-    }
+    for (const RoomObjects* objects : {&state_.objects(), &std::as_const(replayed_)})
+        for (const auto& [object, facts] : *objects) {
+            one.clear();
+            append_object(object, facts, one);
+            if (parts.back().size() + one.size() > wire::max_room_part_size)
+                parts.emplace_back();
+            parts.back().insert(parts.back().end(), one.begin(), one.end());
+        }
     for (std::size_t part = 0; part < parts.size(); ++part)
         send(id,
              wire::RoomSnapshot{state_.revision(), std::uint16_t(part), std::uint16_t(parts.size()),
@@ -76,6 +94,52 @@ HostRoom::Forward HostRoom::on_pose(ParticipantId id, const wire::State& state, 
         if (other != id && facts.keeps_room)
             forward.receivers.push_back(other);
     return forward;
+}
+
+std::vector<ParticipantId> HostRoom::receivers() const {
+    std::vector<ParticipantId> all;
+    for (const auto& [id, member] : members_)
+        if (member.keeps_room)
+            all.push_back(id);
+    return all;
+}
+
+std::vector<ObjectPose> HostRoom::replay(const RoomObjects& recorded, TimePoint now) {
+    const RoomObjects next = as_replayed(recorded);
+    const auto change = [&](ObjectId id, std::optional<RoomObject> object) {
+        ++replayed_changes_;
+        tell({state_.take_revision(), id, std::move(object)});
+    };
+    for (auto entry = replayed_.begin(); entry != replayed_.end();) {
+        const ObjectId id = entry->first;
+        if (next.contains(id)) {
+            ++entry;
+            continue;
+        }
+        entry = replayed_.erase(entry);
+        change(id, std::nullopt);
+    }
+    std::vector<ObjectPose> moved;
+    for (const auto& [id, object] : next) {
+        const auto [known, is_new] = replayed_.try_emplace(id, object);
+        RoomObject& before = known->second;
+        RoomObject after = object;
+        after.moved_at = before.moved_at;
+        if (!is_new && before == after)
+            continue;
+        const bool only_moves = !is_new && after.grip.holder != ParticipantId{} &&
+                                after.grip == before.grip && after.kind == before.kind &&
+                                after.creator == before.creator &&
+                                after.properties == before.properties;
+        // Receivers take only poses that are newer than the one before.
+        after.moved_at = is_new ? now : std::max(now, before.moved_at + Duration(1));
+        before = after;
+        if (only_moves)
+            moved.push_back({id, after.grip, after.moved_at, after.room_from_object, after.scale});
+        else
+            change(id, std::move(after));
+    }
+    return moved;
 }
 
 void HostRoom::tell(const RoomChange& change) {

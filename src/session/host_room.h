@@ -42,8 +42,18 @@ public:
     // A pose of an object from `id`. Returns the participants that it must be sent to at once.
     Forward on_pose(ParticipantId id, const wire::State& state, TimePoint now);
 
+    // The room of a recording, now, with its recorded numbers; an empty one ends the replay. Nobody
+    // can change its objects. Returns the poses of held objects, which must be sent at once to all
+    // receivers().
+    std::vector<ObjectPose> replay(const RoomObjects& recorded, TimePoint now);
+    // The participants that keep the room.
+    std::vector<ParticipantId> receivers() const;
+
+    // Without a replayed recording.
     RoomSnapshot snapshot() const { return state_.snapshot(); }
     std::uint64_t revision() const { return state_.revision(); }
+    // Grows with each change of snapshot().
+    std::uint64_t version() const { return state_.revision() - replayed_changes_; }
 
 private:
     struct Member {
@@ -57,6 +67,8 @@ private:
     }
 
     RoomState state_;
+    RoomObjects replayed_;  // with recorded_bit
+    std::uint64_t replayed_changes_ = 0;
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

@@ -74,6 +74,10 @@ public:
         return room_.on_pose(participant, state, now);
     }
     const HostRoom& room() const { return room_; }
+    // See HostRoom::replay().
+    std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now) {
+        return room_.replay(recorded, now);
+    }
 
     // The condition of the host's own cameras, and measurements of encoding them.
     void on_camera(const wire::CameraState& state) { streams_.on_state(state); }

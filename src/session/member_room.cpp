@@ -5,14 +5,15 @@
 #include <variant>
 
 #include "session/room_state.h"
+#include "session/room_track.h"
 
 namespace theatron::session {
 namespace {
 
 // Refusals that wait for take_refusal(); further ones are dropped.
 constexpr std::size_t kept_refusals = 64;
-// Objects in one snapshot: all objects, and more people than a host can have.
-constexpr std::size_t most_objects = RoomState::max_objects + 1024;
+// Objects in one snapshot: all objects and those of a replay, and more people than a host can have.
+constexpr std::size_t most_objects = RoomState::max_objects + 1024 + max_recorded_objects;
 
 }  // namespace
 

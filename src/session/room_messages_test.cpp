@@ -96,6 +96,67 @@ TEST_F(RoomMessages, WhatOneDoesTheOtherSees) {
     expect_the_same();
 }
 
+TEST_F(RoomMessages, AReplayedRoomIsShownToAllAndChangedByNobody) {
+    const ObjectId own = brick(anna);
+    RoomObject person{
+        ObjectKind::person, ben, {}, {}, {}, 1, encode_person({Role::viewer, false, "Eve"})};
+    RoomObject organ{ObjectKind::organ, ben, {}, {}, {{}, {1, 1, 1}}, 1, {}};
+    RoomObjects recorded{{ObjectId{1}, person}, {own, organ}};
+    const auto show = [&] {
+        for (const ObjectPose& pose : host.replay(recorded, now))
+            for (const ParticipantId receiver : host.receivers())
+                members[receiver].on_pose(pose.object, encode_object_pose(pose));
+        deliver();
+        now += 11ms;
+    };
+    const auto expect_shown = [&] {
+        for (auto& [id, member] : members)
+            EXPECT_EQ(hash_of(as_recorded(member.objects())), hash_of(recorded)) << int(id);
+    };
+    show();
+    expect_shown();
+    EXPECT_EQ(members[ben].objects().size(), 5u) << "beside those of the session";
+
+    // It is held and moved by a recorded person: only poses come, until it is put down.
+    recorded[own].grip = {ben, 7};
+    show();
+    const int messages = sent[anna];
+    for (int i = 0; i < 20; ++i) {
+        recorded[own].room_from_object.translation.x += 0.1;
+        recorded[own].moved_at = from_us(i);
+        show();
+        expect_shown();
+    }
+    EXPECT_EQ(sent[anna], messages);
+    recorded[own].grip = {};
+    show();
+    expect_shown();
+
+    const auto replayed = ObjectId(std::uint32_t(own) | recorded_bit);
+    for (const Request& request :
+         {Request(request::Grab{replayed}), Request(request::Remove{replayed}),
+          Request(request::SetProperties{replayed, Bytes(1)})}) {
+        members[anna].ask(request);
+        deliver();
+        EXPECT_EQ(members[anna].take_refusal()->second, Refusal::recorded);
+        expect_shown();
+    }
+    members[ParticipantId{9}].begin(ParticipantId{9});
+    host.join(ParticipantId{9}, {Role::viewer, false, "Late"}, true);
+    deliver();
+    expect_shown();
+
+    const std::uint64_t version = host.version();
+    recorded.erase(own);
+    show();
+    expect_shown();
+    EXPECT_EQ(host.version(), version) << "nothing to be saved";
+    EXPECT_EQ(host.snapshot().objects.size(), 4u);
+    recorded.clear();
+    show();
+    expect_the_same();
+}
+
 TEST_F(RoomMessages, ALargeRoomComesInParts) {
     for (int i = 0; i < 60; ++i)
         brick(i % 2 == 0 ? anna : ben, RoomState::max_property_bytes);

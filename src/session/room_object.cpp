@@ -18,6 +18,29 @@ private:
 
 }  // namespace
 
+RoomObjects as_replayed(const RoomObjects& recorded) {
+    RoomObjects objects;
+    for (const auto& [id, object] : recorded) {
+        RoomObject& replayed = objects[ObjectId(std::uint32_t(id) | recorded_bit)] = object;
+        replayed.creator = ParticipantId(std::uint32_t(object.creator) | recorded_bit);
+        if (object.grip.holder != ParticipantId{})
+            replayed.grip.holder = ParticipantId(std::uint32_t(object.grip.holder) | recorded_bit);
+    }
+    return objects;
+}
+
+RoomObjects as_recorded(const RoomObjects& objects) {
+    RoomObjects recorded;
+    for (const auto& [id, object] : objects) {
+        if (!is_recorded(id))
+            continue;
+        RoomObject& original = recorded[ObjectId(std::uint32_t(id) & ~recorded_bit)] = object;
+        original.creator = ParticipantId(std::uint32_t(object.creator) & ~recorded_bit);
+        original.grip.holder = ParticipantId(std::uint32_t(object.grip.holder) & ~recorded_bit);
+    }
+    return recorded;
+}
+
 std::uint64_t hash_of(const RoomObjects& objects) {
     Bytes bytes;
     ByteWriter out(bytes);

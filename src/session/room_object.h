@@ -50,6 +50,20 @@ struct RoomObject {
 
 using RoomObjects = std::map<ObjectId, RoomObject>;
 
+// Objects and people of a recording that is replayed have their recorded numbers with this bit. The
+// host gives no such numbers, and only the recording changes these objects.
+inline constexpr std::uint32_t recorded_bit = std::uint32_t(1) << 31;
+constexpr bool is_recorded(ObjectId id) {
+    return (std::uint32_t(id) & recorded_bit) != 0;
+}
+constexpr bool is_recorded(ParticipantId id) {
+    return (std::uint32_t(id) & recorded_bit) != 0;
+}
+// Recorded objects with the numbers that they have in a replay, and back: of all objects, those of
+// the recording with their original numbers.
+RoomObjects as_replayed(const RoomObjects& recorded);
+RoomObjects as_recorded(const RoomObjects& objects);
+
 // Numbers of requests are less than this bit. If it is set in the number of a grip, the other bits
 // are the number of the request that gave the object to its holder.
 inline constexpr std::uint32_t given_grip = std::uint32_t(1) << 31;
@@ -121,6 +135,7 @@ enum class Refusal : std::uint8_t {
     too_many,   // objects, or bytes of properties
     malformed,  // a pose that is not finite, a scale out of range, an unknown kind
     too_often,  // more requests than a host answers
+    recorded,   // the object is part of a recording that is replayed
 };
 
 // FNV-1a over all fields; equal rooms have equal hashes on every machine.

@@ -44,6 +44,8 @@ public:
 
     RoomSnapshot snapshot() const { return {revision_, objects_}; }
     std::uint64_t revision() const { return revision_; }
+    // The number of a change of objects that are kept elsewhere.
+    std::uint64_t take_revision() { return ++revision_; }
     const RoomObjects& objects() const { return objects_; }
 
 private:

@@ -36,6 +36,8 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
         room::RoomPerson person;
         person.id = object.creator;
         person.name = facts ? facts->name : "";
+        if (session::is_recorded(person.id))
+            person.name += " (recorded)";
         if (const auto pose = poses.find(person.id); pose != poses.end()) {
             person.head = pose_of(pose->second.head);
             person.left_hand = pose_of(pose->second.left_hand);

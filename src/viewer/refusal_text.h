@@ -23,6 +23,7 @@ static_assert(code_of(session::Refusal::no_such_participant) == wire::TextCode::
 static_assert(code_of(session::Refusal::too_many) == wire::TextCode::room_full);
 static_assert(code_of(session::Refusal::malformed) == wire::TextCode::beyond_room_limits);
 static_assert(code_of(session::Refusal::too_often) == wire::TextCode::room_too_often);
+static_assert(code_of(session::Refusal::recorded) == wire::TextCode::part_of_recording);
 
 // Part of a sentence, without a full stop; empty where nothing was refused.
 inline std::string text_of(session::Refusal refusal) {

@@ -91,6 +91,7 @@ constexpr Row rows[] = {
     {TextCode::room_full, "The room holds no more objects"},
     {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
     {TextCode::room_too_often, "That was too much at once; try again"},
+    {TextCode::part_of_recording, "Only the recording moves this"},
 };
 
 constexpr bool is_in_order() {

@@ -76,6 +76,7 @@ enum class TextCode : std::uint16_t {
     room_full = 505,
     beyond_room_limits = 506,
     room_too_often = 507,
+    part_of_recording = 508,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;

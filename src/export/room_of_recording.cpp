@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "export/room_of_recording.h"
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "files/json_text.h"
+#include "session/room_bytes.h"
+
+namespace theatron::exporting {
+namespace {
+
+using Json = nlohmann::json;
+using Recording = std::shared_ptr<const record::RecordingFile>;
+
+// Calls `visit` with the time of each moment at which the room changes.
+template <class Visit>
+void for_each_moment(capture::RecordedRoom& room, Visit visit) {
+    while (const auto time = room.next())
+        if (room.go_to(*time))
+            visit(*time);
+}
+
+const char* text_of(session::ObjectKind kind) {
+    switch (kind) {
+        case session::ObjectKind::person:
+            return "person";
+        case session::ObjectKind::brick:
+            return "brick";
+        case session::ObjectKind::organ:
+            return "organ";
+        case session::ObjectKind::screen:
+            return "screen";
+        case session::ObjectKind::mark:
+            return "mark";
+    }
+    return "unknown";
+}
+
+std::string hex_text(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+Json describe(const std::optional<wire::PartPose>& part) {
+    return part ? Json{{"position", part->position}, {"rotation", part->rotation}} : Json();
+}
+
+Json describe(session::ObjectId id, const session::RoomObject& object) {
+    const auto& [q, p] = object.room_from_object;
+    return {{"id", std::uint32_t(id)},
+            {"kind", text_of(object.kind)},
+            {"held_by", std::uint32_t(object.grip.holder)},
+            {"position", {p.x, p.y, p.z}},
+            {"rotation", {q.w, q.x, q.y, q.z}},
+            {"scale", object.scale}};
+}
+
+Json describe(const session::RoomObject& person, const session::PoseBodies& poses) {
+    const auto facts = session::decode_person(person.properties);
+    Json json{{"id", std::uint32_t(person.creator)}, {"name", facts ? facts->name : ""}};
+    const auto body = poses.find(person.creator);
+    if (body == poses.end())
+        return json;
+    const auto pose = wire::decode_person_pose(body->second);
+    if (!pose)
+        return json;
+    json["head"] = describe(pose->head);
+    json["left_hand"] = describe(pose->left_hand);
+    json["right_hand"] = describe(pose->right_hand);
+    return json;
+}
+
+}  // namespace
+
+RoomSummary summarize_room(const Recording& recording) {
+    capture::RecordedRoom room(recording);
+    std::map<session::ObjectId, std::string> people;
+    std::set<session::ObjectId> objects;
+    for_each_moment(room, [&](Duration) {
+        for (const auto& [id, object] : room.objects()) {
+            if (object.kind != session::ObjectKind::person)
+                objects.insert(id);
+            else if (const auto [person, is_new] = people.try_emplace(id); is_new)
+                if (const auto facts = session::decode_person(object.properties))
+                    person->second = facts->name;
+        }
+    });
+    RoomSummary summary{{}, objects.size(), room.figures()};
+    for (const auto& [id, name] : people)
+        summary.people.push_back(name);
+    return summary;
+}
+
+std::size_t export_room(const Recording& recording, const std::filesystem::path& file,
+                        capture::RecordedRoom::Figures& figures) {
+    std::ofstream out(file);
+    capture::RecordedRoom room(recording);
+    std::size_t lines = 0;
+    for_each_moment(room, [&](Duration time) {
+        Json people = Json::array(), objects = Json::array();
+        for (const auto& [id, object] : room.objects())
+            if (object.kind == session::ObjectKind::person)
+                people.push_back(describe(object, room.poses()));
+            else
+                objects.push_back(describe(id, object));
+        out << files::json_text({{"seconds", to_seconds(time)},
+                                 {"hash", hex_text(session::hash_of(room.objects()))},
+                                 {"people", people},
+                                 {"objects", objects}})
+            << "\n";
+        ++lines;
+    });
+    out.close();
+    if (!out)
+        throw Error("Cannot write '" + file.string() + "'.");
+    figures = room.figures();
+    return lines;
+}
+
+}  // namespace theatron::exporting

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replays the room of a recording whose cameras a host plays: at each moment tells what has
+// changed.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "capture/recorded_room.h"
+
+namespace theatron::host {
+
+// A camera specification's recording, if its room was recorded.
+struct ReplayedRoom {
+    std::shared_ptr<const record::RecordingFile> recording;
+    Duration begin{};               // of the recording, at the camera's first picture
+    std::optional<Duration> round;  // of a loop; else the recording is played once
+};
+// Empty for other cameras and for recordings without a room. Throws Error for a file that cannot be
+// read.
+std::optional<ReplayedRoom> replayed_room(const std::string& specification);
+
+class RoomReplay {
+public:
+    // Shortest time between two calls of `show`: a period of poses (session/pose_board.h).
+    static constexpr Duration period = Duration(11'111);
+
+    struct Change {
+        session::RoomObjects objects;  // all, with recorded numbers
+        // Poses that are new, with recorded numbers and the present time; and people without one.
+        std::vector<std::pair<ParticipantId, Bytes>> poses;
+        std::vector<ParticipantId> left;
+    };
+
+    // Begins when `has_begun` is true for the first time. Calls both functions from its own thread.
+    RoomReplay(ReplayedRoom room, std::function<bool()> has_begun,
+               std::function<void(Change)> show);
+    ~RoomReplay();
+
+private:
+    void run();
+    Change change(TimePoint now);
+
+    const ReplayedRoom source_;
+    const std::function<bool()> has_begun_;
+    const std::function<void(Change)> show_;
+    capture::RecordedRoom room_;
+    session::PoseBodies shown_;
+    std::atomic<bool> stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::host
