@@ -13,6 +13,7 @@
 #include "export/room_of_recording.h"
 #include "files/json_text.h"
 #include "host/filter_choice.h"
+#include "record/remarks.h"
 
 namespace theatron::app {
 namespace {
@@ -114,11 +115,13 @@ void run(const Flags& flags) {
     for (const record::CameraContent& camera : recording->cameras())
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
     bool damaged = !recording->intact();
-    for (const record::Segment& segment : recording->segments())
-        if (const std::string end = record::end_of(segment); !end.empty()) {
-            std::cerr << segment.file << ": " << end << std::endl;
-            damaged = true;
-        }
+    for (const std::string& remark : record::remarks_on_files(*recording))
+        std::cerr << remark << std::endl;
+    for (const record::Segment& segment : recording->segments()) {
+        damaged |= !segment.closed;
+        for (const std::string& remark : record::remarks_on(segment))
+            std::cerr << segment.file << ": " << remark << std::endl;
+    }
 
     if (!flags.room.empty() && !recording->room().present)
         throw Error("'" + flags.file + "' has no room: only recordings of sessions have one.");

@@ -14,6 +14,7 @@
 #include "geometry/calibration.h"
 #include "host/filter_choice.h"
 #include "record/recording_file.h"
+#include "record/remarks.h"
 
 namespace theatron::app {
 namespace {
@@ -124,7 +125,7 @@ std::string utc_text(record::UtcTime time) {
 
 Json describe_segments(const record::RecordingFile& recording) {
     Json list = Json::array();
-    for (const record::Segment& segment : recording.segments())
+    for (const record::Segment& segment : recording.segments()) {
         list.push_back({{"file", segment.file},
                         {"version", segment.has_info ? 2 : 1},
                         {"number", segment.info.number},
@@ -141,7 +142,11 @@ Json describe_segments(const record::RecordingFile& recording) {
                         {"damaged_bytes", segment.damaged_bytes},
                         {"repeated", segment.repeated},
                         {"foreign_files", segment.foreign.files},
-                        {"foreign_bytes", segment.foreign.bytes}});
+                        {"foreign_bytes", segment.foreign.bytes},
+                        {"unread_end_bytes", segment.unread_end}});
+        if (segment.foreign.files > 0)
+            list.back()["foreign_at"] = segment.foreign.first_at;
+    }
     return list;
 }
 
@@ -176,6 +181,7 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
               {"refused", recording.refused()},
               {"missing_segments", recording.missing_segments()},
               {"unreadable_files", recording.unreadable_files()},
+              {"foreign_files_beside", recording.foreign_files()},
               {"begins_in", recording.begins_in()},
               {"segments", describe_segments(recording)},
               {"cameras", cameras}};
@@ -240,14 +246,6 @@ void print_calibration(const Json& calibration) {
           calibration["registered"] ? "its place in the room is known" : "not registered");
 }
 
-void print_missing(const record::RecordingFile& recording) {
-    for (const std::string& file : recording.unreadable_files())
-        print("%s cannot be read: its beginning and all copies of it are damaged\n", file.c_str());
-    if (const std::uint64_t missing = recording.missing_segments(); missing > 0)
-        print("%llu %s missing\n", (unsigned long long)missing,
-              missing == 1 ? "segment is" : "segments are");
-}
-
 void print_segments(const record::RecordingFile& recording) {
     const std::uint32_t first = recording.segments().front().info.number;
     const bool many =
@@ -260,29 +258,14 @@ void print_segments(const record::RecordingFile& recording) {
                   begin.c_str());
         else if (!begin.empty())
             print("recorded at %s\n", begin.c_str());
-        if (const std::string end = record::end_of(segment); !end.empty())
-            print("  %s\n", end.c_str());
+        for (const std::string& remark : record::remarks_on(segment))
+            print("  %s\n", remark.c_str());
         if (!segment.recovered.empty())
             print("  recovered from a recording of which this was said: %s\n",
                   segment.recovered.c_str());
-        if (segment.head_damaged)
-            print("  its beginning is damaged, and read from a copy\n");
-        if (segment.damaged_places > 0)
-            print("  damaged in %llu places, %.1f MB together\n",
-                  (unsigned long long)segment.damaged_places, double(segment.damaged_bytes) * 1e-6);
-        if (segment.repeated > 0)
-            print("  %llu pictures stand in it twice, and count once\n",
-                  (unsigned long long)segment.repeated);
-        if (segment.foreign.files > 0)
-            print("  behind it in its file: %s, %.1f MB, left out\n",
-                  segment.foreign.files == 1 ? "another file that does not follow it"
-                                             : "other files that do not follow it",
-                  double(segment.foreign.bytes) * 1e-6);
     }
-    print_missing(recording);
-    if (!recording.begins_in().empty())
-        print("earlier segments are left out: the recording begins in %s\n",
-              recording.begins_in().c_str());
+    for (const std::string& remark : record::remarks_on_files(recording))
+        print("%s\n", remark.c_str());
 }
 
 void print_minutes(const Json& camera) {
@@ -314,9 +297,10 @@ void print_room(const Json& room) {
               (unsigned long long)room["damaged"], (unsigned long long)room["undecodable"]);
 }
 
-// Decodes everything and prints the damage. True if there is none.
-bool add_verification(const std::shared_ptr<const record::RecordingFile>& recording,
-                      const std::string& file, Json& json) {
+// Decodes everything.
+exporting::Verification add_verification(
+    const std::shared_ptr<const record::RecordingFile>& recording, const std::string& file,
+    Json& json) {
     const exporting::Verification found = exporting::verify(recording, file, cli::show_progress());
     for (std::size_t i = 0; i < found.cameras.size(); ++i) {
         Json minutes = Json::array();
@@ -334,7 +318,20 @@ bool add_verification(const std::shared_ptr<const record::RecordingFile>& record
         json["cameras"][i]["minutes"] = std::move(minutes);
     }
     json["damaged"] = found.damaged;
-    return !found.damaged;
+    return found;
+}
+
+// The last line of --verify.
+const char* verdict(const record::RecordingFile& recording, const exporting::Verification& found) {
+    if (found.damaged_pictures)
+        return "parts are damaged; 'theatron recover' saves the others";
+    if (recording.missing_segments() > 0)
+        return "every picture that is there was decoded, and a segment is missing";
+    if (std::any_of(recording.segments().begin(), recording.segments().end(),
+                    [](const record::Segment& s) { return !s.closed; }))
+        return "every picture that is there was decoded, and an end is missing";
+    return recording.complete() ? "every picture was decoded, and nothing is damaged"
+                                : "every picture was decoded, but a file is not as it was recorded";
 }
 
 void run(const std::string& file, bool as_json, bool verified) {
@@ -342,17 +339,17 @@ void run(const std::string& file, bool as_json, bool verified) {
         record::RecordingFile::open(file);
     Json json = describe(file, *recording);
     const bool room_is_whole = !json.contains("room") || add_room(recording, json["room"]);
-    const bool undamaged = !verified || (add_verification(recording, file, json) && room_is_whole);
-    const bool sound = undamaged && (!verified || recording->complete());
+    exporting::Verification found;
+    if (verified)
+        found = add_verification(recording, file, json);
+    found.damaged_pictures |= verified && !room_is_whole;
+    found.damaged |= found.damaged_pictures;
     if (as_json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
     else {
         print("%s: %.1f s, %.1f MB, %zu camera(s)\n", file.c_str(), double(json["seconds"]),
               double(json["bytes"]) * 1e-6, recording->cameras().size());
         print_segments(*recording);
-        if (recording->refused() > 0)
-            print("%llu pictures are damaged and left out\n",
-                  (unsigned long long)recording->refused());
         for (const Json& camera : json["cameras"]) {
             print("camera %d: %s\n", int(camera["camera"]), std::string(camera["name"]).c_str());
             print_stream("depth", camera["depth"]);
@@ -366,12 +363,9 @@ void run(const std::string& file, bool as_json, bool verified) {
         if (json.contains("room"))
             print_room(json["room"]);
         if (verified)
-            print("%s\n", sound ? "every picture was decoded, and nothing is damaged"
-                          : undamaged
-                              ? "every picture that is there was decoded, and an end is missing"
-                              : "parts are damaged; 'theatron recover' saves the others");
+            print("%s\n", verdict(*recording, found));
     }
-    if (!sound)
+    if (verified && (found.damaged || !recording->complete()))
         throw CLI::RuntimeError(damaged_exit_code);
 }
 

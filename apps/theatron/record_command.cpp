@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -153,6 +154,24 @@ nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& 
     return cameras;
 }
 
+// Replaces the counts of pictures that came by those of the finished file, and counts the others,
+// which waited when the recording ended by itself.
+void count_written(nlohmann::json& cameras, const record::Intake& intake,
+                   const record::Recorder::Figures& written, Missing& missing) {
+    for (const record::Intake::Stream& stream : intake.streams(steady_now())) {
+        const auto found = written.frames_of.find(stream.id);
+        const std::uint64_t frames = found == written.frames_of.end() ? 0 : found->second;
+        const std::uint64_t came = stream.figures.recorded;
+        for (nlohmann::json& camera : cameras)
+            if (camera["camera"] == int(camera_of(stream.id))) {
+                nlohmann::json& json = camera[is_depth(stream.id) ? "depth" : "color"];
+                json["pictures"] = frames;
+                json["not_written"] = came - std::min(came, frames);
+            }
+        missing.dropped += came - std::min(came, frames);
+    }
+}
+
 // Checks that the file that is being written still exists.
 class FileWatch {
 public:
@@ -179,6 +198,15 @@ private:
     std::uint32_t segment_ = 0, told_ = 0;
     std::pair<dev_t, ino_t> file_{};
 };
+
+// Names the folder if that is not there any more either.
+std::string what_is_gone(const std::filesystem::path& file) {
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    std::error_code ignored;
+    const bool has_folder = std::filesystem::exists(folder, ignored);
+    return (has_folder ? "'" + file.string() : "The folder '" + folder.string()) +
+           "' was deleted or renamed";
+}
 
 // Age of the newest picture that has arrived.
 Duration behind(record::RecordSource& source) {
@@ -255,8 +283,7 @@ void run(const Flags& flags) {
         next_look = now + 500ms;
         say_cut(recorder->figures());
         if (const auto gone = watch.gone(recorder->figures().segments); !gone.empty()) {
-            say("'" + gone.string() +
-                "' was deleted or renamed; the recording goes on in a new file beside it.");
+            say(what_is_gone(gone) + "; the recording goes on in a new file.");
             deleted = true;
             intake.begin_segment();
         }
@@ -290,10 +317,11 @@ void run(const Flags& flags) {
         say(end->remark);
 
     const record::Recorder::Figures f = recorder->figures();
+    count_written(cameras, intake, f, missing);
     say_cut(f);
     for (std::uint32_t segment = 1; segment <= f.segments; ++segment)
         if (const auto path = record::segment_path(file, segment); !std::filesystem::exists(path)) {
-            say("'" + path.string() + "' was deleted or renamed while the recording went on.");
+            say(what_is_gone(path) + " while the recording went on.");
             deleted = true;
         }
     const bool complete = has_rest && !missing.any() && !deleted && f.cut_bytes == 0 &&

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "commands.h"
 #include "record/recover.h"
+#include "record/remarks.h"
 
 namespace theatron::app {
 namespace {
@@ -27,8 +28,7 @@ std::string default_out(const std::filesystem::path& file) {
 }
 
 void print(const record::RecordingFile& recording, const record::Recovered& saved,
-           const Json& cameras, std::uint64_t places, std::uint64_t repeated,
-           const record::SegmentChain::Foreign& foreign) {
+           const Json& cameras, std::uint64_t repeated) {
     for (const Json& camera : cameras)
         for (const char* kind : {"depth", "color"}) {
             const Json& s = camera[kind];
@@ -45,22 +45,14 @@ void print(const record::RecordingFile& recording, const record::Recovered& save
             "room: %llu parts saved; %llu damaged and %llu that refer to them were left out\n",
             (unsigned long long)room.saved, (unsigned long long)room.damaged,
             (unsigned long long)room.undecodable);
-    if (places > 0)
-        std::printf("%llu damaged places were passed over\n", (unsigned long long)places);
     if (repeated > 0)
         std::printf("%llu pictures stood in it twice, and are saved once\n",
                     (unsigned long long)repeated);
-    if (foreign.files > 0)
-        std::printf("files behind its segments that do not follow them: %llu, %.1f MB, left out\n",
-                    (unsigned long long)foreign.files, double(foreign.bytes) * 1e-6);
-    for (const std::string& file : recording.unreadable_files())
-        std::printf("%s cannot be read: its beginning and all copies of it are damaged\n",
-                    file.c_str());
-    if (recording.missing_segments() > 0)
-        std::printf("missing segments: %llu\n", (unsigned long long)recording.missing_segments());
     for (const record::Segment& segment : recording.segments())
-        if (const std::string end = record::end_of(segment); !end.empty())
-            std::printf("%s: %s\n", segment.file.c_str(), end.c_str());
+        for (const std::string& remark : record::remarks_on(segment))
+            std::printf("%s: %s\n", segment.file.c_str(), remark.c_str());
+    for (const std::string& remark : record::remarks_on_files(recording))
+        std::printf("%s\n", remark.c_str());
     for (const std::string& file : saved.files)
         std::printf("%s\n", file.c_str());
 }
@@ -89,8 +81,7 @@ void run(const Flags& flags) {
     for (const record::Segment& segment : recording->segments()) {
         places += segment.damaged_places + segment.head_damaged;
         repeated += segment.repeated;
-        foreign.files += segment.foreign.files;
-        foreign.bytes += segment.foreign.bytes;
+        foreign.add(segment.foreign);
     }
     Json ends = Json::array();
     for (const record::Segment& segment : recording->segments())
@@ -115,7 +106,7 @@ void run(const Flags& flags) {
                          .dump(-1, ' ', false, Json::error_handler_t::replace)
                   << std::endl;
     else
-        print(*recording, saved, cameras, places, repeated, foreign);
+        print(*recording, saved, cameras, repeated);
     if (!saved.complete)
         throw CLI::RuntimeError(damaged_exit_code);
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "record/remarks.h"
 #include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
 
@@ -265,14 +266,11 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
         throw Error("The camera 'recording' needs a file, as in recording:FILE.mkv.");
     const std::string& file = options.value();
     const std::shared_ptr<const record::RecordingFile> opened = record::RecordingFile::open(file);
-    if (!opened->intact())
-        log::warning("capture", "the recording is damaged; what is whole of it plays",
-                     {{"file", file},
-                      {"damaged_pictures", opened->refused()},
-                      {"missing_segments", opened->missing_segments()}});
+    for (const std::string& remark : record::remarks_on_files(*opened))
+        log::warning("capture", remark, {{"file", file}});
     for (const record::Segment& segment : opened->segments())
-        if (const std::string end = record::end_of(segment); !end.empty())
-            log::warning("capture", end, {{"file", segment.file.empty() ? file : segment.file}});
+        for (const std::string& remark : record::remarks_on(segment))
+            log::warning("capture", remark, {{"file", segment.file.empty() ? file : segment.file}});
     auto frames = std::make_unique<RecordedFrames>(opened, std::size_t(camera), file);
     if (frames->frames() == 0)
         throw Error("'" + file + "' holds no frame of camera " + std::to_string(camera) + ".");

@@ -134,7 +134,8 @@ std::uint64_t frames_between(const record::RecordedFrame& before,
 Verification verify(const std::shared_ptr<const record::RecordingFile>& recording,
                     const std::string& file, const capture::Progress& progress) {
     Verification found;
-    found.damaged = !recording->intact();
+    for (const record::Segment& segment : recording->segments())
+        found.damaged_pictures |= segment.damaged_places > 0 || segment.refused > 0;
     std::size_t all = 0, done = 0;
     for (const record::CameraContent& camera : recording->cameras())
         all += camera.depth.frames.size() + camera.color.frames.size();
@@ -154,8 +155,9 @@ Verification verify(const std::shared_ptr<const record::RecordingFile>& recordin
         decode_color(*recording, content, minutes, picture_done);
         for (const auto& [minute, pictures] : minutes)
             for (const VerifiedPictures& p : {pictures.depth, pictures.color})
-                found.damaged |= p.damaged > 0 || p.undecodable > 0;
+                found.damaged_pictures |= p.damaged > 0 || p.undecodable > 0;
     }
+    found.damaged = found.damaged_pictures || !recording->intact();
     return found;
 }
 

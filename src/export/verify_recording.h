@@ -27,7 +27,8 @@ struct VerifiedMinute {
 struct Verification {
     // By minute since the recording's beginning, in the order of its cameras.
     std::vector<std::map<int, VerifiedMinute>> cameras;
-    bool damaged = false;  // any picture or file
+    bool damaged = false;           // any picture or file
+    bool damaged_pictures = false;  // any picture, or a place that may hold some
 };
 
 // Throws Error if this build cannot decode the recording.

@@ -97,6 +97,10 @@ void render_tags(const std::vector<Tag>& tags, Bytes& out);
 // An element without content that takes exactly `size` bytes, at least void_head_size.
 void render_void(std::size_t size, Bytes& out);
 inline constexpr std::size_t void_head_size = 9;
+// Room for the SeekHead, and what a file has before its Info: the EBML head, the segment's id and
+// size, and that room.
+inline constexpr std::size_t seek_head_space = 160;
+inline constexpr std::size_t bytes_before_info = 40 + 12 + seek_head_space;
 // A copy of the head in an element that players skip.
 Bytes make_head_copy(ByteView head);
 

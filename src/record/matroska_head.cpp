@@ -182,6 +182,7 @@ std::optional<FoundHead> read_copy(ByteSource& source, std::uint64_t magic_at,
     const Status status =
         for_each_child(window, Element{.end = bytes.size()},
                        [&](const Element& part) { return read_part(window, part, head); });
+    head.front_end = bytes_before_info + size + void_head_size + front.size() + size;
     return status == Status::ok && !head.tracks.empty() ? std::optional(head) : std::nullopt;
 }
 

@@ -232,6 +232,21 @@ Place find_next(ByteSource& source, std::uint64_t at) {
     return {end};
 }
 
+// Do the bytes at `at`, which are no whole element, begin with the id of one that stands beside
+// clusters?
+bool begins_beside_clusters(Window& window, std::uint64_t at) {
+    std::uint32_t id = 0;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        std::byte next;
+        if (!window.read(at + i, {&next, 1}))
+            return false;
+        id = id << 8 | std::to_integer<std::uint32_t>(next);
+        if (is_beside_clusters(id))
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Visit& visit) {
@@ -247,6 +262,7 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
         const Result<Element> element = read_element(window, at, end);
         const bool whole = element && element->size_known;
         const bool is_head = whole && element->id == ids::ebml && begins_file(window, at);
+        bool in_clusters = true;
         if (whole && element->id == ids::cluster) {
             is_own_head = has_index = has_end = false;
             understood = read_cluster(window, *element, visit);
@@ -269,6 +285,7 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
         } else {
             is_own_head = is_own_head && !is_head;
             understood = std::max(understood, head.clusters_at);
+            in_clusters = !has_index && !begins_beside_clusters(window, at);
         }
         Place next = find_next(source, understood + (understood == at ? 1 : 0));
         while (next.is_file && is_own_head) {
@@ -277,10 +294,16 @@ FoundClusters read_clusters(ByteSource& source, const FoundHead& head, const Vis
         }
         at = next.at;
         const std::uint64_t lost = at - understood;
+        // Not even the smallest cluster has room in so few bytes, which may have been inserted.
+        constexpr std::uint64_t slack = 8;
+        const bool is_front = understood == 0 && at <= head.front_end + slack;
         understood = at;
+        if (is_front && !next.is_file)
+            continue;
         // Incomplete bytes at the end of an unclosed file come from a crash or a cut: no damage.
         if ((at == end || next.is_file) && !head.closed) {
             found.cut_bytes = lost;
+            found.cut_in_clusters = in_clusters && lost > 0;
         } else {
             ++found.damaged_places;
             found.damaged_bytes += lost;

@@ -52,6 +52,8 @@ struct FoundHead {
     std::uint64_t segment_end = 0;
     bool closed = false;            // the segment has a size, and ends within the file
     std::uint64_t clusters_at = 0;  // position at which the search for them begins
+    // Where the first cluster was written, according to the size of a copy; 0: unknown.
+    std::uint64_t front_end = 0;
 };
 
 // Most bytes before the first block. Copies of the head are searched within this distance of both
@@ -80,6 +82,7 @@ struct FoundClusters {
     std::uint64_t damaged_places = 0;  // skipped: each up to the next intact cluster
     std::uint64_t damaged_bytes = 0;   // in them
     std::uint64_t cut_bytes = 0;       // after the last whole cluster of a file that was not closed
+    bool cut_in_clusters = false;      // pictures may be in those; false: they are of the index
     bool has_end = false;              // the file ends as one of version 2 that was closed
     // Position of another Matroska file behind this one; reading ends there.
     std::optional<std::uint64_t> next_file_at;

@@ -20,7 +20,6 @@ namespace {
 // A block's time is 16 bits relative to its cluster's.
 constexpr std::int64_t max_cluster_us = 32'000;
 constexpr std::int64_t cue_distance_us = 500'000;
-constexpr std::size_t seek_head_space = 160;
 
 constexpr std::uint64_t unknown_size = 0xff'ffff'ffff'ffff;
 
@@ -77,6 +76,7 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
     bytes.insert(bytes.end(), size.begin(), size.end());
     segment_ = bytes.size();
     render_void(seek_head_space, bytes);
+    assert(bytes.size() == bytes_before_info);
     places_["info"] = bytes.size();
     render_info(info_, 0, bytes);
     places_["tracks"] = bytes.size();
@@ -103,16 +103,23 @@ MatroskaWriter::~MatroskaWriter() {
     close(file_);
 }
 
+std::string MatroskaWriter::fate() const {
+    struct stat found {};
+    if (fstat(file_, &found) == 0 && found.st_nlink == 0)
+        return "what came before in '" + path_.string() + "' was deleted by another program";
+    return "what came before is kept";
+}
+
 std::string MatroskaWriter::problem(int error) const {
     if (error == ENOSPC || error == EDQUOT)
-        return "The disk is full, so the recording '" + path_.string() +
-               "' ends here; what came before is kept.";
+        return "The disk is full, so the recording '" + path_.string() + "' ends here; " + fate() +
+               ".";
     if (error == EFBIG)
         return "The recording '" + path_.string() +
-               "' has reached the size that the system allows for a file and ends here; what came "
-               "before is kept.";
+               "' has reached the size that the system allows for a file and ends here; " + fate() +
+               ".";
     return "Cannot write to '" + path_.string() + "': " + std::strerror(error) +
-           "; the recording ends here, what came before is kept.";
+           "; the recording ends here, " + fate() + ".";
 }
 
 // All or nothing.

@@ -175,8 +175,7 @@ void Recorder::run() {
                 synced = std::chrono::steady_clock::now();
             }
         } catch (const std::exception& unexpected) {
-            problem = std::string("The recording ends here, what came before is kept: ") +
-                      unexpected.what();
+            problem = "The recording ends here, " + writer_->fate() + ": " + unexpected.what();
         }
         batch.clear();
     }
@@ -243,6 +242,8 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     if (problem.empty()) {
         figures_.frames += messages.size() - room_parts;
         figures_.room_bytes += room_bytes;
+        for (const RecordedMessage& one : messages)
+            ++figures_.frames_of[one.header.stream];
         figures_.duration = duration_before_ + writer_->duration();
         figures_.segments = info_.number;
     }
@@ -264,9 +265,11 @@ std::string Recorder::begin_next() {
     do {
         if (file_number_ == max_segments)
             return "The recording '" + path_.string() + "' has " + std::to_string(max_segments) +
-                   " segments and ends here; what came before is kept.";
+                   " segments and ends here; " + writer_->fate() + ".";
         file = segment_path(path_, ++file_number_);
     } while (std::filesystem::exists(file, ignored));
+    // If it was deleted. Above it none is made: a disk that is gone leaves its place without one.
+    std::filesystem::create_directory(file.parent_path(), ignored);
     try {
         auto writer =
             std::make_unique<SegmentWriter>(file, *next.cameras, info_, true, "", has_room_);
@@ -275,7 +278,7 @@ std::string Recorder::begin_next() {
         cut_before_ += writer_->cut_bytes();
         writer_ = std::move(writer);
     } catch (const Error& problem) {
-        return std::string(problem.what()) + " The recording ends here; what came before is kept.";
+        return std::string(problem.what()) + " The recording ends here; " + writer_->fate() + ".";
     }
     return "";
 }

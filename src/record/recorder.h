@@ -51,7 +51,8 @@ public:
         std::uint64_t bytes = 0;
         std::uint64_t frames = 0;      // pictures written, depth and colour counted each
         std::uint64_t room_bytes = 0;  // of messages of the room, written
-        std::uint64_t dropped = 0;     // came faster than the disk could write
+        std::map<StreamId, std::uint64_t> frames_of;   // pictures by stream; absent: none
+        std::uint64_t dropped = 0;                     // came faster than the disk could write
         std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
         std::size_t waiting_bytes = 0;                 // of messages that are not written yet
         Duration late{};                               // waiting time of the oldest of them
@@ -73,7 +74,8 @@ public:
 
     // Messages that are added from now on belong to a new segment: cameras, settings or
     // calibrations have changed, or the session's clock has restarted. Never waits. The file is
-    // made when the segment's first message is written. From any thread, in order with add().
+    // made when the segment's first message is written, and its folder if that was deleted. From
+    // any thread, in order with add().
     void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock);
 
     // Takes a whole media message of one of the cameras' streams, or of the room, which arrived at

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -95,35 +94,6 @@ void note_filters(StreamContent& stream, const std::string& note) {
 }
 
 }  // namespace
-
-std::string end_of(const Segment& segment) {
-    if (segment.closed)
-        return "";
-    const std::string begin = "it ends without its end: ";
-    if (!segment.missing_end)
-        return begin + "nobody knows how much is missing";
-    if (*segment.missing_end <= Duration(0))
-        return begin + "only its index is missing";
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.1f s may be missing",
-                  std::ceil(to_seconds(*segment.missing_end) * 10) / 10);
-    return begin + text;
-}
-
-std::string losses_of(const Segment& segment) {
-    std::string losses = segment.recovered;
-    const auto add = [&](const std::string& more) {
-        losses += (losses.empty() || more.empty() ? "" : "; ") + more;
-    };
-    add(end_of(segment));
-    if (segment.damaged_places > 0)
-        add(std::to_string(segment.damaged_places) +
-            (segment.damaged_places == 1 ? " damaged place" : " damaged places"));
-    if (segment.refused > 0)
-        add(std::to_string(segment.refused) +
-            (segment.refused == 1 ? " damaged picture" : " damaged pictures"));
-    return losses;
-}
 
 void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain) {
     const FoundHead& head = member.head;
@@ -236,6 +206,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         stream.frames.push_back(frame);
     };
     bool has_end = false;
+    std::uint64_t cut_in_clusters = 0;
     const std::uint64_t whole = member.source->size();
     std::uint64_t end = 0;  // of the segment in its file
     for (std::optional<std::uint64_t> at = head.clusters_at; at;) {
@@ -245,13 +216,13 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         segment.damaged_places += found.damaged_places;
         segment.damaged_bytes += found.damaged_bytes;
         has_end = found.has_end;
+        cut_in_clusters = found.cut_in_clusters ? found.cut_bytes : 0;
         end = found.next_file_at.value_or(whole);
         segment.bytes += end - (segment.bytes == 0 ? 0 : *at);
         at.reset();
         if (found.next_file_at) {
             const SegmentChain::Behind behind = chain.add_behind(member, end);
-            segment.foreign.files += behind.foreign.files;
-            segment.foreign.bytes += behind.foreign.bytes;
+            segment.foreign.add(behind.foreign);
             at = behind.goes_on_at;
         }
     }
@@ -265,6 +236,13 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
     if (!segment.closed && head.duration_us > 0) {
         segment.missing_end = std::max(Duration(head.duration_us) - last_block, Duration(0)) +
                               (head.segment_end == 0 ? usual_unsynced : Duration(0));
+        // The last block is there, so another one beside it is damaged, for example of another
+        // camera.
+        if (*segment.missing_end == Duration(0) && cut_in_clusters > 0) {
+            segment.unread_end = cut_in_clusters;
+            ++segment.damaged_places;
+            segment.damaged_bytes += cut_in_clusters;
+        }
     }
     segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));
@@ -377,6 +355,7 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
     }
     recording->missing_segments_ = chain->missing();
     recording->unreadable_files_ = chain->unreadable();
+    recording->foreign_files_ = chain->foreign();
     std::sort(recording->cameras_.begin(), recording->cameras_.end(),
               [](const CameraContent& a, const CameraContent& b) { return a.id < b.id; });
     recording->place_segments();

@@ -97,6 +97,9 @@ struct Segment {
     bool closed = false;       // false: never closed, or cut off
     // Unless closed: the most that may be missing at its end; empty if unknown.
     std::optional<Duration> missing_end;
+    // Bytes at the end that cannot be read although the file was closed, in which pictures may be.
+    // They count as a damaged place.
+    std::uint64_t unread_end = 0;
     std::string recovered;      // a recovered file: losses_of() of the original
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;
@@ -110,11 +113,6 @@ struct Segment {
     }
     bool complete() const { return closed && intact(); }
 };
-
-// For example "it ends without its end: 2.5 s may be missing"; empty if it was closed.
-std::string end_of(const Segment& segment);
-// One line on missing and damaged parts, as far as the index shows them; empty if there are none.
-std::string losses_of(const Segment& segment);
 
 class RecordingFile {
 public:
@@ -140,6 +138,8 @@ public:
     // are not read with the cameras of another segment, because a segment begins wherever
     // calibrations or codecs change.
     const std::vector<std::string>& unreadable_files() const { return unreadable_files_; }
+    // Files that follow by their names, but do not continue the recording.
+    const std::vector<std::string>& foreign_files() const { return foreign_files_; }
     // The file of the recording's segment 1, if a later one was opened and the earlier ones exist;
     // else empty.
     const std::string& begins_in() const { return begins_in_; }
@@ -170,7 +170,7 @@ private:
     std::vector<CameraContent> cameras_;
     StreamContent room_;
     std::uint64_t refused_ = 0, missing_segments_ = 0;
-    std::vector<std::string> unreadable_files_;
+    std::vector<std::string> unreadable_files_, foreign_files_;
     std::string begins_in_;
     std::size_t frames_ = 0;
     Duration duration_{};

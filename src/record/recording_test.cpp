@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "record/crc32c.h"
 #include "record/matroska_reader.h"
+#include "record/remarks.h"
 #include "record/segment_writer.h"
 #include "record/test_recordings.h"
 
@@ -229,6 +230,85 @@ TEST(Recording, ThatWasNeverClosedKnowsWhatWasOnTheDisk) {
     fs::resize_file(path, fs::file_size(path) / 2);
     const auto cut = RecordingFile::open(path);
     EXPECT_EQ(cut->segments()[0].missing_end, killed->duration() - cut->duration() + 1s);
+}
+
+// One byte removed, inserted or changed near the end of a closed file.
+TEST(Recording, WithAWrongByteNearItsEndNeverHidesALostPicture) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(2, 24, 60);
+    record_all(folder.path() / "whole.mkv", 2, messages);
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+    const ByteView cues = as_bytes(std::string_view("\x1c\x53\xbb\x6b"));
+    const auto index_at =
+        std::find_end(whole.begin(), whole.end(), cues.begin(), cues.end()) - whole.begin();
+    constexpr std::ptrdiff_t tested = 6000;
+    ASSERT_GT(index_at, tested);
+    const std::ptrdiff_t begin = std::ptrdiff_t(whole.size()) - tested;
+    Bytes payload;
+    std::size_t lossy = 0;
+    for (std::ptrdiff_t at = begin; at < std::ptrdiff_t(whole.size()); ++at)
+        for (const char* const change : {"removed", "inserted", "changed"}) {
+            SCOPED_TRACE(std::string(change) + " at " + std::to_string(at) + ", index at " +
+                         std::to_string(index_at));
+            Bytes bytes = whole;
+            if (change == std::string_view("removed"))
+                bytes.erase(bytes.begin() + at);
+            else if (change == std::string_view("inserted"))
+                bytes.insert(bytes.begin() + at, std::byte{0x55});
+            else
+                bytes[std::size_t(at)] ^= std::byte{0x55};
+            const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
+            ASSERT_TRUE(recording);
+            const Segment& segment = (*recording)->segments()[0];
+            std::size_t good = 0;
+            for (const CameraContent& camera : (*recording)->cameras())
+                for (const auto* frames : {&camera.depth.frames, &camera.color.frames})
+                    for (const RecordedFrame& frame : *frames)
+                        good += (*recording)->read_payload(frame, payload) == Status::ok;
+            const bool all = good == messages.size();
+            const bool says_so = segment.damaged_places > 0 || segment.refused > 0 ||
+                                 good < frames_in(**recording) || segment.missing_end > Duration(0);
+            EXPECT_TRUE(all || says_so) << end_of(segment);
+            EXPECT_TRUE(all || losses_of(segment) != "" || good < frames_in(**recording));
+            // Behind the id of the index nothing is lost.
+            if (at >= index_at + 4)
+                EXPECT_TRUE(all && segment.unread_end == 0) << end_of(segment);
+            lossy += !all;
+        }
+    EXPECT_GT(lossy, std::size_t(tested)) << "hardly anything was damaged";
+}
+
+// One byte changed, inserted or removed before the first cluster.
+TEST(Recording, WithADamagedHeadSaysThatNoPictureIsLost) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(2, 6, 60);
+    record_all(folder.path() / "whole.mkv", 2, messages);
+    const Bytes whole = bytes_of(folder.path() / "whole.mkv");
+    MemorySource source{ByteView(whole)};
+    const auto head_end = std::ptrdiff_t(read_head(source)->clusters_at);
+    std::size_t noticed = 0;
+    for (std::ptrdiff_t at = 0; at < head_end; ++at)
+        for (const char* const change : {"removed", "inserted", "changed"}) {
+            SCOPED_TRACE(std::string(change) + " at " + std::to_string(at));
+            Bytes bytes = whole;
+            if (change == std::string_view("removed"))
+                bytes.erase(bytes.begin() + at);
+            else if (change == std::string_view("inserted"))
+                bytes.insert(bytes.begin() + at, std::byte{0x55});
+            else
+                bytes[std::size_t(at)] ^= std::byte{0x55};
+            const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
+            ASSERT_TRUE(recording);
+            EXPECT_EQ(frames_in(**recording), messages.size());
+            const Segment& segment = (*recording)->segments()[0];
+            EXPECT_EQ(segment.damaged_places, 0u);
+            const auto remarks = remarks_on(segment);
+            ASSERT_LE(remarks.size(), 1u) << remarks[0] << ", " << remarks[1];
+            noticed += segment.head_damaged;
+            if (segment.head_damaged)
+                EXPECT_NE(remarks[0].find("no picture is lost by this"), std::string::npos);
+        }
+    EXPECT_GT(noticed, std::size_t(head_end) * 2);
 }
 
 TEST(Recording, DamagedAnywhereNeverBreaksTheReader) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "record/crc32c.h"
 #include "record/recording_layout.h"
+#include "record/remarks.h"
 #include "record/segment_writer.h"
 
 namespace theatron::record {

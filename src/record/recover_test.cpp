@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "record/recording_layout.h"
+#include "record/remarks.h"
 #include "record/test_recordings.h"
 
 namespace theatron::record {

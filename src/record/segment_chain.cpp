@@ -13,6 +13,11 @@ std::uint32_t number_of(const std::optional<SegmentInfo>& info) {
     return info ? info->number : 1;
 }
 
+bool has_depth(const FoundHead& head) {
+    return std::any_of(head.tracks.begin(), head.tracks.end(),
+                       [](const FoundTrack& t) { return t.codec_id == depth_codec_id; });
+}
+
 // A copy of the head that was found elsewhere must not be that of another file which stands behind
 // this one.
 Result<FoundHead> read_own_head(const std::shared_ptr<ByteSource>& source) {
@@ -65,15 +70,19 @@ Result<SegmentChain> SegmentChain::read(std::vector<std::unique_ptr<ByteSource>>
         if (!head) {
             if (i == 0)
                 return head.error();
-            // By its name the file belongs to the recording; nothing else is known of it.
-            chain.unreadable_.push_back(std::move(files[i]));
+            // By its name the file belongs to the recording. Another program's Matroska file has
+            // another scale of time; nothing else is known of the others.
+            const bool is_foreign = head.error() == Status::unsupported;
+            (is_foreign ? chain.foreign_ : chain.unreadable_).push_back(std::move(files[i]));
             continue;
         }
         const auto info = segment_info_of(*head);
         if (i == 0)
             chain.first_ = info;
-        else if (!chain.follows(info, number_of(chain.first_)))
+        else if (!chain.follows(info, number_of(chain.first_))) {
+            chain.foreign_.push_back(std::move(files[i]));
             continue;
+        }
         // If there are two copies of a segment, the first one is used.
         chain.waiting_.try_emplace(number_of(info),
                                    Member{source, std::move(*head), info, std::move(files[i])});
@@ -116,11 +125,10 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
         const bool is_new = follows(info, last_) && !waiting_.contains(info->number);
         if (is_new) {
             auto own = std::make_shared<PartSource>(taken.source, begin, begin + size);
-            waiting_.emplace(info->number,
-                             Member{std::move(own), std::move(*head), info, taken.file});
+            waiting_.emplace(info->number, Member{std::move(own), std::move(*head), info,
+                                                  taken.file, taken.begin + begin});
         } else {
-            ++foreign.files;
-            foreign.bytes += size;
+            foreign.add({1, size, taken.begin + begin, size, head && has_depth(*head)});
         }
     }
     return behind;

@@ -27,6 +27,7 @@ public:
         FoundHead head;
         std::optional<SegmentInfo> info;
         std::string file;
+        std::uint64_t begin = 0;  // of `source` in its file
     };
 
     // Reads the heads of `sources`, named `files`; the first one identifies the recording. Files of
@@ -40,6 +41,16 @@ public:
     // Other files in a segment's file, behind the segment, that do not follow it in the recording.
     struct Foreign {
         std::uint64_t files = 0, bytes = 0;
+        // The first of them in the order of the file; its place is counted from the file's begin.
+        std::uint64_t first_at = 0, first_bytes = 0;
+        bool first_is_recording = false;
+
+        void add(const Foreign& more) {
+            if (files == 0)
+                *this = more;
+            else
+                files += more.files, bytes += more.bytes;
+        }
     };
     struct Behind {
         Foreign foreign;
@@ -54,6 +65,8 @@ public:
     // and at least the number of unreadable() files.
     std::uint64_t missing() const;
     const std::vector<std::string>& unreadable() const { return unreadable_; }
+    // Files that can be read, and do not continue the recording.
+    const std::vector<std::string>& foreign() const { return foreign_; }
 
 private:
     bool follows(const std::optional<SegmentInfo>& info, std::uint32_t number) const;
@@ -62,7 +75,7 @@ private:
     std::map<std::uint32_t, Member> waiting_;
     std::uint32_t last_ = 0;  // number of the segment that was taken last
     std::uint64_t taken_ = 0;
-    std::vector<std::string> unreadable_;
+    std::vector<std::string> unreadable_, foreign_;
 };
 
 }  // namespace theatron::record

@@ -2,6 +2,7 @@
 // Recordings of several files, of which some are missing, cannot be read, or are of another one.
 #include "record/segment_chain.h"
 
+#include "record/remarks.h"
 #include "record/test_recordings.h"
 
 namespace theatron::record {
@@ -47,6 +48,33 @@ TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
     EXPECT_EQ(recording->unreadable_files(), std::vector{second.string()});
     EXPECT_EQ(recording->missing_segments(), 1u);
     EXPECT_EQ(recording->segments().size(), 2u);
+}
+
+// One of another recording, and one of another program, whose times are in milliseconds.
+TEST(SegmentChain, AForeignFileBesideIsNamedAndNotMissing) {
+    const testing::TemporaryFolder folder, other;
+    record_segments(folder.path(), 1);
+    record_segments(other.path(), 2);
+    fs::rename(other.path() / "a.002.mkv", folder.path() / "a.002.mkv");
+    Bytes film = bytes_of(folder.path() / "a.mkv");
+    const ByteView scale = as_bytes(std::string_view("\x2a\xd7\xb1", 3));
+    for (auto at = film.begin();; ++at) {
+        at = std::search(at, film.end(), scale.begin(), scale.end());
+        if (at == film.end())
+            break;
+        *(at + 4) ^= std::byte{0x40};
+    }
+    write_bytes(folder.path() / "a.003.mkv", film);
+    const auto recording = RecordingFile::open(folder.path() / "a.mkv");
+    const std::vector expected{(folder.path() / "a.002.mkv").string(),
+                               (folder.path() / "a.003.mkv").string()};
+    EXPECT_EQ(recording->foreign_files(), expected);
+    EXPECT_EQ(recording->missing_segments(), 0u);
+    EXPECT_EQ(recording->unreadable_files(), std::vector<std::string>{});
+    EXPECT_TRUE(recording->complete());
+    ASSERT_EQ(remarks_on_files(*recording).size(), 2u);
+    EXPECT_NE(remarks_on_files(*recording)[0].find("does not continue this recording"),
+              std::string::npos);
 }
 
 TEST(Recorder, ReplacesARecordingWithAllItsSegments) {

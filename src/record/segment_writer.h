@@ -51,6 +51,7 @@ public:
 
     std::uint64_t bytes() const { return writer_.bytes(); }
     std::uint64_t cut_bytes() const { return writer_.cut_bytes(); }
+    std::string fate() const { return writer_.fate(); }
     // From the first picture to the last.
     Duration duration() const { return Duration(last_us_ - first_us_); }
 

@@ -215,7 +215,9 @@ class RecordFaults(unittest.TestCase):
                 figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
                 self.assertIn("what came before is kept", figures["problem"])
             disk.be("well")
-            self.assert_decodes(file)
+            depth = figures["cameras"][0]["depth"]
+            self.assertEqual(self.assert_decodes(file)["frames"], depth["pictures"])
+            self.assertGreater(depth["not_written"] + depth["dropped"], 0)
 
     def test_recovering_onto_a_full_disk_leaves_nothing_there(self):
         code, _, errors = run("record", "--camera", f"folder:{self.source}", self.file)
@@ -244,6 +246,29 @@ class RecordFaults(unittest.TestCase):
             self.begun(recorder, second)
             self.ends(recorder, INCOMPLETE)
         self.assertGreater(second.stat().st_size, 3000)
+
+    def test_a_folder_that_is_deleted_meanwhile_is_named_and_made_anew(self):
+        folder = self.folder / "operation"
+        folder.mkdir()
+        with self.recorder("--camera", self.camera, folder / "a.mkv") as recorder:
+            self.begun(recorder, folder / "a.mkv")
+            shutil.rmtree(folder)
+            self.says(recorder, f"The folder '{folder}' was deleted or renamed")
+            self.begun(recorder, folder / "a.002.mkv")
+            self.ends(recorder, INCOMPLETE)
+        code, out, errors = run("inspect", folder / "a.002.mkv", "--verify")
+        self.assertEqual(code, INCOMPLETE, errors)
+        self.assertIn("every picture that is there was decoded, and a segment is missing", out)
+
+    def test_where_no_folder_can_be_made_anew_nothing_is_called_kept(self):
+        folder = self.folder / "disk" / "operation"
+        folder.mkdir(parents=True)
+        with self.recorder("--camera", self.camera, folder / "a.mkv") as recorder:
+            self.begun(recorder, folder / "a.mkv")
+            shutil.rmtree(folder.parent)
+            figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
+        self.assertIn("was deleted by another program", figures["problem"])
+        self.assertNotIn("kept", figures["problem"])
 
     def test_a_file_that_is_cut_meanwhile_is_noticed(self):
         with self.recorder("--camera", self.camera, self.file) as recorder:

@@ -129,7 +129,31 @@ class RecordingCare(unittest.TestCase):
                          (2, recorded["depth"]["pictures"]))
         code, _, errors = run("inspect", saved["files"][0], "--verify")
         self.assertEqual(code, 0, errors)
-        self.assertIn("other files that do not follow it", run("inspect", joined)[1])
+        said = run("recover", joined, self.folder / "again.mkv")[1]
+        self.assertIn(f"another recording begins at byte {path.stat().st_size} of its file", said)
+        self.assertIn("1 more file behind it", said)
+        # The command that it names gets the other one.
+        command = said.split("to get it: ")[1].split(";")[0]
+        subprocess.run(command, shell=True, check=True, cwd=self.folder)
+        self.assertEqual((self.folder / "other.mkv").read_bytes(), other.read_bytes())
+
+    def test_what_is_wrong_beside_the_pictures_is_named_and_not_called_damaged_pictures(self):
+        path, recorded = self.record("a.mkv")
+        self.record("b.mkv")
+        (self.folder / "b.mkv").rename(self.folder / "a.002.mkv")
+        content = bytearray(path.read_bytes())
+        content[1] ^= 1
+        path.write_bytes(content)
+        code, out, errors = run("inspect", path, "--verify")
+        self.assertEqual(code, 3, errors)
+        for text in ("its beginning or a copy of that is damaged", "a.002.mkv' lies beside it, but does not continue",
+                     "every picture was decoded, but a file is not as it was recorded"):
+            self.assertIn(text, out)
+        with host(self.folder / "state", f"recording:{path},loop=1") as h:
+            wait_until(lambda: any("lies beside it, but does not continue" in line for line in list(h.errors)))
+            errors = " ".join(h.errors)
+        self.assertIn("no picture is lost by this", errors)
+        self.assertNotIn("missing", errors)
 
     def test_recording_waits_for_a_host_as_long_as_it_is_told(self):
         begin = time.monotonic()
