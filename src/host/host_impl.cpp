@@ -160,7 +160,8 @@ void Host::Impl::carry_out(const session::action::TakeMedia& a) {
 }
 
 void Host::Impl::carry_out(const session::action::KeepEverything& a) {
-    // The queue before it learns of recorders in note_participants().
+    // At once: until the next tick a late thread could drop pictures that are already recorded.
+    media.keep_everything(true);
     server->keep_everything(peer_of(a.participant));
 }
 

@@ -142,39 +142,54 @@ void LaneEncoders::choose(const std::vector<std::shared_ptr<E>>& encoders,
         encoders[i]->at_once = std::find(at_once.begin(), at_once.end(), i) != at_once.end();
 }
 
-std::optional<bool> LaneEncoders::begin(Encoder& encoder, bool key) {
+LaneEncoders::Turn LaneEncoders::begin(Encoder& encoder, bool key) {
     std::unique_lock lock(encoder.mutex);
     encoder.behind = !encoder.at_once;
     // A new one may have waited behind others until it was measured.
     const bool changed =
         encoder.cost.known() && encoder.keeping_up.on_picture(!encoder.busy || encoder.at_once);
-    std::optional<bool> result;
-    if (encoder.busy) {
+    // Too dear to catch up: the newest picture wins.
+    std::deque<std::function<void()>> given_up;
+    const bool may_wait = !encoder.cost.known() || encoder.at_once;
+    if (!may_wait)
+        given_up.swap(encoder.waiting);
+    encoder.left_out += given_up.size();
+    encoder.key_asked = encoder.key_asked || !given_up.empty();  // it may have been of one of them
+    Turn turn = Turn::now;
+    if (!encoder.busy) {
+        encoder.busy = true;
+    } else if (may_wait && encoder.waiting.size() < max_waiting) {
+        turn = Turn::waits;
+    } else {
+        turn = Turn::left_out;
         encoder.key_asked = encoder.key_asked || key;
         ++encoder.left_out;
-    } else {
-        encoder.busy = true;
-        result = key || encoder.key_due;
-        encoder.key_due = true;  // until it is encoded
     }
     const bool keeps_up = encoder.keeping_up.keeps_up();
     const Duration cpu = encoder.cost.typical();
     lock.unlock();
     if (changed)
         events_.keeps_up(encoder.setting.id, keeps_up, cpu);
-    return result;
+    return turn;
 }
 
 void LaneEncoders::end(Encoder& encoder, bool done, Duration cpu, StreamId stream) {
     bool asked;
+    std::function<void()> next;
     {
         const std::lock_guard lock(encoder.mutex);
-        encoder.busy = false;
         encoder.cost.add(cpu);
         asked = std::exchange(encoder.key_asked, false);
         if (done)
             encoder.key_due = asked;
+        encoder.busy = !encoder.waiting.empty();
+        if (encoder.busy) {
+            next = std::move(encoder.waiting.front());
+            encoder.waiting.pop_front();
+        }
     }
+    if (next)
+        go_behind(std::move(next));
     if (asked)
         events_.key_due(stream, encoder.setting.id);
 }
@@ -227,87 +242,116 @@ bool LaneEncoders::encode_and_end(E& encoder, const Picture& picture,
         bool done = false;
         ~End() { encoders.end(encoder, done, encoders.environment_.cpu_time() - began, stream); }
     } end{*this, encoder, header.stream, environment_.cpu_time()};
-    end.done = encode(encoder, picture, header, key);
+    bool key_due;
+    {
+        const std::lock_guard lock(encoder.mutex);
+        key_due = std::exchange(encoder.key_due, true);  // until it is encoded
+    }
+    end.done = encode(encoder, picture, header, key || key_due);
     return end.done;
 }
 
 template <class E, class Keep, class Picture>
-void LaneEncoders::encode_behind(std::shared_ptr<E> encoder, Keep keep, Picture picture,
+void LaneEncoders::encode_behind(std::shared_ptr<E> encoder, Turn turn, Keep keep, Picture picture,
                                  const wire::MediaHeader& header, bool key) {
+    const auto work = [this, encoder, keep = std::move(keep), picture, header, key] {
+        bool stopping;
+        {
+            const std::lock_guard lock(behind_mutex_);
+            stopping = stopping_;
+        }
+        if (stopping) {
+            // They own the encoder, and it owns them.
+            std::deque<std::function<void()>> given_up;
+            const std::lock_guard lock(encoder->mutex);
+            given_up.swap(encoder->waiting);
+        } else {
+            try {
+                encode_and_end(*encoder, picture(*keep), header, key);
+            } catch (const std::exception&) {
+                // Memory is exhausted or a library failed: this picture is missing, the next is a
+                // key frame.
+            }
+        }
+        // Notified under the lock: the encoders may be gone as soon as none is behind.
+        const std::lock_guard lock(behind_mutex_);
+        --behind_;
+        behind_done_.notify_all();
+    };
+    if (turn == Turn::waits) {
+        const std::lock_guard lock(encoder->mutex);
+        // It may have ended the picture before since begin().
+        if (encoder->busy) {
+            encoder->waiting.push_back(work);
+            return;
+        }
+        encoder->busy = true;
+    }
+    go_behind(work);
+}
+
+// The work ends with --behind_.
+void LaneEncoders::go_behind(std::function<void()> work) {
     {
         const std::lock_guard lock(behind_mutex_);
         ++behind_;
     }
-    environment_.behind(
-        [this, encoder = std::move(encoder), keep = std::move(keep), picture, header, key] {
-            bool stopping;
-            {
-                const std::lock_guard lock(behind_mutex_);
-                stopping = stopping_;
-            }
-            if (!stopping) {
-                try {
-                    encode_and_end(*encoder, picture(*keep), header, key);
-                } catch (const std::exception&) {
-                    // Memory is exhausted or a library failed: this picture is missing, the next is
-                    // a key frame.
-                }
-            }
-            // Notified under the lock: the encoders may be gone as soon as none is behind.
-            const std::lock_guard lock(behind_mutex_);
-            --behind_;
-            behind_done_.notify_all();
-        });
+    environment_.behind(std::move(work));
 }
 
 void LaneEncoders::encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys) {
     header.stream = depth_stream(camera_);
-    const auto begin_with = [&](Depth& encoder) {
-        header.setting = encoder.setting.id;
-        header.codec = encoder.codec;
-        return begin(encoder, keys.contains({header.stream, header.setting}));
-    };
-    choose(depth_, depth_at_once_);
-    for (const std::size_t i : depth_at_once_)
-        if (const auto key = begin_with(*depth_[i]))
-            encode_and_end(*depth_[i], depth, header, *key);
     std::shared_ptr<DepthImage> copy;
-    for (const auto& encoder : depth_) {
-        if (encoder->at_once)
-            continue;
-        const auto key = begin_with(*encoder);
-        if (!key)
-            continue;
+    const auto encode_with = [&](const std::shared_ptr<Depth>& encoder) {
+        header.setting = encoder->setting.id;
+        header.codec = encoder->codec;
+        const bool key = keys.contains({header.stream, header.setting});
+        const Turn turn = begin(*encoder, key);
+        if (turn == Turn::left_out)
+            return;
+        if (turn == Turn::now && encoder->at_once) {
+            encode_and_end(*encoder, depth, header, key);
+            return;
+        }
         if (!copy) {
             copy = depths_.take();
             copy->resize(depth.size);
             copy_pixels(depth, copy->view());
         }
         encode_behind(
-            encoder, std::shared_ptr<const DepthImage>(copy),
-            [](const DepthImage& image) { return image.view(); }, header, *key);
-    }
+            encoder, turn, std::shared_ptr<const DepthImage>(copy),
+            [](const DepthImage& image) { return image.view(); }, header, key);
+    };
+    choose(depth_, depth_at_once_);
+    for (const std::size_t i : depth_at_once_)
+        encode_with(depth_[i]);
+    for (const auto& encoder : depth_)
+        if (!encoder->at_once)
+            encode_with(encoder);
 }
 
 int LaneEncoders::encode_color(const FramePtr& frame, wire::MediaHeader header,
                                const WantedKeys& keys) {
     header.stream = color_stream(camera_);
-    const auto begin_with = [&](Color& encoder) {
-        header.setting = encoder.setting.id;
-        header.codec = encoder.codec;
-        return begin(encoder, keys.contains({header.stream, header.setting}));
-    };
     int damaged = 0;
+    const auto encode_with = [&](const std::shared_ptr<Color>& encoder) {
+        header.setting = encoder->setting.id;
+        header.codec = encoder->codec;
+        const bool key = keys.contains({header.stream, header.setting});
+        const Turn turn = begin(*encoder, key);
+        if (turn == Turn::now && encoder->at_once)
+            damaged += !encode_and_end(*encoder, frame->color, header, key);
+        else if (turn != Turn::left_out)
+            encode_behind(
+                encoder, turn, frame, [](const Frame& f) -> const ColorData& { return f.color; },
+                header, key);
+    };
     choose(color_, color_at_once_);
     for (const std::size_t i : color_at_once_)
-        if (const auto key = begin_with(*color_[i]))
-            damaged += !encode_and_end(*color_[i], frame->color, header, *key);
+        encode_with(color_[i]);
     for (const auto& encoder : color_)
         if (!encoder->at_once)
-            if (const auto key = begin_with(*encoder))
-                encode_behind(
-                    encoder, frame, [](const Frame& f) -> const ColorData& { return f.color; },
-                    header, *key);
+            encode_with(encoder);
     return damaged;
 }
 

@@ -4,10 +4,13 @@
 // A frame is encoded at once in the cheapest setting and in those that take no more than their
 // share (encoder_cost.h), and each is published as soon as it is done. Background threads encode
 // the other settings; while such an encoder is busy, frames are skipped in its stream alone. Its
-// chain of references stays whole, because an encoder refers only to frames that it encoded.
+// chain of references stays whole, because an encoder refers only to frames that it encoded. The
+// cost of a new setting is not known yet: a few of its first frames wait instead of being skipped,
+// so that a recording that begins with them misses none.
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -49,6 +52,9 @@ Duration thread_cpu_time();
 // Depth and colour may be encoded at the same time, each by one thread.
 class LaneEncoders {
 public:
+    // Frames that wait for a busy encoder, until its cost is known.
+    static constexpr std::size_t max_waiting = 8;
+
     struct Events {
         // Called from the thread that encoded.
         std::function<void(EncodedMedia)> publish;
@@ -107,6 +113,8 @@ private:
         bool key_due = true;     // the next picture must be a key frame
         bool key_asked = false;  // while it was busy
         bool behind = false;
+        // Only while it is busy; in their order.
+        std::deque<std::function<void()>> waiting;
         EncoderCost cost;
         KeepingUp keeping_up;
         std::uint64_t left_out = 0;
@@ -126,9 +134,12 @@ private:
     // Writes the encoders that encode the picture at once into `at_once`.
     template <class E>
     void choose(const std::vector<std::shared_ptr<E>>& encoders, std::vector<std::size_t>& at_once);
-    // Empty if the encoder is busy and skips the picture. Otherwise true if the picture must be a
-    // key frame; end() must follow.
-    std::optional<bool> begin(Encoder& encoder, bool key);
+    enum class Turn : std::uint8_t {
+        now,       // the picture is its next one; end() must follow
+        waits,     // encode_behind() adds it to those that wait
+        left_out,  // the encoder is busy and skips it
+    };
+    Turn begin(Encoder& encoder, bool key);
     void end(Encoder& encoder, bool done, Duration cpu, StreamId stream);
     // Between begin() and end(); false if the picture could not be encoded.
     bool encode(Depth& encoder, DepthView depth, wire::MediaHeader header, bool key);
@@ -138,8 +149,9 @@ private:
     bool encode_and_end(E& encoder, const Picture& picture, const wire::MediaHeader& header,
                         bool key);
     template <class E, class Keep, class Picture>
-    void encode_behind(std::shared_ptr<E> encoder, Keep keep, Picture picture,
+    void encode_behind(std::shared_ptr<E> encoder, Turn turn, Keep keep, Picture picture,
                        const wire::MediaHeader& header, bool key);
+    void go_behind(std::function<void()> work);
     void publish(wire::MediaHeader& header, ByteView payload);
 
     const CameraId camera_;

@@ -222,6 +222,28 @@ TEST_F(Encoders, ASettingWithinItsShareComesAtOnceSoonAfterItsFirstFrames) {
     expect_whole_chain(other, "ans:delta=1");
 }
 
+// A recording may begin with the first frame of a setting.
+TEST_F(Encoders, ANewSettingLosesNoneOfItsFirstFramesWhileTheThreadsBehindAreBusy) {
+    set({{cheap, "trvl"}});
+    for (int i = 0; i < 5; ++i)
+        give_depth();
+    set({{cheap, "trvl"}, {other, "ans:delta=1"}});
+    for (int i = 0; i < 6; ++i)
+        give_depth();
+    EXPECT_EQ(published[other].size(), 0u);
+    for (int i = 0; i < 3; ++i)  // it is known now, and frames wait still
+        do_behind();
+    give_depth();
+    while (do_behind()) {
+    }
+    for (int i = 0; i < 10; ++i)
+        give_depth();
+    EXPECT_EQ(published[other].size(), 17u);
+    EXPECT_EQ(encoders->figures()[1].left_out, 0u);
+    EXPECT_FALSE(encoders->figures()[1].behind);
+    expect_whole_chain(other, "ans:delta=1");
+}
+
 TEST_F(Encoders, NobodyIsToldThatASettingIsTooDearBeforeItIsMeasured) {
     set({{cheap, "trvl"}});
     for (int i = 0; i < 5; ++i)
@@ -243,6 +265,10 @@ TEST_F(Encoders, AKeyFrameWantedOfABusyEncoderComesNext) {
     give_depth();
     give_depth();
     set({{cheap, "trvl"}, {dear, "zstd:delta=1,level=19"}});
+    for (int i = 0; i < 2; ++i) {
+        give_depth();
+        do_behind();
+    }
     give_depth();
     keys = {{depth_stream(camera), dear}};
     give_depth();  // it is busy with the one before
@@ -251,8 +277,8 @@ TEST_F(Encoders, AKeyFrameWantedOfABusyEncoderComesNext) {
     EXPECT_EQ(due, std::vector{dear}) << "the lane may have no frame for long";
     give_depth();
     do_behind();
-    ASSERT_EQ(published[dear].size(), 2u);
-    EXPECT_TRUE(published[dear][1].header.key);
+    ASSERT_EQ(published[dear].size(), 4u);
+    EXPECT_TRUE(published[dear][3].header.key);
     EXPECT_FALSE(published[cheap].back().header.key);
     expect_whole_chain(dear, "zstd:delta=1,level=19");
 }
