@@ -79,6 +79,7 @@ struct Flags {
     double max_mbit = 0;
     bool json = false;
     bool no_window = false;
+    bool may_record = false;
     std::string render_scale = "auto";
 
     // Whoever asks for files or figures wants no window.
@@ -265,7 +266,7 @@ void run(const Flags& flags) {
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
-        publisher = open_published(flags.cameras, {}, "");
+        publisher = open_published(flags.cameras, {}, "", flags.may_record);
         options.publishing = publisher->events();
     }
 
@@ -391,6 +392,11 @@ void add_join_command(CLI::App& app) {
                      "A camera of yours that the others see, spelt as for theatron host --camera; "
                      "needs the host's link for those who may. Repeat for more")
         ->allow_extra_args(false);
+    command
+        ->add_flag("--may-record", flags->may_record,
+                   "Agree that other participants record your cameras; without it the host sends "
+                   "them to no recorder")
+        ->needs("--publish");
     command->add_option("--offscreen", flags->offscreen,
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,

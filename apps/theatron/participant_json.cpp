@@ -76,7 +76,11 @@ nlohmann::json participant_json(const client::Participant& participant) {
     for (const client::CameraFigures& camera : figures.cameras)
         cameras.push_back(camera_json(camera));
     const OldestAge age(figures);
+    nlohmann::json recordings = nlohmann::json::array();
+    for (const auto& [name, lasts] : figures.recordings)
+        recordings.push_back({{"name", name}, {"seconds", to_seconds(lasts)}});
     return {{"host", status.host_name},
+            {"recordings", recordings},
             {"phase", client::text_of(status.phase)},
             {"cameras", cameras},
             {"fps", figures.frames_per_second()},
@@ -108,6 +112,8 @@ std::string status_line(const client::Participant& participant) {
                   figures.mbit_per_second(), OldestAge(figures).p50,
                   static_cast<unsigned long long>(figures.dropped()));
     std::string line = text + codecs_of_last(figures);
+    if (const std::string recorded = client::recorded_text(figures); !recorded.empty())
+        line += "  " + recorded;
     if (status.delivery.level > 0)
         line += "  sent: " + wire::sent_part(status.delivery) + " (" +
                 wire::english(status.delivery.reason) + ")";

@@ -28,6 +28,7 @@ struct Flags {
     std::vector<std::string> cameras, filters;
     std::string places;
     double seconds = 0, every = 0;
+    bool may_record = false;
 };
 
 nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
@@ -80,7 +81,8 @@ void run(const Flags& flags) {
     options.sends_only = true;
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
-    const auto publisher = open_published(flags.cameras, flags.filters, flags.places);
+    const auto publisher =
+        open_published(flags.cameras, flags.filters, flags.places, flags.may_record);
     options.publishing = publisher->events();
 
     cli::catch_stop_signals();
@@ -133,6 +135,9 @@ void add_publish_command(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_option("--places", flags->places,
                         "Where the cameras are in the room: a file that 'theatron register' wrote");
+    command->add_flag("--may-record", flags->may_record,
+                      "Agree that other participants record these cameras; without it the host "
+                      "sends them to no recorder");
     command->add_option("--name", flags->name, "Name shown in the session")->capture_default_str();
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     cli::add_seconds_option(*command, flags->every,

@@ -335,6 +335,7 @@ void run(const Flags& flags) {
                                     {"dropped", missing.dropped},
                                     {"lost", missing.lost},
                                     {"room_bytes", f.room_bytes},
+                                    {"not_agreed", source->not_agreed()},
                                     {"cut_bytes", f.cut_bytes},
                                     {"missing_end_seconds", missing_end},
                                     {"complete", complete},

@@ -156,6 +156,12 @@ public:
     };
     Room room() const;
     std::uint64_t room_version() const;
+    // The participants that record, without those of a replay.
+    struct Recording {
+        std::string name;
+        TimePoint since;  // session time
+    };
+    std::vector<Recording> recordings() const;
     ParticipantId room_self() const;
     // Sends a request to the host. Returns its number; 0 while the room is not known.
     std::uint32_t ask_room(const session::Request& request);

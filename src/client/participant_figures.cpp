@@ -52,6 +52,17 @@ std::uint64_t ParticipantFigures::dropped() const {
     return sum;
 }
 
+std::string recorded_text(const ParticipantFigures& figures) {
+    std::string text;
+    for (const auto& [name, lasts] : figures.recordings) {
+        const auto seconds = std::max<std::int64_t>(lasts / std::chrono::seconds(1), 0);
+        text += (text.empty() ? "recorded by " : "; ") + name + ", " +
+                (seconds < 120 ? std::to_string(seconds) + " s"
+                               : std::to_string(seconds / 60) + " min");
+    }
+    return text;
+}
+
 ParticipantFigures figures_of(const Participant& participant) {
     ParticipantFigures figures;
     figures.status = participant.status();
@@ -68,6 +79,8 @@ ParticipantFigures figures_of(const Participant& participant) {
         }
         figures.cameras.push_back(std::move(of_camera));
     }
+    for (const Participant::Recording& one : participant.recordings())
+        figures.recordings.push_back({one.name, participant.now() - one.since});
     return figures;
 }
 

@@ -25,6 +25,11 @@ struct CameraFigures {
 struct ParticipantFigures {
     Participant::Status status;
     std::vector<CameraFigures> cameras;
+    struct Recording {
+        std::string name;  // of the participant that records
+        Duration lasts{};
+    };
+    std::vector<Recording> recordings = {};
 
     // Rate of the slowest camera, and of the slowest one that is live.
     double frames_per_second() const;
@@ -33,6 +38,9 @@ struct ParticipantFigures {
     double mbit_per_second() const;
     std::uint64_t dropped() const;
 };
+
+// "recorded by Anna, 12 s; Ben, 3 min"; empty if nobody records.
+std::string recorded_text(const ParticipantFigures& figures);
 
 ParticipantFigures figures_of(const Participant& participant);
 

@@ -39,6 +39,19 @@ Participant::Room Participant::room() const {
     return {shared_->room.self(), shared_->room.version(), shared_->room.objects()};
 }
 
+std::vector<Participant::Recording> Participant::recordings() const {
+    const std::lock_guard lock(shared_->mutex);
+    std::vector<Recording> recordings;
+    if (!shared_->room.known())
+        return recordings;
+    for (const auto& [id, object] : shared_->room.confirmed())
+        if (object.kind == session::ObjectKind::person && !session::is_recorded(id))
+            if (const auto facts = session::decode_person(object.properties);
+                facts && facts->records)
+                recordings.push_back({facts->name, object.moved_at});
+    return recordings;
+}
+
 std::uint64_t Participant::room_version() const {
     const std::lock_guard lock(shared_->mutex);
     return shared_->room.version();

@@ -106,6 +106,11 @@ public:
     std::uint64_t lost_in_source(CameraId) const override { return 0; }
     bool was_gone(CameraId) const override { return false; }
 
+    std::vector<std::string> not_agreed() const override {
+        const std::lock_guard lock(mutex_);
+        return not_agreed_;
+    }
+
     void stop() override {
         {
             // Its thread may be in on_media(), which uses the participant.
@@ -174,6 +179,25 @@ private:
         }
     }
 
+    // The mutex is held. Says once which cameras the host does not send.
+    std::vector<Participant::Camera> recordable_cameras() {
+        std::uint64_t generation = 0;
+        std::vector<Participant::Camera> cameras = participant_->cameras(generation);
+        std::erase_if(cameras, [&](const Participant::Camera& camera) {
+            const wire::Camera& d = camera.description;
+            if (!d.may_record && left_out_.insert({joins_, d.id}).second) {
+                if (std::find(not_agreed_.begin(), not_agreed_.end(), d.name) == not_agreed_.end())
+                    not_agreed_.push_back(d.name);
+                std::fprintf(stderr,
+                             "Camera %s is left out: its participant has not agreed to be "
+                             "recorded (--may-record).\n",
+                             d.name.c_str());
+            }
+            return !d.may_record;
+        });
+        return cameras;
+    }
+
     // On the participant's thread, before the media that it is about.
     void on_described() {
         const std::lock_guard lock(mutex_);
@@ -188,8 +212,7 @@ private:
             early_.clear();
             early_bytes_ = 0;
         }
-        std::uint64_t generation = 0;
-        number_cameras(participant_->cameras(generation));
+        number_cameras(recordable_cameras());
         std::vector<record::RecordedCamera> cameras;
         std::map<StreamId, SettingId> settings;
         if (describe(cameras, settings)) {
@@ -208,9 +231,8 @@ private:
     // False as long as the settings are still on their way.
     bool describe(std::vector<record::RecordedCamera>& cameras,
                   std::map<StreamId, SettingId>& settings) {
-        std::uint64_t generation = 0;
         const auto sent = participant_->settings();
-        for (const Participant::Camera& camera : participant_->cameras(generation)) {
+        for (const Participant::Camera& camera : recordable_cameras()) {
             const wire::Camera& d = camera.description;
             const auto number = recorded_as(d.id);
             if (!number)
@@ -330,7 +352,9 @@ private:
     record::Intake intake_;
     std::optional<End> end_;
 
-    std::mutex mutex_;  // guards all below but the participant
+    mutable std::mutex mutex_;                     // guards all below but the participant
+    std::set<std::pair<int, CameraId>> left_out_;  // cameras of each connection
+    std::vector<std::string> not_agreed_;
     bool stopped_ = false;
     int joins_ = 0;
     bool new_connection_ = false;

@@ -34,7 +34,7 @@ void shift(TimePoint& time, Duration offset) {
 }  // namespace
 
 CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const std::string& places,
-                                 const capture::Progress& progress)
+                                 const capture::Progress& progress, bool may_record)
     : specifications_(std::move(specifications)),
       places_(places.empty() ? capture::CameraPlaces() : capture::load_places(places)),
       states_(specifications_.size()) {
@@ -43,7 +43,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
         const capture::CameraInfo& info = cameras.back()->info();
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
-                           encode_calibration(info.calibration)});
+                           encode_calibration(info.calibration), may_record});
     }
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));

@@ -27,8 +27,9 @@ class CameraPublisher {
 public:
     // Opens the cameras; throws Error with one sentence if one cannot be opened. `places`: a file
     // with their poses in the room (docs/formats/places.md); empty: the cameras have none.
+    // `may_record`: others may record them.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
-                    const capture::Progress& progress);
+                    const capture::Progress& progress, bool may_record = false);
     ~CameraPublisher();
 
     std::vector<std::string> camera_names() const;

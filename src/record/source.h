@@ -41,6 +41,8 @@ public:
     virtual std::uint64_t not_encoded(CameraId camera) const = 0;
     // Pictures that were lost in the recording that a camera plays.
     virtual std::uint64_t lost_in_source(CameraId camera) const = 0;
+    // Names of cameras that may not be recorded, in the order of their coming.
+    virtual std::vector<std::string> not_agreed() const { return {}; }
     // A camera was gone for a while.
     virtual bool was_gone(CameraId camera) const = 0;
     // No more frames from now on.

@@ -30,6 +30,10 @@ public:
 
     const wire::Camera& description() const { return description_; }
     ParticipantId publisher() const { return description_.publisher; }
+    // Nobody gets its own camera, and a recorder only cameras that may be recorded.
+    bool is_for(ParticipantId receiver, bool records) const {
+        return publisher() != receiver && (description_.may_record || !records);
+    }
     StreamId stream(bool depth) const {
         return depth ? description_.depth_stream : description_.color_stream;
     }

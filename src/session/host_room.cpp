@@ -20,8 +20,8 @@ bool names_recorded(const Request& request) {
 
 }  // namespace
 
-void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room) {
-    tell(state_.on_joined(id, encode_person(facts)));
+void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now) {
+    tell(state_.on_joined(id, encode_person(facts), now));
     members_[id].keeps_room = keeps_room;
     if (keeps_room)
         send_snapshot(id);

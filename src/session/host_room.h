@@ -28,7 +28,7 @@ public:
         : state_(restored), actions_(actions) {}
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
-    void join(ParticipantId id, const PersonFacts& facts, bool keeps_room);
+    void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {});
     void leave(ParticipantId id);
     void on_request(ParticipantId id, const wire::RoomRequest& message);
     // Refuses a request unread, because there were too many.

@@ -118,7 +118,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, {participant.role, participant.records, participant.name},
-                   participant.has(wire::Feature::room));
+                   participant.has(wire::Feature::room), participant.connected);
 }
 
 void HostSession::describe_session(ParticipantId id) {

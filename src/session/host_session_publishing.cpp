@@ -28,6 +28,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
         camera.has_color = offered.has_color;
         camera.frames_per_second = offered.frames_per_second;
         camera.calibration = offered.calibration;
+        camera.may_record = offered.may_record;
         camera.session = config_.session;
         cameras.push_back(std::move(camera));
     }

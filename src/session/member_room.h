@@ -35,6 +35,8 @@ public:
 
     // The objects as the host decided, changed by this participant's undecided requests.
     RoomObjects objects() const { return known_ ? replica_.predicted() : RoomObjects(); }
+    // The objects as the host decided.
+    const RoomObjects& confirmed() const { return replica_.confirmed(); }
     bool known() const { return known_; }
     ParticipantId self() const { return self_; }
     // Grows with each change, of others or of this participant.

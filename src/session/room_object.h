@@ -39,7 +39,7 @@ struct RoomObject {
     ObjectKind kind{};
     ParticipantId creator{};
     Grip grip;
-    TimePoint moved_at;  // session time of the newest pose of this grip
+    TimePoint moved_at;  // session time of the newest pose of this grip; of a person: when it came
     Pose room_from_object;
     double scale = 1;
     // The meaning depends on the kind; the host does not read them.

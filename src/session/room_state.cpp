@@ -37,10 +37,10 @@ RoomChange RoomState::changed(ObjectId object) {
             found == objects_.end() ? std::nullopt : std::optional(found->second)};
 }
 
-RoomChange RoomState::on_joined(ParticipantId participant, Bytes properties) {
+RoomChange RoomState::on_joined(ParticipantId participant, Bytes properties, TimePoint joined) {
     participants_.insert(participant);
     const ObjectId person{++newest_id_};
-    objects_[person] = {ObjectKind::person, participant, {}, {}, {}, 1, std::move(properties)};
+    objects_[person] = {ObjectKind::person, participant, {}, joined, {}, 1, std::move(properties)};
     return changed(person);
 }
 

@@ -25,8 +25,9 @@ public:
     // Continues from a snapshot, for example after a restart of the host. No object is held.
     explicit RoomState(const RoomSnapshot& snapshot);
 
-    // Creates the participant's person object with these properties. Only the host changes it.
-    RoomChange on_joined(ParticipantId participant, Bytes properties);
+    // Creates the participant's person object with these properties; `joined`, session time,
+    // becomes its moved_at. Only the host changes it.
+    RoomChange on_joined(ParticipantId participant, Bytes properties, TimePoint joined = {});
     // Releases the objects that it held where they are, and removes its person object.
     std::vector<RoomChange> on_left(ParticipantId participant);
 

@@ -59,9 +59,9 @@ protected:
         say(id, hello);
     }
     // Offers this many cameras; their numbers.
-    std::vector<CameraId> publish(ParticipantId id, std::size_t cameras) {
-        say(id, wire::Publish{
-                    std::vector<wire::OfferedCamera>(cameras, {"face", true, 30, calibration()})});
+    std::vector<CameraId> publish(ParticipantId id, std::size_t cameras, bool may_record = false) {
+        say(id, wire::Publish{std::vector<wire::OfferedCamera>(
+                    cameras, {"face", true, 30, calibration(), may_record})});
         actions = session.take_actions();
         const auto answers = sent<wire::Published>(id);
         return answers.empty() ? std::vector<CameraId>() : answers.back().cameras;
@@ -135,6 +135,45 @@ TEST_F(SessionOfMany, ACameraOfAParticipantReachesTheOthers) {
     actions = session.take_actions();
     EXPECT_EQ(sent<wire::Welcome>(carol).at(0).cameras.size(), 2u);
     EXPECT_TRUE(all<action::Close>().empty());
+}
+
+TEST_F(SessionOfMany, ARecorderGetsTheCamerasOfTheHostAndOfThoseWhoAgree) {
+    join(alice, "publish");
+    const auto join_recorder = [&](ParticipantId id, const char* codec) {
+        session.on_connected(id, now);
+        wire::Join hello;
+        hello.token = "watch";
+        hello.depth_codec = codec;
+        hello.color_codec = "jpeg";
+        hello.records = true;
+        say(id, hello);
+    };
+    // One that is there before the cameras, one that comes later, with a codec of its own.
+    join_recorder(bob, "strata");
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(bob, depth_stream(CameraId{0})), "strata") << "the host's own";
+    const auto refused = publish(alice, 1), agreed = publish(alice, 1, true);
+    EXPECT_EQ(codec_of(bob, depth_stream(agreed.at(0))), "strata");
+    EXPECT_TRUE(sent<wire::CamerasAdded>(bob).at(0).cameras.at(0).may_record);
+    join_recorder(carol, "zstd");
+    session.on_link(carol, {1e6, Duration(1000), Duration(1000), 0}, now);
+    session.resynchronise(carol);
+    say(carol, wire::ChooseCodecs{"lz4", "", {}});
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(carol, depth_stream(refused.at(0))), "");
+    EXPECT_NE(codec_of(carol, depth_stream(agreed.at(0))), "");
+    EXPECT_FALSE(sent<wire::Welcome>(carol).at(0).cameras.at(1).may_record);
+    for (const bool may : {false, true}) {
+        const CameraId camera = may ? agreed.at(0) : refused.at(0);
+        std::size_t receivers = 0;
+        for (const auto& setting : session.depth_settings(camera))
+            receivers += session.on_media_from(alice, picture(camera, setting.id), now).size();
+        EXPECT_EQ(receivers, may ? 2u : 0u);
+    }
+    // A viewer gets both.
+    join(ParticipantId{77});
+    actions = session.take_actions();
+    EXPECT_EQ(codec_of(ParticipantId{77}, depth_stream(refused.at(0))), "strata");
 }
 
 TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {

@@ -24,7 +24,7 @@ void Streams::join(ParticipantId id, const Wish& wish, bool records) {
     receiver.delivery.set_codecs(config_.codecs, region_is_drawn_);
     receiver.delivery.set_wish(wish.depth, wish.color);
     for (auto& [camera, streams] : cameras_)
-        if (streams.publisher() != id) {
+        if (streams.is_for(id, records)) {
             set_wish(id, receiver, streams, true);
             set_wish(id, receiver, streams, false);
         }
@@ -81,7 +81,7 @@ void Streams::choose(ParticipantId id, const Wish& wish, const std::vector<Camer
     for (auto& [camera, streams] : cameras_) {
         const bool is_meant =
             cameras.empty() || std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
-        if (streams.publisher() == id || !is_meant)
+        if (!streams.is_for(id, receiver.records) || !is_meant)
             continue;
         if (!wish.depth.empty())
             set_wish(id, receiver, streams, true);
@@ -109,7 +109,7 @@ const LadderStep& Streams::step_for(ParticipantId id, Receiver& receiver,
 // Asks for the encodings of the receiver's step.
 void Streams::take_step(ParticipantId id, Receiver& receiver) {
     for (auto& [number, camera] : cameras_)
-        if (camera.publisher() != id)
+        if (camera.is_for(id, receiver.records))
             take_step(id, receiver, camera);
 }
 
@@ -134,7 +134,7 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
     Receiver& receiver = found->second;
     std::vector<Delivery::Given> given;
     for (const auto& [number, camera] : cameras_)
-        if (camera.publisher() != id)
+        if (camera.is_for(id, receiver.records))
             given.push_back(
                 {&camera.table(true).given(id),
                  camera.description().has_color ? &camera.table(false).given(id) : nullptr,

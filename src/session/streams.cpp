@@ -41,6 +41,7 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
         camera.depth_stream = depth_stream(camera.id);
         camera.color_stream = color_stream(camera.id);
         camera.publisher = publisher;
+        camera.may_record = camera.may_record || publisher == host_publisher;
         const int slot = free_slot();
         stand_apart(camera, slot * unregistered_distance_m);
         CameraStreams& streams =
@@ -48,7 +49,7 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
                 .first->second;
         streams.slot = slot;
         for (auto& [id, receiver] : receivers_)
-            if (id != publisher) {
+            if (streams.is_for(id, receiver.records)) {
                 set_wish(id, receiver, streams, true);
                 set_wish(id, receiver, streams, false);
                 take_step(id, receiver, streams);

@@ -90,12 +90,15 @@ bool drawing_is_slow(const Facts& facts) {
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
-    const auto& [status, cameras] = facts.received;
+    const auto& [status, cameras, recordings] = facts.received;
     std::vector<xr::Fact> line;
     line.push_back({"Host", status.host_name.empty() ? address : status.host_name});
     const xr::Fact age{"Age of picture", facts.age_ms ? age_text(*facts.age_ms) : "unknown",
                        facts.age_ms && *facts.age_ms > old_ms};
     if (status.phase == Phase::joined) {
+        // Visible to everybody, first of all.
+        if (!recordings.empty())
+            line.push_back({"Recording", client::recorded_text(facts.received), true});
         line.push_back(cameras_fact(cameras));
         if (facts.has_picture)
             line.push_back(age);

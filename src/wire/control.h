@@ -109,12 +109,15 @@ struct OfferedCamera {
     bool has_color = false;
     double frames_per_second = 0;
     Bytes calibration;  // geometry/calibration.h
+    // Its participant agrees that others record it; else the host sends it to no recorder.
+    bool may_record = false;
 
     static void fields(auto& m, auto&& field) {
         field(m.name, max_name);
         field(m.has_color);
         field(m.frames_per_second);
         field(m.calibration, max_calibration_size);
+        field(m.may_record);
     }
 };
 
@@ -209,6 +212,7 @@ struct Camera {
     Bytes calibration;          // geometry/calibration.h
     ParticipantId publisher{};  // 0: the host
     SessionId session{};        // to which it belongs
+    bool may_record = false;    // as in OfferedCamera; always for the host's own
 
     static void fields(auto& m, auto&& field) {
         field(m.id);
@@ -220,6 +224,7 @@ struct Camera {
         field(m.calibration, max_calibration_size);
         field(m.publisher);
         field(m.session);
+        field(m.may_record);
     }
 };
 

@@ -144,7 +144,8 @@ class Publishing(unittest.TestCase):
             for one in watching:
                 one.wait_for(lambda f: f["fps"] > 0, 15)
             recorder = stack.enter_context(Process("record", h.greeting["link"], file))
-            stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"]))
+            stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"],
+                                              "--may-record"))
             # A setting that is new may leave out frames until its cost is known.
             before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20, 20) for one in watching]
             others = {}
@@ -163,7 +164,10 @@ class Publishing(unittest.TestCase):
                     # A busy machine may cost a frame; a chain that breaks costs dozens.
                     self.assertLessEqual(lost, 2, figures)
                     self.assertGreater(camera(figures, number)["fps"], 1)
-            self.assertEqual(stay.newest_json()["joins"], 1)
+            figures = stay.newest_json()
+            self.assertEqual(figures["joins"], 1)
+            self.assertEqual([one["name"] for one in figures["recordings"]], ["recorder"], "all see who records")
+            self.assertGreater(figures["recordings"][0]["seconds"], 1)
             recorder.process.terminate()
             # When a camera joins, a segment begins, with key frames; pictures before them are missing (exit code 3).
             self.assertIn(recorder.end(), (0, 3), recorder.errors)
@@ -171,6 +175,8 @@ class Publishing(unittest.TestCase):
         self.assertIn(code, (0, 3), errors)
         for name in ("lamp", "face"):
             self.assertIn(name, out)
+        self.assertNotIn("hand", out, "its participant has not agreed")
+        self.assertTrue(any("Camera hand is left out" in line for line in recorder.errors), recorder.errors)
 
 
 if __name__ == "__main__":
