@@ -254,17 +254,21 @@ void add_pipeline(CLI::App& bench) {
 void add_interaction(CLI::App& bench) {
     struct Flags {
         InteractionBench bench;
+        int generated = 0;
         std::string json;
     };
     const auto flags = std::make_shared<Flags>();
     InteractionBench& b = flags->bench;
     CLI::App* command = bench.add_subcommand(
-        "interaction", "How late the poses of others are while pictures come, between processes");
+        "interaction",
+        "How late actions of others in the room are while pictures come, between processes");
     command->footer(
-        "Example: theatron bench interaction --camera synthetic:color=depth,preload=1 --json -\n"
+        "Example: theatron bench interaction --cameras 4 --json -\n"
         "tests/end_to_end/interaction_run.py puts a slow link between host and viewer.");
-    cli::add_camera_option(*command, b.cameras)->required();
-    command->add_option("--people", b.people, "Participants that move; one more views")
+    cli::add_camera_option(*command, b.cameras);
+    command->add_option("--cameras", flags->generated, "So many generated cameras, made before")
+        ->check(CLI::Range(1, 16));
+    command->add_option("--people", b.people, "Participants that move; two more move and act")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     command->add_option("--seconds", b.seconds, "Measured time")
@@ -290,6 +294,10 @@ void add_interaction(CLI::App& bench) {
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
+        for (int i = 0; i < flags->generated; ++i)
+            flags->bench.cameras.push_back("synthetic:color=depth,preload=1");
+        if (flags->bench.cameras.empty())
+            throw Error("Say which cameras stream meanwhile: --cameras 4, or --camera SPEC.");
         const nlohmann::json r = bench_interaction(flags->bench);
         report(r, flags->json, [&] {
             std::printf("%d participants, %d camera(s), %zu poses\n", r["participants"].get<int>(),
@@ -300,6 +308,18 @@ void add_interaction(CLI::App& bench) {
             std::printf("  round trips, the same: p50 %.1f ms, p99 %.1f ms\n",
                         r["round_trip_ms"]["p50"].get<double>(),
                         r["round_trip_ms"]["p99"].get<double>());
+            const auto print_times = [&](const char* what, const nlohmann::json& times) {
+                if (times["count"] == 0)
+                    std::printf("  %s: none came\n", what);
+                else
+                    std::printf("  %s: p50 %.1f ms, p95 %.1f ms, p99 %.1f ms, of %zu\n", what,
+                                times["p50"].get<double>(), times["p95"].get<double>(),
+                                times["p99"].get<double>(), times["count"].get<std::size_t>());
+            };
+            print_times("a movement, at another participant", r["grabs"]["move_ms"]);
+            print_times("there and back", r["grabs"]["there_and_back_ms"]);
+            print_times("a grab or release, at another participant", r["grabs"]["grab_ms"]);
+            std::printf("  host: %.2f cores\n", r["host_cores"].get<double>());
             const auto& pictures = r["pictures"];
             std::printf("  pictures: lowest %.1f fps, %.1f Mbit/s, age p50 %.0f ms, p99 %.0f ms\n",
                         pictures["fps_min"].get<double>(), pictures["mbit_per_s"].get<double>(),

@@ -17,8 +17,10 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "base/steady_clock.h"
+#include "bench_grabs.h"
 #include "child_process.h"
 #include "client/participant.h"
+#include "process_usage.h"
 
 namespace theatron::bench {
 namespace {
@@ -81,14 +83,20 @@ struct Ages {
     std::vector<double> ms;
 };
 
+enum class Part { mover, viewer, actor };
+
 std::unique_ptr<Participant> join(const InteractionBench& bench, const net::Link& link, Ages& ages,
-                                  bool views) {
+                                  Grabs& grabs, Part part) {
     Participant::Options options;
     options.link = link;
-    options.name = views ? "viewer" : "mover";
+    options.name = part == Part::viewer ? "viewer" : part == Part::actor ? "actor" : "mover";
     options.depth_codec = bench.depth_codec;
     options.color_codec = bench.color_codec;
-    if (views) {
+    if (part == Part::actor) {
+        options.delivery = {std::uint32_t(bench.target_latency_ms), 0};
+        grabs.prepare_actor(options);
+    } else if (part == Part::viewer) {
+        grabs.prepare_partner(options);
         options.delivery = {std::uint32_t(bench.target_latency_ms), 0};
         options.pose = [&ages](ParticipantId, const wire::PersonPose& pose) {
             // One machine has one clock, which is the session's.
@@ -151,14 +159,18 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     const net::Link link = net::parse_link(greeting["link"].get<std::string>());
 
     Ages ages;
+    Grabs grabs;  // longer than the participants
     std::vector<std::unique_ptr<Participant>> people;
     for (int i = 0; i < bench.people; ++i)
-        people.push_back(join(bench, link, ages, false));
+        people.push_back(join(bench, link, ages, grabs, Part::mover));
     enter_namespace(bench.viewer_namespace);
-    const auto viewer = join(bench, link, ages, true);
+    const auto viewer = join(bench, link, ages, grabs, Part::viewer);
+    const auto actor = join(bench, link, ages, grabs, Part::actor);
     for (const auto& person : people)
         wait_for(*person);
     wait_for(*viewer);
+    wait_for(*actor);
+    grabs.begin(*actor, *viewer);
     const Crowd crowd(bench.crowd);
 
     const TimePoint begin = steady_now() + seconds_to_duration(bench.warmup_seconds);
@@ -167,15 +179,21 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     std::vector<double> round_trips;
     int pongs = 0;
     bool measuring = false;
+    double host_cpu = 0;
     for (TimePoint next = steady_now(); next < end; next += period) {
         std::this_thread::sleep_until(std::chrono::steady_clock::now() +
                                       std::max(next - steady_now(), Duration(0)));
         for (std::size_t i = 0; i < people.size(); ++i)
             people[i]->send_pose(pose_now(int(i)));
+        for (Participant* one : {viewer.get(), actor.get()})
+            one->send_pose(pose_now(bench.people + (one == actor.get())));
+        grabs.act();
         const Participant::Status status = viewer->status();
         if (!measuring && next >= begin) {
             measuring = true;
             viewer->reset_figures();
+            grabs.reset();
+            host_cpu = usage_of(host.pid()).cpu_seconds;
             const std::lock_guard lock(ages.mutex);
             ages.ms.clear();
         } else if (measuring && status.pongs != pongs) {
@@ -183,6 +201,7 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         }
         pongs = status.pongs;
     }
+    host_cpu = usage_of(host.pid()).cpu_seconds - host_cpu;
     const auto figures = viewer->figures();
     const std::lock_guard lock(ages.mutex);
     if (ages.ms.empty() || round_trips.empty() || figures.empty())
@@ -198,7 +217,9 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     return {{"p50_ms", late["p50"]},
             {"p99_ms", late["p99"]},
             {"max_ms", late["max"]},
-            {"participants", bench.people + 1},
+            {"participants", bench.people + 2},
+            {"grabs", grabs.result()},
+            {"host_cores", host_cpu / bench.seconds},
             {"cameras", bench.cameras.size()},
             {"poses", ages.ms.size()},
             {"link_delay_ms", bench.link_delay_ms},

@@ -10,7 +10,7 @@ namespace theatron::bench {
 
 struct InteractionBench {
     std::vector<std::string> cameras;  // specifications
-    int people = 4;                    // that move; one more participant views
+    int people = 4;  // that move; two more move, too, act in the room and decode all pictures
     double seconds = 20;
     double warmup_seconds = 4;
     double poses_per_second = 90;  // of each
@@ -26,8 +26,9 @@ struct InteractionBench {
 };
 
 // Returns {p50_ms,p99_ms,max_ms,participants,cameras,poses,round_trip_ms:{p50,p99,max},
-// pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}}}: from the sending of a pose to its arrival at the
-// viewer, minus the link's delay; and the pictures' rate and age meanwhile. Throws Error.
+// grabs,host_cores,pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}}}: from the sending of a pose to
+// its arrival at the viewer, minus the link's delay; actions in the room (bench_grabs.h), with the
+// link's delay; the host's processor time; and the pictures' rate and age meanwhile. Throws Error.
 nlohmann::json bench_interaction(const InteractionBench& bench);
 
 }  // namespace theatron::bench
