@@ -48,6 +48,8 @@ fi
 if [ "$all" = --all ]; then
     step "Cameras that come and go for ten minutes" tools/test_many.sh release 600
     step "The same for a minute under TSan" tools/test_many.sh tsan 60
+    step "An hour before fixed cameras without an alarm" env MINUTES=60 \
+        build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
 fi
 # Last, so that its closing lines are those of the whole.
 step "Tests" ctest --preset release

@@ -2,8 +2,8 @@
 // theatron register
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -20,8 +20,8 @@
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "link_argument.h"
+#include "register_result.h"
 #include "registration/board_session.h"
-#include "registration/room_alignment.h"
 
 namespace theatron::app {
 namespace {
@@ -29,16 +29,14 @@ namespace {
 using registration::BoardSession;
 using registration::RigSolution;
 
-using Cameras = std::vector<DepthSource::Camera>;
-
 struct Flags {
     std::string link;
     std::vector<std::string> cameras;
     BoardFlags board;
-    std::string output;
+    std::string refine;  // a file of places
+    RigOutput output;
     int poses = 10;
     double seconds = 0;
-    bool json = false;
 };
 
 std::unique_ptr<DepthSource> open(const Flags& flags) {
@@ -99,11 +97,14 @@ void tell(const BoardSession& session, const Cameras& cameras, std::size_t taken
                                    {"b", cameras[pair.b].name},
                                    {"places", pair.places},
                                    {"apart_mm", pair.apart_m * 1000}});
-        std::snprintf(text, sizeof(text), ": %d common, %.1f mm apart", pair.places,
-                      pair.apart_m * 1000);
+        if (pair.places == 0)
+            continue;
+        std::snprintf(text, sizeof(text),
+                      solution.converged ? ": %d common, %.1f mm apart" : ": %d common",
+                      pair.places, pair.apart_m * 1000);
         line += "; " + cameras[pair.a].name + "-" + cameras[pair.b].name + text;
     }
-    if (flags.json) {
+    if (flags.output.json) {
         std::cout << files::json_text(report) << std::endl;
         return;
     }
@@ -115,7 +116,7 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
     const Cameras& cameras = source.cameras();
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
-    const bool live_line = !flags.json && isatty(STDOUT_FILENO);
+    const bool live_line = !flags.output.json && isatty(STDOUT_FILENO);
     bool complete = false, filter_said = false;
     const auto look = [&](std::size_t camera, DepthView depth, TimePoint captured) {
         if (complete || !session.add(camera, depth, captured))
@@ -140,106 +141,45 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
     }
 }
 
-// The floor in the reference's frame, measured by the camera that sees most of it.
-std::optional<registration::Plane> floor_of(const Cameras& cameras, const BoardSession& session,
-                                            const RigSolution& solution) {
-    std::optional<registration::Plane> floor;
-    double area = 0;
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const auto found =
-            registration::find_floor(session.last_mean(c).view(), session.mean_unit_mm(c),
-                                     make_ray_table(cameras[c].calibration.depth));
-        if (!found || found->area_m2 < area)
-            continue;
-        area = found->area_m2;
-        const Pose& pose = solution.cameras[c].reference_from_camera;
-        const Vec3 normal = rotate(pose.rotation, found->plane.normal());
-        const Vec3 point = pose * (found->plane.q * (1 / dot(found->plane.q, found->plane.q)));
-        floor = registration::Plane{normal * (1 / dot(normal, point))};
+// Means of some images of each camera, for --refine.
+std::vector<registration::FrameMean> still_images(DepthSource& source, const Flags& flags) {
+    constexpr Duration patience = std::chrono::seconds(20);
+    const Duration longest = flags.seconds > 0 ? seconds_to_duration(flags.seconds) : patience;
+    std::vector<registration::FrameMean> means;
+    for (const DepthSource::Camera& camera : source.cameras())
+        means.emplace_back(camera.calibration.depth.size);
+    const auto add = [&](std::size_t camera, DepthView depth, TimePoint) {
+        if (means[camera].frames() < BoardSession::frames_per_view)
+            means[camera].add(depth);
+    };
+    const auto is_enough = [](const registration::FrameMean& mean) {
+        return mean.frames() >= BoardSession::frames_per_view;
+    };
+    const TimePoint begin = steady_now();
+    while (!std::all_of(means.begin(), means.end(), is_enough) && steady_now() - begin < longest &&
+           !cli::stop_requested() && source.next(add)) {
     }
-    return floor;
-}
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
-
-void save(const Cameras& cameras, const BoardSession& session, const RigSolution& solution,
-          const Flags& flags) {
-    Vec3 middle{};
-    for (const Pose& board : solution.reference_from_board)
-        middle = middle + board.translation * (1.0 / double(session.places()));
-    // A place of the first camera, by hand or in its own calibration, overrides the found one.
-    const Calibration& first = cameras[0].calibration;
-    const auto floor = floor_of(cameras, session, solution);
-    const Pose room = first.registered ? first.room_from_camera
-                                       : registration::room_from_reference(floor, middle);
-    const std::string found_room = first.registered ? "the first camera's own place"
-                                   : floor          ? "the floor in depth"
-                                           : "a guess: no floor was seen, so the first camera is "
-                                             "taken to be level, 1.5 m up";
-    capture::CameraPlaces places{utc_now(),
-                                 "board " + flags.board.board + ", " +
-                                     std::to_string(session.places()) + " places; room from " +
-                                     found_room,
-                                 {}};
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const registration::CameraPlace& found = solution.cameras[c];
-        capture::CameraPlaces::Entry entry{
-            cameras[c].name, room * found.reference_from_camera, {}, found.bias.offset_m * 1000};
-        auto& covariance = entry.covariance.emplace();
-        for (int i = 0; i < 6; ++i)
-            for (int j = 0; j < 6; ++j)
-                covariance[std::size_t(6 * i + j)] = found.covariance(i, j);
-        places.cameras.push_back(std::move(entry));
-    }
-    const std::string text = capture::write_places(places);
-    files::write_file(flags.output, std::as_bytes(std::span(text)));
-
-    nlohmann::json report{{"event", "saved"},
-                          {"output", flags.output},
-                          {"places", session.places()},
-                          {"room", found_room},
-                          {"cameras", nlohmann::json::array()}};
-    if (!flags.json)
-        std::cout << "\r\033[K" << flags.output << ": " << session.places()
-                  << " places of the board; room from " << found_room << "\n";
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const auto& found = solution.cameras[c];
-        const double shift_mm =
-            std::sqrt(found.covariance.bottomRightCorner<3, 3>().trace()) * 1000;
-        const double turn_deg =
-            std::sqrt(found.covariance.topLeftCorner<3, 3>().trace()) / radians_of(1);
-        const double offset_mm = found.bias.offset_m * 1000,
-                     sigma_mm = found.bias_sigma.offset_m * 1000;
-        report["cameras"].push_back({{"camera", cameras[c].name},
-                                     {"sigma_mm", shift_mm},
-                                     {"sigma_deg", turn_deg},
-                                     {"depth_offset_mm", offset_mm},
-                                     {"depth_offset_sigma_mm", sigma_mm}});
-        if (!flags.json)
-            std::printf(
-                "  %s: good to %.1f mm and %.2f degrees; measures %+.1f mm too far "
-                "(+- %.1f)\n",
-                cameras[c].name.c_str(), shift_mm, turn_deg, offset_mm, sigma_mm);
-    }
-    if (flags.json)
-        std::cout << files::json_text(report) << std::endl;
+    for (std::size_t c = 0; c < means.size(); ++c)
+        if (means[c].frames() == 0)
+            throw Error("The camera '" + source.cameras()[c].name + "' gave no pictures.");
+    return means;
 }
 
 void run(const Flags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
-    files::require_writable(flags.output);
+    capture::CameraPlaces earlier;
+    if (!flags.refine.empty())
+        earlier = capture::load_places(flags.refine);
+    for (const std::string& file : {flags.output.places, flags.output.report})
+        if (!file.empty())
+            files::require_writable(file);
     const std::unique_ptr<DepthSource> source = open(flags);
     const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);
     cli::catch_stop_signals();
-    if (!flags.json)
+    if (!flags.refine.empty())
+        return save(rig_of_surfaces(cameras, earlier, still_images(*source, flags)), flags.output);
+    if (!flags.output.json)
         std::cout << "Hold the board still for two seconds where two cameras or more see it, at "
                   << flags.poses << " places, nearer and farther, tilted to all sides and turned a "
                   << "little in itself.\nCtrl-C ends early and uses what there is.\n";
@@ -247,7 +187,7 @@ void run(const Flags& flags) {
     const RigSolution solution = session.solve();
     if (const std::string problem = session.problem(solution); !problem.empty())
         throw Error(problem);
-    save(cameras, session, solution, flags);
+    save(rig_of_board(cameras, session, solution, "board " + flags.board.board), flags.output);
 }
 
 }  // namespace
@@ -260,18 +200,25 @@ void add_register_command(CLI::App& app) {
         "'theatron target' draws the board. Nothing is written unless all cameras were found.\n"
         "\nExamples:\n"
         "  theatron register --camera k4a:0 --camera k4a:1 --output places.json\n"
-        "  theatron register LINK --output places.json\n"
+        "  theatron register LINK --output places.json --report report.html\n"
+        "  theatron register LINK --refine places.json --output better.json\n"
         "  theatron host --camera k4a:0 --camera k4a:1 --places places.json");
     command->add_option("link", flags->link,
                         "The link of a running session (or @FILE with it), whose cameras are used");
     cli::add_camera_option(*command, flags->cameras);
-    command->add_option("--output", flags->output, "The file of places to write")->required();
+    command->add_option("--output", flags->output.places, "The file of places to write")
+        ->required();
+    command->add_option("--report", flags->output.report,
+                        "Also write a report with drawings: one HTML file");
+    command->add_option("--refine", flags->refine,
+                        "Without a board: improve the places of this file on surfaces that two "
+                        "cameras see, for example after one was moved a little");
     add_board_options(*command, flags->board);
     command->add_option("--poses", flags->poses, "So many places of the board for each camera")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
-    command->add_flag("--json", flags->json,
+    command->add_flag("--json", flags->output.json,
                       "Print one JSON line for each view and for the result");
     command->callback([flags] { run(*flags); });
 }

@@ -127,6 +127,11 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     publish_link.token = publish_token;
 
     // The lanes never change once the server's thread runs.
+    std::vector<capture::CameraInfo> infos;
+    for (const auto& camera : cameras)
+        infos.push_back(camera->info());
+    place_watch = std::make_unique<PlaceWatch>(
+        infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
     start_lanes(options.cameras, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
@@ -165,6 +170,7 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
                 carry_out();
             });
         };
+        events.frame = [this, i](const FramePtr& frame) { place_watch->offer(i, frame); };
         send::CameraLane::Options lane;
         lane.cameras = cameras.size();
         lane.open_again = [this, specification = specifications[i]] {

@@ -116,9 +116,23 @@ private:
 }  // namespace
 
 nlohmann::json to_json(const HostFigures& figures) {
-    nlohmann::json cameras = nlohmann::json::array(), participants = nlohmann::json::array();
-    for (const auto& camera : figures.cameras)
-        cameras.push_back(camera_json(camera));
+    nlohmann::json cameras = nlohmann::json::array(), participants = nlohmann::json::array(),
+                   overlaps = nlohmann::json::array();
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i) {
+        nlohmann::json& camera = cameras.emplace_back(camera_json(figures.cameras[i]));
+        if (i >= figures.places.cameras.size())
+            continue;
+        const PlaceWatch::Figures::Camera& place = figures.places.cameras[i];
+        if (camera["problem"] == "")
+            camera["problem"] = wire::english(place.problem);
+        if (place.is_watched)
+            camera["place"] = {{"moved_mm", place.moved_mm},
+                               {"turned_deg", place.turned_deg},
+                               {"alarm", place.is_alarm}};
+    }
+    for (const auto& pair : figures.places.pairs)
+        overlaps.push_back(
+            {{"a", pair.a}, {"b", pair.b}, {"apart_mm", pair.apart_mm}, {"alarm", pair.is_alarm}});
     for (const auto& participant : figures.participants)
         participants.push_back({{"id", int(participant.id)},
                                 {"name", participant.name},
@@ -139,6 +153,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"cameras", cameras},
             {"participants", participants},
             {"published", published},
+            {"overlaps", overlaps},
             {"turned_away", figures.turned_away},
             {"faults", figures.faults}};
 }
@@ -190,6 +205,24 @@ std::string to_prometheus(const HostFigures& figures) {
     per_camera("recorded_pictures_lost_total", "counter",
                "Pictures of a damaged recording that cannot be played.",
                [](const Camera& c) { return double(c.lane.camera.lost_pictures); });
+    const auto per_place =
+        [&](const char* name, const char* help,
+            const std::function<double(const PlaceWatch::Figures::Camera&)>& value) {
+            out.family(name, "gauge", help);
+            for (std::size_t i = 0; i < figures.places.cameras.size(); ++i)
+                if (figures.places.cameras[i].is_watched)
+                    out.value(labels(i), value(figures.places.cameras[i]));
+        };
+    using Place = PlaceWatch::Figures::Camera;
+    per_place("camera_moved_mm", "How far a camera was moved since the host began.",
+              [](const Place& p) { return p.moved_mm; });
+    per_place("camera_moved_alarm", "1 while a camera is not where it was registered.",
+              [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });
+    out.family("overlap_apart_mm", "gauge",
+               "Median distance of the surfaces that two cameras see, depth as measured.");
+    for (const auto& pair : figures.places.pairs)
+        out.value("a=\"" + std::to_string(pair.a) + "\",b=\"" + std::to_string(pair.b) + "\"",
+                  pair.apart_mm);
     per_camera("reopens_total", "counter", "How often the camera was opened again.",
                [](const Camera& c) { return double(c.lane.camera.figures.reopens); });
 

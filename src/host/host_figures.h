@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "host/place_watch.h"
 #include "send/lane_figures.h"
 #include "wire/control.h"
 
@@ -38,6 +39,7 @@ struct HostFigures {
         std::uint64_t dropped_slow = 0;  // as above
     };
     std::vector<Published> published;  // cameras that participants send now
+    PlaceWatch::Figures places;        // whether cameras stay where they were registered
     std::uint64_t turned_away = 0;     // strangers, since the host began
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 };
@@ -45,7 +47,7 @@ struct HostFigures {
 // {"name","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
 // "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests",…}],"published":[{"id","name","publisher","state",
-// "dropped_slow"}],"turned_away","faults"}
+// "dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

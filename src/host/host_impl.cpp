@@ -247,11 +247,34 @@ void Host::Impl::take_state(wire::CameraState state) {
     bool first;
     {
         const std::lock_guard lock(states_mutex);
-        first = new_states.empty();
-        new_states[state.camera] = std::move(state);
+        lane_states[state.camera] = state;
+        first = pass_on(std::move(state));
     }
     if (first)
         server->post([this] { on_camera_states(); });
+}
+
+void Host::Impl::take_place(CameraId camera, const wire::Text& problem) {
+    bool first;
+    {
+        const std::lock_guard lock(states_mutex);
+        misplaced[camera] = problem;
+        wire::CameraState state = lane_states[camera];
+        state.camera = camera;
+        first = pass_on(std::move(state));
+    }
+    if (first)
+        server->post([this] { on_camera_states(); });
+}
+
+// The states' mutex is held. A camera's own problem comes before that of its place. True if
+// on_camera_states() must be called.
+bool Host::Impl::pass_on(wire::CameraState state) {
+    if (state.problem.empty())
+        state.problem = misplaced[state.camera];
+    const bool first = new_states.empty();
+    new_states[state.camera] = std::move(state);
+    return first;
 }
 
 void Host::Impl::on_camera_states() {
@@ -269,7 +292,7 @@ void Host::Impl::on_camera_states() {
             log::warning("host", "camera is stale",
                          {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
         else if (!state.problem.empty())
-            log::warning("host", "camera plays a damaged recording",
+            log::warning("host", "camera has a problem",
                          {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
         else if (state.condition == Condition::live)
             log::info("host", "camera is live", {{"camera", int(camera)}});
@@ -449,6 +472,8 @@ HostFigures Host::Impl::figures() const {
     }
     figures.participants = participant_figures;
     figures.published = published_figures;
+    if (place_watch)
+        figures.places = place_watch->figures();
     figures.turned_away = turned_away;
     figures.faults = fault_count();
     return figures;

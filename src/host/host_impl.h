@@ -12,6 +12,7 @@
 #include "capture/camera_places.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
+#include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
 #include "net/certificate.h"
@@ -32,13 +33,16 @@ struct Host::Impl {
     capture::CameraPlaces places;  // does not change once lanes run
     send::Workers workers;
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
-    send::ColorWatch color_watch;       // on the thread of the server
-    std::vector<FilterSource> filters;  // by camera; used by the owner of the host
-    std::vector<Size> depth_sizes;      // by camera; the same way
+    std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
+    send::ColorWatch color_watch;             // on the thread of the server
+    std::vector<FilterSource> filters;        // by camera; used by the owner of the host
+    std::vector<Size> depth_sizes;            // by camera; the same way
     std::thread thread;
     send::MediaQueue media;  // from the lanes to the server's thread
     std::mutex states_mutex;
-    std::map<CameraId, wire::CameraState> new_states;  // the same way; the newest of each
+    std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
+    std::map<CameraId, wire::CameraState> lane_states;  // as the lanes report them
+    std::map<CameraId, wire::Text> misplaced;           // what place_watch says; by states_mutex
     // Addresses of peers; server's thread.
     std::map<net::PeerId, std::string> addresses;
     LineLimit joins, changes;  // of log lines; server's thread
@@ -73,7 +77,8 @@ struct Host::Impl {
         if (thread.joinable())
             say_goodbye();
         replay.reset();
-        // The server's thread uses the lanes: it ends first.
+        // The server's thread uses the lanes: it ends first. The lanes use the watch, whose
+        // thread posts to the server.
         if (server)
             server->stop();
         if (thread.joinable()) {
@@ -81,6 +86,7 @@ struct Host::Impl {
             room_file->save(session->room());
         }
         lanes.clear();
+        place_watch.reset();
     }
 
     void open(const HostOptions& options, const capture::Progress& progress);
@@ -129,6 +135,8 @@ struct Host::Impl {
     // From any thread.
     void take_media(send::EncodedMedia encoded);
     void take_state(wire::CameraState state);
+    void take_place(CameraId camera, const wire::Text& problem);
+    bool pass_on(wire::CameraState state);
     bool is_invited(ByteView first) const;
     HostFigures figures() const;
 };

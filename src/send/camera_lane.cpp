@@ -128,6 +128,7 @@ void CameraLane::on_frame(FramePtr frame) {
     const auto tag = options_.moments->tag(id_, times.captured);
     const TimePoint came = now();
     meter_.on_frame(came, times.captured, times.delivered, tag.offset);
+    events_.frame(frame);
     if (tag.pass_over && options_.one_per_moment)
         return meter_.on_drop(DropReason::moment);
     if (newest_.put({std::move(frame), tag.moment}))

@@ -37,6 +37,8 @@ public:
         std::function<void(EncodedMedia)> media;
         // The camera's condition has changed. From the workers' thread for periodic calls.
         std::function<void(wire::CameraState)> state;
+        // Each frame as it was captured. From the camera's thread, which waits for the return.
+        std::function<void(const FramePtr&)> frame = [](const FramePtr&) {};
         // Encoding in this setting no longer keeps up with the camera, or does again; it takes
         // `cpu` for a picture. From a working thread.
         std::function<void(SettingId, bool keeps_up, Duration cpu)> keeps_up = [](SettingId, bool,

@@ -26,6 +26,10 @@ std::string age_text(double ms) {
     return rounded(std::floor(ms / 60'000), 0, "min");
 }
 
+std::string first_sentence(const std::string& text) {
+    return text.substr(0, std::min(text.find(". "), text.size()));
+}
+
 // "2 live", or "1 live, 1 stale".
 xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
     using Condition = wire::CameraCondition;
@@ -42,6 +46,14 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
         trouble = trouble || condition != Condition::live;
     }
     return {"Cameras", text.empty() ? "none" : text, trouble};
+}
+
+// A live camera with a problem that its picture does not show: it was moved, or plays damage.
+void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
+    for (const auto& [camera, depth, color] : cameras)
+        if (camera.state.condition == wire::CameraCondition::live && !camera.state.problem.empty())
+            line.push_back({"Camera " + camera.description.name,
+                            first_sentence(wire::english(camera.state.problem)), true});
 }
 
 // The one text that all cameras have, "several" if they differ, "none" if there is none.
@@ -100,6 +112,7 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
         if (!recordings.empty())
             line.push_back({"Recording", client::recorded_text(facts.received), true});
         line.push_back(cameras_fact(cameras));
+        add_problems(cameras, line);
         if (facts.has_picture)
             line.push_back(age);
         line.push_back({"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});

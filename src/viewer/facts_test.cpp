@@ -55,6 +55,17 @@ TEST(Overlay, MarksDepthThatIsNotWhatTheCameraMeasured) {
     EXPECT_TRUE(fact(overlay(facts), "Depth").warning);
 }
 
+TEST(Overlay, NamesACameraThatWasMovedAlsoWithTheLineHidden) {
+    Facts facts = healthy();
+    facts.received.cameras[0].camera.description.name = "left";
+    facts.received.cameras[0].camera.state.problem = {wire::TextCode::camera_moved,
+                                                      {"5.2", "0.10"}};
+    facts.line = false;
+    EXPECT_EQ(fact(overlay(facts), "Camera left").value,
+              "The camera was moved by 5.2 mm and 0.10 degrees");
+    EXPECT_TRUE(fact(overlay(facts), "Camera left").warning);
+}
+
 TEST(Overlay, BlamesTheComputerThatDrawsTooSlowlyAndNotTheConnection) {
     Facts facts = healthy();
     facts.drawn_per_second = 2;

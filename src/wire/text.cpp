@@ -55,6 +55,12 @@ constexpr Row rows[] = {
      "The camera {0} has a number that another one has; it is left out."},
     {TextCode::camera_too_many_pixels,
      "The camera {0} has more pixels than there is room for beside the others; it is left out."},
+    {TextCode::camera_moved,
+     "The camera was moved by {0} mm and {1} degrees. Put it back, or find its new place with "
+     "'theatron register LINK --refine PLACES --output NEW'."},
+    {TextCode::cameras_apart,
+     "Surfaces that {0} sees, too, are {1} mm apart. Find the cameras' places again with 'theatron "
+     "register LINK --output NEW' and the board."},
 
     {TextCode::all_encodings_taken,
      "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},

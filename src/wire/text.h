@@ -43,6 +43,8 @@ enum class TextCode : std::uint16_t {
     one_camera_too_many = 210,      // {0}: name
     camera_number_taken = 211,      // {0}: name
     camera_too_many_pixels = 212,   // {0}: name
+    camera_moved = 213,             // {0}: mm, {1}: degrees
+    cameras_apart = 214,            // {0}: another camera's name, {1}: mm
 
     // What a participant is sent.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for

@@ -60,7 +60,7 @@ class RecordingCare(unittest.TestCase):
                 return seen if seen["lost_pictures"] == 2 else None
             seen = wait_until(status)
             self.assertEqual(seen["problem"], "Its recording is damaged: 2 pictures are lost.")
-            wait_until(lambda: any("plays a damaged recording" in line for line in list(h.errors)))
+            wait_until(lambda: any("has a problem" in line for line in list(h.errors)))
             with Process("join", h.greeting["link"], "--no-window", "--seconds", 20) as viewer:
                 wait_until(lambda: any("Its recording is damaged" in line for line in list(viewer.errors)))
         code, out, errors = run("record", "--camera", f"recording:{path}", self.folder / "b.mkv", "--json")

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The result of a registration: places of cameras for the file, the terminal and the report.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/camera_places.h"
+#include "depth_source.h"
+#include "registration/board_session.h"
+#include "registration/registration_report.h"
+
+namespace theatron::app {
+
+using Cameras = std::vector<DepthSource::Camera>;
+
+struct RegisteredRig {
+    capture::CameraPlaces places;
+    std::string room;  // what the room's frame comes from
+    registration::RegistrationReport report;
+};
+
+struct RigOutput {
+    std::string places, report;  // files; no report where it is empty
+    bool json = false;
+};
+
+// From views of the board, improved on the scene's surfaces where that helps. `solution` must have
+// no problem.
+RegisteredRig rig_of_board(const Cameras& cameras, const registration::BoardSession& session,
+                           const registration::RigSolution& solution, const std::string& method);
+
+// From the places of `earlier`, improved on surfaces; `means` by camera. Throws Error if a camera
+// has no place there, or if no better places were found.
+RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlaces& earlier,
+                              const std::vector<registration::FrameMean>& means);
+
+// Writes the files, and a summary to standard output.
+void save(const RegisteredRig& rig, const RigOutput& output);
+
+}  // namespace theatron::app

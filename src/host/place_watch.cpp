@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/place_watch.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/fault.h"
+#include "base/thread_name.h"
+
+namespace theatron::host {
+namespace {
+
+using registration::RigWatch;
+
+constexpr int niceness = 15;
+
+std::vector<std::size_t> with_place(const std::vector<capture::CameraInfo>& cameras) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        if (cameras[i].calibration.registered)
+            numbers.push_back(i);
+    return numbers;
+}
+
+RigWatch make_watch(const std::vector<capture::CameraInfo>& cameras,
+                    const std::vector<std::size_t>& watched) {
+    std::vector<RigWatch::Camera> about;
+    for (const std::size_t i : watched) {
+        const Calibration& c = cameras[i].calibration;
+        about.push_back({c.depth, c.depth_unit_mm, c.room_from_camera});
+    }
+    return RigWatch(about);
+}
+
+}  // namespace
+
+PlaceWatch::PlaceWatch(const std::vector<capture::CameraInfo>& cameras, Alarm alarm)
+    : cameras_(cameras),
+      alarm_(std::move(alarm)),
+      watched_(with_place(cameras)),
+      watch_(make_watch(cameras, watched_)),
+      told_(watched_.size()),
+      taken_(watched_.size()) {
+    figures_.cameras.resize(cameras.size());
+    if (!watched_.empty())
+        thread_ = std::thread([this] { run(); });
+}
+
+PlaceWatch::~PlaceWatch() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable())
+        thread_.join();
+}
+
+void PlaceWatch::offer(std::size_t camera, const FramePtr& frame) {
+    const auto found = std::lower_bound(watched_.begin(), watched_.end(), camera);
+    if (found == watched_.end() || *found != camera)
+        return;
+    const auto number = std::size_t(found - watched_.begin());
+    {
+        const std::lock_guard lock(mutex_);
+        const TimePoint captured = frame->times.captured;
+        if (captured - taken_[number] < watch_.period() && captured >= taken_[number])
+            return;
+        taken_[number] = captured;
+        waiting_[number] = frame;
+    }
+    changed_.notify_one();
+}
+
+PlaceWatch::Figures PlaceWatch::figures() const {
+    const std::lock_guard lock(mutex_);
+    return figures_;
+}
+
+void PlaceWatch::run() {
+    name_this_thread("place watch");
+    setpriority(PRIO_PROCESS, id_t(gettid()), niceness);
+    while (true) {
+        std::size_t number = 0;
+        FramePtr frame;
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+            if (stopping_)
+                return;
+            const auto first = waiting_.begin();
+            number = first->first;
+            frame = std::move(first->second);
+            waiting_.erase(first);
+        }
+        (void)contain("place watch", [&] { look_at(number, *frame); });
+    }
+}
+
+void PlaceWatch::look_at(std::size_t number, const Frame& frame) {
+    watch_.add(number, frame.depth.view(), frame.times.captured);
+    Figures figures;
+    figures.cameras.resize(cameras_.size());
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        const RigWatch::Motion& motion = watch_.motion(i);
+        figures.cameras[watched_[i]] = {motion.is_known, motion.is_alarm, motion.moved_m * 1000,
+                                        motion.turned_deg, problem(i)};
+    }
+    for (const RigWatch::Pair& pair : watch_.pairs())
+        figures.pairs.push_back(
+            {watched_[pair.a], watched_[pair.b], pair.apart_m * 1000, pair.is_alarm});
+    {
+        const std::lock_guard lock(mutex_);
+        figures_ = std::move(figures);
+    }
+    for (std::size_t i = 0; i < watched_.size(); ++i)
+        if (wire::Text now = problem(i); now.empty() != told_[i].empty()) {
+            told_[i] = now;
+            alarm_(CameraId(watched_[i]), now);
+        }
+}
+
+wire::Text PlaceWatch::problem(std::size_t number) const {
+    const auto text = [](const char* format, double value) {
+        char buffer[40];
+        std::snprintf(buffer, sizeof(buffer), format, value);
+        return std::string(buffer);
+    };
+    const RigWatch::Motion& motion = watch_.motion(number);
+    if (motion.is_alarm)
+        return {wire::TextCode::camera_moved,
+                {text("%.1f", motion.moved_m * 1000), text("%.2f", motion.turned_deg)}};
+    const RigWatch::Pair* pair = watch_.wrong_pair(number);
+    if (!pair)
+        return {};
+    const std::size_t other = pair->a == number ? pair->b : pair->a;
+    return {wire::TextCode::cameras_apart,
+            {cameras_[watched_[other]].name, text("%.0f", pair->apart_m * 1000)}};
+}
+
+}  // namespace theatron::host

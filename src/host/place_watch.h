@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Watches in the background whether the host's cameras stay where they were registered
+// (registration/rig_watch.h), on a thread of low priority.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "base/ids.h"
+#include "capture/camera.h"
+#include "registration/rig_watch.h"
+#include "wire/text.h"
+
+namespace theatron::host {
+
+class PlaceWatch {
+public:
+    // The problem of a camera that raised the alarm; empty: it is over. From the thread of the
+    // watch.
+    using Alarm = std::function<void(CameraId camera, const wire::Text& problem)>;
+
+    // Cameras without a known place are not watched.
+    PlaceWatch(const std::vector<capture::CameraInfo>& cameras, Alarm alarm);
+    ~PlaceWatch();
+
+    // From any thread, for each frame as it was captured; returns at once.
+    void offer(std::size_t camera, const FramePtr& frame);
+
+    struct Figures {
+        struct Camera {
+            bool is_watched = false;  // its place is known, and enough of its picture stands still
+            bool is_alarm = false;
+            double moved_mm = 0, turned_deg = 0;  // since the host began
+            wire::Text problem;                   // as in Alarm
+        };
+        std::vector<Camera> cameras;  // all of the host's
+        struct Pair {
+            std::size_t a = 0, b = 0;
+            double apart_mm = 0;
+            bool is_alarm = false;
+        };
+        std::vector<Pair> pairs;  // that share a view
+    };
+    Figures figures() const;
+
+private:
+    void run();
+    void look_at(std::size_t camera, const Frame& frame);
+    wire::Text problem(std::size_t number) const;
+
+    const std::vector<capture::CameraInfo> cameras_;
+    const Alarm alarm_;
+    std::vector<std::size_t> watched_;  // the host's cameras, by the watch's numbers
+    registration::RigWatch watch_;      // the thread's only
+    std::vector<wire::Text> told_;      // likewise; by the watch's numbers
+    mutable std::mutex mutex_;          // guards all below
+    std::condition_variable changed_;
+    std::map<std::size_t, FramePtr> waiting_;  // by the watch's numbers
+    std::vector<TimePoint> taken_;             // captured times of frames taken last
+    Figures figures_;
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::host

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Notices, while cameras stream, that one of them was moved, or that their places do not fit.
+//
+// A camera's own picture tells a motion best: the errors of a depth sensor are the same before and
+// after, so the static part of the picture is compared with what it was when the watch began, and
+// the rigid motion between them is fitted. A part of the scene that moves as one (a table that is
+// raised) may fit as well. The overlaps with other cameras decide then: they change if the camera
+// was moved, and stay as they are if the scene was. The overlaps also give the figure by which the
+// cameras' places differ now, for each pair.
+//
+// Pure and without threads. About 2 ms of work for each image.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "base/time.h"
+#include "registration/small_motion.h"
+#include "registration/surface_grid.h"
+
+namespace theatron::registration {
+
+class RigWatch {
+public:
+    // Motions from here on raise the alarm, and the distance of overlaps from which the places are
+    // wrong, metres: above the differences of good cameras' depth errors.
+    static constexpr double alarm_m = 0.0025, wrong_apart_m = 0.012;
+
+    struct Camera {
+        CameraModel depth;
+        double depth_unit_mm = 1;
+        std::optional<Pose> room_from_camera;  // empty: unknown; then only its motion is watched
+    };
+    explicit RigWatch(const std::vector<Camera>& cameras);
+
+    // The time from one image of a camera to the next: half a second, or more for many cameras.
+    Duration period() const { return period_; }
+    // Whether an image captured at this time is wanted; the others are better not added.
+    bool is_due(std::size_t camera, TimePoint captured) const;
+    // `depth` as measured, of the camera's size, before any correction. Times of a camera grow.
+    void add(std::size_t camera, DepthView depth, TimePoint captured);
+
+    struct Motion {
+        bool is_known = false;  // enough of the picture stands still
+        bool is_alarm = false;
+        double moved_m = 0, turned_deg = 0;  // since the watch began
+        // Where the camera is now; empty where its place was not known.
+        std::optional<Pose> room_from_camera;
+    };
+    const Motion& motion(std::size_t camera) const { return states_[camera].motion; }
+
+    struct Pair {
+        std::size_t a = 0, b = 0;
+        double apart_m = 0;      // median distance of the surfaces that both see
+        std::size_t points = 0;  // of the last comparison; few: they share no view
+        bool is_alarm = false;
+    };
+    // Of the cameras with known places that share a view.
+    const std::vector<Pair>& pairs() const { return pairs_; }
+
+    // One of them with the alarm that this camera belongs to; null if there is none.
+    const Pair* wrong_pair(std::size_t camera) const;
+
+private:
+    struct Reference {
+        // Sums over images, then means.
+        std::vector<SurfacePoint> points;
+        std::vector<double> squares;  // of z
+        std::vector<int> counts;
+        int images = 0;
+    };
+    // Overlap with another camera when the reference was complete.
+    struct BaseOverlap {
+        std::size_t other = 0;
+        std::vector<OverlapPoint> points;
+    };
+    struct State {
+        Camera about;
+        SurfaceCamera surface;
+        DepthImage newest;
+        TimePoint captured{};
+        Reference reference;
+        std::vector<BaseOverlap> base;
+        std::deque<std::vector<SurfacePoint>> recent;
+        Pose carried;        // from the reference's camera frame to that of the watch's begin
+        Pose newest_motion;  // from the camera's frame to the reference's
+        int above = 0, below = 0, unclear = 0, denied = 0;  // evaluations in a row
+        std::size_t next_other = 0;
+        Motion motion;
+    };
+
+    static void begin_reference(State& state);
+    static void renew_reference(State& state);
+    void add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid);
+    void compare_with_reference(std::size_t camera);
+    bool overlaps_deny(std::size_t camera, const Pose& reference_from_now) const;
+    void compare_with_other(std::size_t camera, const std::vector<SurfacePoint>& grid);
+    Pose between(std::size_t to, std::size_t from) const;
+
+    Duration period_;
+    std::vector<State> states_;
+    std::vector<Pair> pairs_;
+    std::vector<int> pair_above_;  // evaluations in a row, by pair
+};
+
+}  // namespace theatron::registration

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registration/rig_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "registration/room_view_test.h"
+
+namespace theatron::registration {
+namespace {
+
+// Cameras around a surgeon and an assistant at work.
+class Watching : public testing::Test {
+protected:
+    Watching() {
+        for (int i = 0; i < 2; ++i)
+            cameras_.push_back(std::make_unique<RoomCamera>(i, 2, synthetic::nfov_unbinned()));
+        watch_ = std::make_unique<RigWatch>(about());
+    }
+
+    std::vector<RigWatch::Camera> about() const {
+        std::vector<RigWatch::Camera> about;
+        for (const auto& camera : cameras_)
+            about.push_back({camera->calibration.depth, 1, camera->calibration.room_from_camera});
+        return about;
+    }
+
+    void stream(Duration length) {
+        for (const TimePoint end = now_ + length; now_ < end; now_ += watch_->period())
+            for (std::size_t c = 0; c < cameras_.size(); ++c) {
+                ASSERT_TRUE(watch_->is_due(c, now_));
+                const DepthImage depth = cameras_[c]->image(now_.time_since_epoch());
+                watch_->add(c, depth.view(), now_);
+                worst_m_ = std::max(worst_m_, watch_->motion(c).moved_m);
+                alarms_ += has_alarm(c);
+            }
+    }
+
+    bool has_alarm(std::size_t camera) const {
+        return watch_->motion(camera).is_alarm || watch_->wrong_pair(camera);
+    }
+
+    std::vector<std::unique_ptr<RoomCamera>> cameras_;
+    std::unique_ptr<RigWatch> watch_;
+    TimePoint now_{std::chrono::seconds(1)};
+    double worst_m_ = 0;
+    int alarms_ = 0;
+};
+
+// MINUTES=60 is what `make test-all` runs.
+TEST_F(Watching, NoAlarmWhileASurgeonMovesBeforeFixedCameras) {
+    const char* minutes = std::getenv("MINUTES");
+    stream(std::chrono::seconds(minutes ? 60 * std::atoi(minutes) : 20));
+    EXPECT_EQ(alarms_, 0);
+    EXPECT_TRUE(watch_->motion(0).is_known);
+    EXPECT_TRUE(watch_->motion(1).is_known);
+    EXPECT_LT(worst_m_, RigWatch::alarm_m / 2);
+    ASSERT_EQ(watch_->pairs().size(), 1u);
+    EXPECT_GT(watch_->pairs()[0].points, 100u);
+    EXPECT_LT(watch_->pairs()[0].apart_m, 0.008);
+    std::printf("largest motion seen: %.2f mm; surfaces apart: %.1f mm\n", worst_m_ * 1000,
+                watch_->pairs()[0].apart_m * 1000);
+}
+
+TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAlarm) {
+    struct Case {
+        const char* name;
+        Pose moved;
+        double least_mm, most_mm;
+    };
+    const double turn = radians_of(0.3);
+    const Case cases[] = {{"along", {{}, {0, 0, 0.005}}, 4, 6},
+                          {"yaw", {rotation_about({0, 1, 0}, turn), {}}, 7, 16}};
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.name);
+        cameras_[1]->place_at({});
+        watch_ = std::make_unique<RigWatch>(about());
+        stream(std::chrono::seconds(12));
+        EXPECT_FALSE(has_alarm(1));
+        cameras_[1]->place_at(c.moved);
+        const TimePoint moved_at = now_;
+        while (!has_alarm(1) && now_ - moved_at < std::chrono::seconds(15))
+            stream(watch_->period());
+        EXPECT_LE(now_ - moved_at, std::chrono::seconds(10));
+        stream(std::chrono::seconds(2));
+        EXPECT_FALSE(has_alarm(0));
+        EXPECT_TRUE(has_alarm(1));
+        const RigWatch::Motion& motion = watch_->motion(1);
+        EXPECT_GT(motion.moved_m * 1000, c.least_mm);
+        EXPECT_LT(motion.moved_m * 1000, c.most_mm);
+        // The new place is found, too.
+        const Pose truth = cameras_[1]->calibration.room_from_camera * c.moved;
+        const Vec3 at{0, 0, 2};
+        ASSERT_TRUE(motion.room_from_camera);
+        EXPECT_LT(length(*motion.room_from_camera * at - truth * at), 0.002);
+    }
+    // It is put back.
+    cameras_[1]->place_at({});
+    stream(std::chrono::seconds(8));
+    EXPECT_FALSE(has_alarm(1));
+}
+
+}  // namespace
+}  // namespace theatron::registration

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A camera that is knocked while it streams raises an alarm that host, monitoring and participants see."""
+import json
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+import urllib.request
+import ssl
+
+from theatron_process import Process, host, run, wait_until, write_png
+
+WIDTH, HEIGHT, FOCAL = 320, 288, 252.0
+FPS, BEFORE, AFTER = 10, 120, 600
+
+
+def depth_at(x, y, forward):
+    """A floor, a wall and a box, seen from 1.5 m above the floor by a camera that is `forward` of its place."""
+    rx, ry = (x - 159.5) / FOCAL, (y - 143.5) / FOCAL
+    z = 3.0 - forward
+    if ry > 0:
+        z = min(z, 1.5 / ry)
+    if abs((2.0 - forward) * rx) < 0.4 and (2.0 - forward) * ry > 0.2:
+        z = min(z, 2.0 - forward)
+    return round(1000 * z)
+
+
+def write_frame(path, forward):
+    rows = [struct.pack(f">{WIDTH}H", *(depth_at(x, y, forward) for x in range(WIDTH))) for y in range(HEIGHT)]
+    write_png(path, WIDTH, HEIGHT, 16, 1, rows)
+
+
+class PlaceWatch(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_watch_"))
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def camera(self):
+        """It is moved forward by 8 mm after twelve seconds."""
+        depth = self.folder / "camera" / "depth"
+        depth.mkdir(parents=True)
+        (self.folder / "camera" / "calibration.json").write_text(json.dumps({"depth": {
+            "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
+        for name, forward in (("before.png", 0), ("after.png", 0.008)):
+            write_frame(self.folder / name, forward)
+        for n in range(BEFORE + AFTER):
+            (depth / f"{n:05}.png").hardlink_to(self.folder / ("before.png" if n < BEFORE else "after.png"))
+        return f"folder:{self.folder / 'camera'},fps={FPS},place=0:1.5:2"
+
+    def test_a_knocked_camera_is_reported_to_everybody(self):
+        with host(self.folder / "state", self.camera()) as h:
+            link = h.greeting["link"]
+
+            def status():
+                code, out, errors = run("status", link, "--json")
+                self.assertEqual(code, 0, errors)
+                return json.loads(out)["cameras"][0]
+
+            with Process("join", link, "--no-window", "--every", "1") as viewer:
+                seen = wait_until(lambda: status() if status().get("place") else None, timeout=60, every=1)
+                self.assertFalse(seen["place"]["alarm"])
+                self.assertLess(seen["place"]["moved_mm"], 1)
+                self.assertEqual(seen["problem"], "")
+                seen = wait_until(lambda: status() if status()["place"]["alarm"] else None, timeout=60, every=1)
+                self.assertAlmostEqual(seen["place"]["moved_mm"], 8, delta=1)
+                self.assertRegex(seen["problem"], r"The camera was moved by [78]\.\d mm")
+                self.assertIn("--refine", seen["problem"])
+                told = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"], timeout=30)
+                self.assertIn("was moved by", told["cameras"][0]["problem"])
+                wait_until(lambda: any("was moved by" in line for line in list(viewer.errors)))
+            self.assertTrue(any("was moved by" in line for line in h.errors))
+            token = link.split("join=")[1].split("&")[0]
+            request = urllib.request.Request(f"https://127.0.0.1:{h.greeting['port']}/metrics",
+                                             headers={"Authorization": f"Bearer {token}"})
+            unchecked = ssl._create_unverified_context()
+            metrics = urllib.request.urlopen(request, context=unchecked).read().decode()
+            self.assertIn('theatron_camera_moved_alarm{camera="0",name="camera"} 1', metrics)
+
+    def test_a_camera_of_unknown_place_has_none_to_lose(self):
+        with host(self.folder / "state", self.camera().replace(",place=0:1.5:2", "")) as h:
+            code, out, _ = run("status", h.greeting["link"], "--json")
+            self.assertEqual(code, 0)
+            self.assertNotIn("place", json.loads(out)["cameras"][0])
+
+
+if __name__ == "__main__":
+    unittest.main()
