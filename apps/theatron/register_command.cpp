@@ -22,6 +22,7 @@
 #include "link_argument.h"
 #include "register_result.h"
 #include "registration/board_session.h"
+#include "registration/touched_corners.h"
 
 namespace theatron::app {
 namespace {
@@ -33,7 +34,9 @@ struct Flags {
     std::string link;
     std::vector<std::string> cameras;
     BoardFlags board;
-    std::string refine;  // a file of places
+    std::string refine;   // a file of places
+    std::string touches;  // a file, or - for standard input
+    std::string tip = "0:0:0";
     RigOutput output;
     int poses = 10;
     double seconds = 0;
@@ -141,6 +144,34 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
     }
 }
 
+// Where the board is in the room, by a controller's tip at its corners. Standard input is read to
+// its end. Throws Error with a sentence.
+Pose touched_board(const Flags& flags, const registration::LatticeTarget& target) {
+    constexpr std::size_t max_touches_bytes = 1 << 16;
+    const auto tip = capture::parse_place(flags.tip);
+    if (!tip)
+        throw Error("--tip " + flags.tip + " is not X:Y:Z in metres.");
+    std::string text;
+    if (flags.touches == "-") {
+        if (!flags.output.json)
+            std::cout << "Leave the board where it is and give the touches of its corners, one "
+                         "'CORNER X Y Z' a line; Ctrl-D ends.\n";
+        char c = 0;
+        while (text.size() < max_touches_bytes && std::cin.get(c))
+            text += c;
+    } else {
+        const Bytes bytes = files::read_file(flags.touches, max_touches_bytes);
+        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
+    const auto parsed = registration::parse_touches(text, tip->translation);
+    if (!parsed.problem.empty())
+        throw Error(parsed.problem);
+    const registration::TouchFit fit = registration::fit_touches(target, parsed.touches);
+    if (!fit.problem.empty())
+        throw Error(fit.problem);
+    return fit.room_from_board;
+}
+
 // Means of some images of each camera, for --refine.
 std::vector<registration::FrameMean> still_images(DepthSource& source, const Flags& flags) {
     constexpr Duration patience = std::chrono::seconds(20);
@@ -187,7 +218,11 @@ void run(const Flags& flags) {
     const RigSolution solution = session.solve();
     if (const std::string problem = session.problem(solution); !problem.empty())
         throw Error(problem);
-    save(rig_of_board(cameras, session, solution, "board " + flags.board.board), flags.output);
+    std::optional<Pose> touched;
+    if (!flags.touches.empty())
+        touched = touched_board(flags, target);
+    save(rig_of_board(cameras, session, solution, "board " + flags.board.board, touched),
+         flags.output);
 }
 
 }  // namespace
@@ -210,6 +245,16 @@ void add_register_command(CLI::App& app) {
         ->required();
     command->add_option("--report", flags->output.report,
                         "Also write a report with drawings: one HTML file");
+    command->add_option(
+        "--touches", flags->touches,
+        "The room's frame from a tracked controller: a file (- is standard input, read when the "
+        "views are taken) with lines CORNER X Y Z or CORNER X Y Z QW QX QY QZ, metres in the room, "
+        "for three corners or more of the board at its last place: A is the corner with the three "
+        "filled cells, then B, C, D clockwise, seen from the front");
+    command
+        ->add_option("--tip", flags->tip,
+                     "With --touches: the tip that touches, in the controller's frame, metres")
+        ->capture_default_str();
     command->add_option("--refine", flags->refine,
                         "Without a board: improve the places of this file on surfaces that two "
                         "cameras see, for example after one was moved a little");

@@ -47,6 +47,32 @@ std::optional<registration::Plane> floor_of(const Cameras& cameras, const BoardS
     return floor;
 }
 
+// A sentence on the table's top, as the camera sees it that sees most of it; else empty.
+std::string table_text(const Cameras& cameras, const BoardSession& session,
+                       const RigSolution& solution, const Pose& room) {
+    double area = 0;
+    char text[160] = "";
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const Image<Ray> rays = make_ray_table(cameras[c].calibration.depth);
+        const DepthView depth = session.last_mean(c).view();
+        const auto floor = registration::find_floor(depth, session.mean_unit_mm(c), rays);
+        if (!floor)
+            continue;
+        const auto table =
+            registration::find_table(depth, session.mean_unit_mm(c), rays, floor->plane);
+        if (!table || table->area_m2 < area)
+            continue;
+        area = table->area_m2;
+        const Vec3 at = room * solution.cameras[c].reference_from_camera * table->middle;
+        std::snprintf(
+            text, sizeof(text),
+            "The table's top is %.2f m high; its seen part (%.1f square metres) is around "
+            "x %.2f, z %.2f m.",
+            at.y, area, at.x, at.z);
+    }
+    return text;
+}
+
 std::string utc_now() {
     const std::time_t now = std::time(nullptr);
     std::tm parts{};
@@ -124,7 +150,8 @@ std::vector<Pose> earlier_places(const Cameras& cameras) {
 }  // namespace
 
 RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
-                           const RigSolution& solution, const std::string& method) {
+                           const RigSolution& solution, const std::string& method,
+                           const std::optional<Pose>& room_from_board) {
     RegisteredRig rig;
     RegistrationReport& report = rig.report;
     Vec3 middle{};
@@ -133,12 +160,19 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
     // A place of the first camera, by hand or in its own calibration, overrides the found one.
     const Calibration& first = cameras[0].calibration;
     const auto floor = floor_of(cameras, session, solution);
-    const Pose room = first.registered ? first.room_from_camera
-                                       : registration::room_from_reference(floor, middle);
-    rig.room = first.registered ? "the first camera's own place"
-               : floor          ? "the floor in depth"
-                                : "a guess: no floor was seen, so the first camera is taken to be "
-                                  "level, 1.5 m up";
+    Pose room;
+    if (room_from_board) {
+        room = *room_from_board * inverse(solution.reference_from_board.back());
+        rig.room = "the touched corners of the board";
+    } else if (first.registered) {
+        room = first.room_from_camera;
+        rig.room = "the first camera's own place";
+    } else {
+        room = registration::room_from_reference(floor, middle);
+        rig.room = floor ? "the floor in depth"
+                         : "a guess: no floor was seen, so the first camera is taken to be level, "
+                           "1.5 m up";
+    }
 
     Scene measured, corrected;
     std::vector<Pose> of_board;
@@ -159,6 +193,8 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
                                                           {report_reach_m, shift_m, turn});
     report.remarks.push_back("The room's frame comes from " + rig.room + ".");
     report.remarks.push_back(refined_text(refined));
+    if (const std::string table = table_text(cameras, session, solution, room); !table.empty())
+        report.remarks.push_back(table);
 
     rig.places.made = utc_now();
     rig.places.method = method + ", " + std::to_string(session.places()) + " places" +

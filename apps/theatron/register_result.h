@@ -28,8 +28,12 @@ struct RigOutput {
 
 // From views of the board, improved on the scene's surfaces where that helps. `solution` must have
 // no problem.
+//
+// The room's frame comes from `room_from_board`, where the board is at its last place, if it is
+// given, else from the first camera's own place, else from the floor.
 RegisteredRig rig_of_board(const Cameras& cameras, const registration::BoardSession& session,
-                           const registration::RigSolution& solution, const std::string& method);
+                           const registration::RigSolution& solution, const std::string& method,
+                           const std::optional<Pose>& room_from_board);
 
 // From the places of `earlier`, improved on surfaces; `means` by camera. Throws Error if a camera
 // has no place there, or if no better places were found.

@@ -136,6 +136,10 @@ TEST(RoomAlignment, FindsTheFloorBelowACameraThatLooksDown) {
     const auto floor = find_floor(std::as_const(depth).view(), 1, rays);
     ASSERT_TRUE(floor);
     EXPECT_NEAR(floor->plane.distance_m(), 1.8, 0.003);
+    const auto table = find_table(std::as_const(depth).view(), 1, rays, floor->plane);
+    ASSERT_TRUE(table);
+    EXPECT_NEAR((room_from_camera * table->middle).y, 0.9, 0.01);
+    EXPECT_FALSE(find_table(std::as_const(depth).view(), 1, rays, table->plane));
     // The room's frame from it: the same height and the same up.
     const Vec3 middle{0, 0, 2};
     const Pose room = room_from_reference(floor->plane, middle);

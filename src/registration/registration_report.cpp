@@ -138,8 +138,10 @@ std::string histogram(const RegistrationReport::Pair& pair) {
                     step - 2, hb);
     }
     for (int mm = 0; mm <= int(most_mm); mm += 2)
-        svg += text("<text x=%.1f y=%.0f>%d%s</text>", left + 2 * mm * step + step / 2, height - 6,
-                    mm, mm == int(most_mm) ? " mm and more" : "");
+        svg += mm == int(most_mm) ? text("<text class=last x=%.1f y=%.0f>%d mm and more</text>",
+                                         width - left, height - 6, mm)
+                                  : text("<text x=%.1f y=%.0f>%d</text>",
+                                         left + 2 * mm * step + step / 2, height - 6, mm);
     return svg + "</svg>";
 }
 
@@ -197,8 +199,8 @@ std::string scale_of_colors() {
         svg += text("<rect x=%d y=2 width=11 height=12 fill=\"%s\" />", 10 + i * 11,
                     color_of(i * most_mm / 40).c_str());
     for (int mm = 0; mm <= int(most_mm); mm += 2)
-        svg += text("<text x=%.0f y=30>%d%s</text>", 12 + mm * 43.0, mm,
-                    mm == int(most_mm) ? " mm" : "");
+        svg += mm == int(most_mm) ? text("<text class=last x=452 y=30>%d mm and more</text>", mm)
+                                  : text("<text x=%.0f y=30>%d</text>", 12 + mm * 43.0, mm);
     return svg + "</svg>";
 }
 
@@ -208,8 +210,8 @@ body{font:15px/1.45 system-ui,sans-serif;color:#1c2430;background:#fff;max-width
 h1{font-size:24px;margin:0 0 4px}h2{font-size:18px;margin:28px 0 6px}h3{font-size:15px;margin:0 0 2px}
 table{border-collapse:collapse}td,th{padding:4px 12px 4px 0;text-align:left;border-bottom:1px solid #dde3ea}
 .found{font-weight:600;color:#a0142d}.two{display:flex;flex-wrap:wrap;gap:24px}
-svg{max-width:100%;background:#f7f9fb}svg text{font-size:11px;text-anchor:middle;fill:#1c2430}
-.grid{stroke:#e2e8ee}.camera{fill:#1c2430}.place{stroke:#1c2430;fill:none}
+.two>div{width:460px}svg{max-width:100%;background:#f7f9fb}svg text{font-size:11px;text-anchor:middle;fill:#1c2430}
+svg .last{text-anchor:end}.grid{stroke:#e2e8ee}.camera{fill:#1c2430}.place{stroke:#1c2430;fill:none}
 .after{fill:#4a90c8}.before{fill:none;stroke:#8a3b12;stroke-width:1.2}p.note{color:#52606f;margin:2px 0 8px}
 </style></head><body>
 )";

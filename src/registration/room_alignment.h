@@ -16,6 +16,11 @@ namespace theatron::registration {
 // by as much. Camera frame. Nothing where no such surface is seen.
 std::optional<FoundPlane> find_floor(DepthView depth, double depth_unit_mm, const Image<Ray>& rays);
 
+// The largest surface that is parallel to the floor and 0.55 to 1.25 m above it, with at least 0.3
+// square metres of it seen; all in the camera's frame. Nothing where there is none.
+std::optional<FoundPlane> find_table(DepthView depth, double depth_unit_mm, const Image<Ray>& rays,
+                                     const Plane& floor);
+
 // The room's frame: y up from the floor; its origin lies below `middle`, and -z is where the
 // reference camera looks. `floor` and `middle` are in the reference's frame. Without a floor the
 // reference camera is taken to be level, 1.5 m up.

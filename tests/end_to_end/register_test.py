@@ -142,6 +142,38 @@ class Register(unittest.TestCase):
         self.refused(self.left, self.left, says="Two cameras are called 'left'")
         self.refused(self.left, says="give at least two")
         self.refused(self.left, self.right, options=("--board", "a3"), says="There is no board 'a3'")
+        file = self.folder / "kept.json"
+        for bad in ("nan", "-1", "thick"):
+            code, _, errors = self.register(self.left, self.right, output=file, options=("--thickness", bad))
+            self.assertNotEqual(code, 0)
+            self.assertIn("is not a thickness from 0.5 to 40 millimetres", errors)
+        touches = self.folder / "touches.txt"
+        touches.write_text("A 0 1 0\nB 0.8 1\n")
+        self.refused(self.left, self.right, options=("--touches", touches), says="Line 2 of the touches is not")
+        touches.write_text("A 0 1 0\nB 2.8 1 0\nC 0.8 0.4 0\n")
+        self.refused(self.left, self.right, options=("--touches", touches), says="mm off the board's corners")
+        self.refused(self.left, self.right, options=("--refine", self.folder / "kept.json"), says="The file of places")
+        self.assertEqual(file.read_text(), "as it was")
+
+    def test_a_controllers_tip_at_the_boards_corners_gives_the_rooms_frame_and_a_report_is_drawn(self):
+        # The board's middle is at 1.2 m in make_camera's room, turned by 9 degrees in itself.
+        file, touches, report = (self.folder / name for name in ("touched.json", "touches.txt", "report.html"))
+        a, lines = math.radians(9), []
+        for corner, (x, y) in zip("ABCD", ((-0.4, 0.3), (0.4, 0.3), (0.4, -0.3), (-0.4, -0.3))):
+            u, v = x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a)
+            lines.append(f"{corner} {u} {v + 1.2} -0.1 1 0 0 0")  # the tip is 10 cm before the controller's origin
+        touches.write_text("\n".join(lines))
+        code, out, errors = self.register(self.left, self.right, output=file, options=(
+            "--touches", touches, "--tip", "0:0:0.1", "--report", report))
+        self.assertEqual(code, 0, errors)
+        saved = json.loads(out.splitlines()[-1])
+        self.assertEqual(saved["room"], "the touched corners of the board")
+        for camera, degrees in zip(json.loads(file.read_text())["cameras"], (-30, 30)):
+            self.assertLess(math.dist(camera["room_from_camera"]["translation"], position(degrees)), 0.02)
+        html = report.read_text()
+        self.assertIn("Registration of 2 cameras", html)
+        self.assertIn("Fixed errors of depth", html)
+        self.assertNotIn("http", html)
 
     def test_places_of_other_cameras_are_refused(self):
         file = self.folder / "others.json"
