@@ -138,7 +138,7 @@ std::string histogram(const RegistrationReport::Pair& pair) {
                     step - 2, hb);
     }
     for (int mm = 0; mm <= int(most_mm); mm += 2)
-        svg += mm == int(most_mm) ? text("<text class=last x=%.1f y=%.0f>%d mm and more</text>",
+        svg += mm == int(most_mm) ? text("<text class=last x=%.1f y=%.0f>%d+ mm</text>",
                                          width - left, height - 6, mm)
                                   : text("<text x=%.1f y=%.0f>%d</text>",
                                          left + 2 * mm * step + step / 2, height - 6, mm);
@@ -199,7 +199,7 @@ std::string scale_of_colors() {
         svg += text("<rect x=%d y=2 width=11 height=12 fill=\"%s\" />", 10 + i * 11,
                     color_of(i * most_mm / 40).c_str());
     for (int mm = 0; mm <= int(most_mm); mm += 2)
-        svg += mm == int(most_mm) ? text("<text class=last x=452 y=30>%d mm and more</text>", mm)
+        svg += mm == int(most_mm) ? text("<text class=last x=452 y=30>%d+ mm</text>", mm)
                                   : text("<text x=%.0f y=30>%d</text>", 12 + mm * 43.0, mm);
     return svg + "</svg>";
 }
