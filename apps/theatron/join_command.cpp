@@ -266,7 +266,8 @@ void run(const Flags& flags) {
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
-        publisher = open_published(flags.cameras, {}, "", flags.may_record);
+        publisher =
+            open_published(flags.cameras, {}, "", {flags.may_record, wire::CameraFrame::person});
         options.publishing = publisher->events();
     }
 

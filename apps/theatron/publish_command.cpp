@@ -81,8 +81,8 @@ void run(const Flags& flags) {
     options.sends_only = true;
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
-    const auto publisher =
-        open_published(flags.cameras, flags.filters, flags.places, flags.may_record);
+    const auto publisher = open_published(flags.cameras, flags.filters, flags.places,
+                                          {flags.may_record, wire::CameraFrame::room});
     options.publishing = publisher->events();
 
     cli::catch_stop_signals();

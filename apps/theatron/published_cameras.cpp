@@ -9,9 +9,9 @@ namespace theatron::app {
 std::unique_ptr<publish::CameraPublisher> open_published(const std::vector<std::string>& cameras,
                                                          const std::vector<std::string>& filters,
                                                          const std::string& places,
-                                                         bool may_record) {
-    auto publisher = std::make_unique<publish::CameraPublisher>(cameras, places,
-                                                                cli::show_progress(), may_record);
+                                                         const publish::Sharing& sharing) {
+    auto publisher =
+        std::make_unique<publish::CameraPublisher>(cameras, places, cli::show_progress(), sharing);
     auto sources = host::filter_sources(filters, publisher->camera_names(), host::usual_filter);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const host::LoadedFilter filter = sources[i].load();

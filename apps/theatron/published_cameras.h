@@ -11,11 +11,10 @@
 namespace theatron::app {
 
 // Opens the cameras and chooses their filters, as `theatron host` does for its own: `filters` as
-// its --filter, `places` a file or empty; `may_record`: others may record them. Throws Error with
-// one sentence.
+// its --filter, `places` a file or empty. Throws Error with one sentence.
 std::unique_ptr<publish::CameraPublisher> open_published(const std::vector<std::string>& cameras,
                                                          const std::vector<std::string>& filters,
                                                          const std::string& places,
-                                                         bool may_record);
+                                                         const publish::Sharing& sharing);
 
 }  // namespace theatron::app

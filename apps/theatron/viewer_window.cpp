@@ -96,7 +96,7 @@ void show(ViewerWindow options) {
     TimePoint next_picture{}, next_texts{};
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
-        const bool picture_is_due = before < next_picture || viewer.is_fading();
+        const bool picture_is_due = before < next_picture || viewer.is_animated();
         window.wait((picture_is_due ? next_picture : next_texts) - before);
 
         const xr::WindowInput input = window.poll();

@@ -7,6 +7,7 @@
 #include "base/steady_clock.h"
 #include "capture/placed_camera.h"
 #include "geometry/calibration.h"
+#include "publish/own_camera.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -31,19 +32,51 @@ void shift(TimePoint& time, Duration offset) {
         time += offset;
 }
 
+// The eyes of the person in the first depth image of this camera.
+std::optional<Vec3> eyes_before(capture::Camera& camera) {
+    const TimePoint end = steady_now() + CameraPublisher::person_patience;
+    for (TimePoint now = steady_now(); now < end; now = steady_now()) {
+        const capture::Capture capture = camera.next(end - now);
+        if (capture.kind == capture::Capture::Kind::frame)
+            return find_eyes(capture.frame->depth.view(), camera.info().calibration);
+        if (capture.kind != capture::Capture::Kind::nothing)
+            break;
+    }
+    return std::nullopt;
+}
+
+// Turns the cameras' places in the room into places before the person.
+void place_before_person(capture::Camera& first, std::vector<Calibration>& cameras) {
+    const Pose person_from_first = person_from_camera(cameras.front(), eyes_before(first));
+    const Calibration before = cameras.front();
+    for (Calibration& camera : cameras) {
+        const bool is_placed = before.registered && camera.registered;
+        camera.room_from_camera = is_placed ? person_from_first * inverse(before.room_from_camera) *
+                                                  camera.room_from_camera
+                                            : person_from_first;
+        camera.registered = true;
+    }
+}
+
 }  // namespace
 
 CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const std::string& places,
-                                 const capture::Progress& progress, bool may_record)
+                                 const capture::Progress& progress, const Sharing& sharing)
     : specifications_(std::move(specifications)),
       places_(places.empty() ? capture::CameraPlaces() : capture::load_places(places)),
       states_(specifications_.size()) {
     std::vector<std::unique_ptr<capture::Camera>> cameras;
+    std::vector<Calibration> calibrations;
     for (const std::string& specification : specifications_) {
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
-        const capture::CameraInfo& info = cameras.back()->info();
+        calibrations.push_back(cameras.back()->info().calibration);
+    }
+    if (sharing.frame == wire::CameraFrame::person && !cameras.empty())
+        place_before_person(*cameras.front(), calibrations);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const capture::CameraInfo& info = cameras[i]->info();
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
-                           encode_calibration(info.calibration), may_record});
+                           encode_calibration(calibrations[i]), sharing.may_record, sharing.frame});
     }
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));

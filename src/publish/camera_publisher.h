@@ -23,13 +23,21 @@
 
 namespace theatron::publish {
 
+// What is the same for all cameras of a publisher.
+struct Sharing {
+    bool may_record = false;  // others may record them
+    wire::CameraFrame frame = wire::CameraFrame::room;
+};
+
 class CameraPublisher {
 public:
     // Opens the cameras; throws Error with one sentence if one cannot be opened. `places`: a file
-    // with their poses in the room (docs/formats/places.md); empty: the cameras have none.
-    // `may_record`: others may record them.
+    // with their poses in the room (docs/formats/places.md); empty: the cameras have none. With
+    // CameraFrame::person the cameras see the participant, whom the first one finds in its first
+    // depth image (own_camera.h); this takes up to `person_patience` longer.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
-                    const capture::Progress& progress, bool may_record = false);
+                    const capture::Progress& progress, const Sharing& sharing = {});
+    static constexpr Duration person_patience = std::chrono::seconds(3);
     ~CameraPublisher();
 
     std::vector<std::string> camera_names() const;

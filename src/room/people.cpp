@@ -91,9 +91,11 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
                 frame.objects.push_back({&hand_, *hand, look(color, opacity)});
         if (!person.head || length(person.head->translation - eye) < free_around_eye_m)
             continue;
-        frame.objects.push_back({&skin_, *person.head, look(color, opacity)});
-        frame.objects.push_back({&eyes_, *person.head, look({0.9, 0.9, 0.9}, opacity)});
-        frame.objects.push_back({&pupils_, *person.head, look({0.02, 0.02, 0.02}, opacity)});
+        if (!person.has_cloud) {
+            frame.objects.push_back({&skin_, *person.head, look(color, opacity)});
+            frame.objects.push_back({&eyes_, *person.head, look({0.9, 0.9, 0.9}, opacity)});
+            frame.objects.push_back({&pupils_, *person.head, look({0.02, 0.02, 0.02}, opacity)});
+        }
         const std::string name = person.name + (person.is_stale ? " (view is old)" : "");
         const double height = std::clamp(name_per_distance * length(person.head->translation - eye),
                                          least_name_m, largest_name_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatars of people without a camera: a floating head with a face and a name, and hands. The face
+// Avatars: a name, hands, and for people without a camera a floating head with a face. The face
 // shows the direction in which a person looks, a hand's finger where it points.
 #pragma once
 
@@ -19,6 +19,8 @@ struct RoomPerson {
     std::string name;
     std::optional<Pose> head, left_hand, right_hand;
     bool is_stale = false;  // its poses are old: it is drawn half transparent
+    // It is seen as a point cloud, in place of the head with a face.
+    bool has_cloud = false;
 };
 
 // The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring

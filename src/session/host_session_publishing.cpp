@@ -30,6 +30,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
         camera.calibration = offered.calibration;
         camera.may_record = offered.may_record;
         camera.session = config_.session;
+        camera.frame = offered.frame;
         cameras.push_back(std::move(camera));
     }
     if (wire::Text problem = problem_of(id, offer, cameras); !problem.empty())

@@ -34,11 +34,22 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     std::vector<CameraId> updated;
     for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.
-        if (upload(*frame) == Status::ok) {
+        if (person_clouds_.has(frame->camera)) {
+            if (person_clouds_.upload(frame) == Status::ok)
+                updated.push_back(frame->camera);
+        } else if (upload(*frame) == Status::ok) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
     return updated;
+}
+
+bool LiveScene::take_meeting(const client::Participant& participant) {
+    meeting_.set_clouds(person_clouds_.seen());
+    const bool changed = meeting_.take(participant);
+    if (changed)
+        person_clouds_.place(meeting_.people());
+    return changed;
 }
 
 // Applies cameras that left, joined or have a new calibration; the others keep their pictures. A
@@ -48,18 +59,24 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         return std::find_if(cameras.begin(), cameras.end(),
                             [&](const auto& camera) { return camera.description.id == id; });
     };
-    const auto shown = calibrations_;
-    for (const auto& [id, calibration] : shown)
+    const auto shown = origins_;
+    for (const auto& [id, origin] : shown)
         if (const auto camera = announced(id);
-            camera == cameras.end() || origin_of(*camera) != origins_[id]) {
-            clouds_.remove_camera(id);
-            calibrations_.erase(id);
+            camera == cameras.end() || origin_of(*camera) != origin) {
+            if (calibrations_.erase(id) > 0)
+                clouds_.remove_camera(id);
+            person_clouds_.remove_camera(id);
             origins_.erase(id);
             presence_.erase(id);
             newest_.erase(id);
         }
     for (const auto& camera : cameras) {
         const CameraId id = camera.description.id;
+        if (camera.description.frame == wire::CameraFrame::person) {
+            origins_[id] = origin_of(camera);
+            person_clouds_.set_camera(camera.description.publisher, id, camera.calibration);
+            continue;
+        }
         const auto known = calibrations_.find(id);
         const bool is_new = known == calibrations_.end();
         // No more can be drawn; the first ones stay.
@@ -83,6 +100,7 @@ Status LiveScene::upload(const receive::CameraFrame& frame) {
 }
 
 void LiveScene::set_depth_step(int step) {
+    person_clouds_.set_depth_step(step);
     if (!clouds_.set_depth_step(step))
         return;
     for (const auto& [camera, frame] : newest_)
@@ -108,6 +126,8 @@ void LiveScene::cut_people(const std::vector<client::Participant::Camera>& camer
 void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {
     std::vector<room::RoomCamera> marks;
     for (const auto& camera : cameras) {
+        if (camera.description.frame == wire::CameraFrame::person)
+            continue;
         std::string label = camera.description.name;
         if (camera.state.condition != wire::CameraCondition::live)
             label += std::string(" (") + text_of(camera.state.condition) + ")";
@@ -135,13 +155,20 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
 
 void LiveScene::draw(const render::CameraView& view, const render::DrawTarget& target,
                      const std::string& renderer) {
-    render::draw({scene_for(view), {{&clouds_, renderer}}, {{view, target}}}, passes_.get());
+    const render::SceneFrame* scene = scene_for(view);
+    render::draw({scene, clouds(renderer), {{view, target}}}, passes_.get());
 }
 
 render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, Size size,
                                   const std::string& renderer, bool with_room) {
     const render::SceneFrame* scene = with_room ? scene_for(eyes.front()) : nullptr;
-    return render::draw_and_read(scene, {{&clouds_, renderer}}, eyes, size, passes_.get());
+    return render::draw_and_read(scene, clouds(renderer), eyes, size, passes_.get());
+}
+
+std::vector<render::DrawnClouds> LiveScene::clouds(const std::string& renderer) {
+    std::vector<render::DrawnClouds> clouds{{&clouds_, renderer}};
+    person_clouds_.add_to(clouds, renderer);
+    return clouds;
 }
 
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
@@ -151,9 +178,11 @@ bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     bool changed = false;
     for (const auto& camera : participant.cameras(generation)) {
         const CameraId id = camera.description.id;
+        const bool live = camera.state.condition == wire::CameraCondition::live;
+        if (person_clouds_.has(id))
+            person_clouds_.set_live(id, live);
         if (calibrations_.count(id) == 0)
             continue;
-        const bool live = camera.state.condition == wire::CameraCondition::live;
         const double wanted = live ? 1 : stale_presence;
         double& presence = presence_.emplace(id, 1).first->second;
         if (presence == wanted)

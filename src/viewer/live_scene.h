@@ -11,6 +11,7 @@
 #include "room/virtual_room.h"
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
+#include "viewer/person_clouds.h"
 
 namespace theatron::viewer {
 
@@ -35,10 +36,9 @@ public:
     std::vector<CameraId> take(client::Participant& participant);
 
     // Takes over people and shared objects that have changed. True if the picture changes.
-    bool take_meeting(const client::Participant& participant) {
-        return choice_.shown && meeting_.take(participant);
-    }
+    bool take_meeting(const client::Participant& participant);
     Meeting& meeting() { return meeting_; }
+    const Meeting& meeting() const { return meeting_; }
 
     // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
     void set_depth_step(int step);
@@ -47,9 +47,10 @@ public:
     // changes by that.
     bool fade(const client::Participant& participant, TimePoint now);
 
+    // The cameras of the room, without those that see their publisher.
     bool has_picture() const { return !newest_.empty(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
-    // The last frame of each camera that sent one.
+    // The last frame of each of these that sent one.
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
 
     // Draws clouds and room into a cleared target. Throws Error if the driver cannot do it.
@@ -62,6 +63,7 @@ public:
 private:
     void take_cameras(const std::vector<client::Participant::Camera>& cameras);
     Status upload(const receive::CameraFrame& frame);
+    std::vector<render::DrawnClouds> clouds(const std::string& renderer);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
     // Everything in the picture except the clouds; null if nothing.
@@ -69,7 +71,8 @@ private:
 
     RoomChoice choice_;
     std::vector<SeenPerson> people_;
-    render::CloudSet clouds_;
+    render::CloudSet clouds_;  // of the room's cameras
+    PersonClouds person_clouds_;
     room::VirtualRoom room_;
     Meeting meeting_;
     render::SceneFrame frame_;                     // of the picture that is drawn
@@ -78,7 +81,7 @@ private:
     std::map<CameraId, double> presence_;
     TimePoint faded_at_;
     std::map<CameraId, Calibration> calibrations_;
-    std::map<CameraId, Origin> origins_;
+    std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
     std::map<CameraId, receive::CameraFramePtr> newest_;
 };
 

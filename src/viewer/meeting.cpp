@@ -12,15 +12,12 @@ namespace {
 constexpr double label_above_m = 0.12, label_height_m = 0.03, letter_width = 0.8;
 
 std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
-    if (!part)
-        return std::nullopt;
-    const auto& [w, x, y, z] = part->rotation;
-    return Pose{{w, x, y, z}, {part->position[0], part->position[1], part->position[2]}};
+    return part ? std::optional(session::pose_of(*part)) : std::nullopt;
 }
 
 bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
-           a.right_hand == b.right_hand && a.is_stale == b.is_stale;
+           a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud;
 }
 
 }  // namespace
@@ -70,12 +67,27 @@ bool Meeting::take(const client::Participant& participant) {
         room_ = participant.room();
         changed = true;
     }
-    std::vector<room::RoomPerson> people = people_of(room_, participant.poses(), participant.now());
+    const TimePoint now = participant.now();
+    auto poses = participant.poses();
+    std::erase_if(tracks_, [&](const auto& track) { return !poses.contains(track.first); });
+    for (auto& [id, pose] : poses) {
+        session::PoseTrack& track = tracks_[id];
+        track.add(pose, now);
+        pose = *track.at(now);
+    }
+    std::vector<room::RoomPerson> people = people_of(room_, poses, now);
+    for (room::RoomPerson& person : people)
+        person.has_cloud = clouds_.contains(person.id);
     if (!std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same)) {
         people_ = std::move(people);
         changed = true;
     }
     return changed;
+}
+
+bool Meeting::is_moving(TimePoint session_time) const {
+    return std::any_of(tracks_.begin(), tracks_.end(),
+                       [&](const auto& track) { return track.second.is_moving(session_time); });
 }
 
 const render::SceneMesh& Meeting::mesh_of(const room::Brick& brick) {

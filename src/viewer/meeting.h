@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "render/pick.h"
 #include "room/bricks.h"
 #include "room/people.h"
+#include "session/pose_track.h"
 
 namespace theatron::viewer {
 
@@ -21,8 +23,13 @@ public:
     // The pose of a person is stale if it is older than this.
     static constexpr Duration stale_after = std::chrono::seconds(2);
 
+    // The people who are seen as point clouds, from the next take().
+    void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }
+
     // Takes over new objects, people and poses. True if the picture changes.
     bool take(const client::Participant& participant);
+    // True while people move although no pose arrives (session/pose_track.h).
+    bool is_moving(TimePoint session_time) const;
 
     void add_to(render::SceneFrame& frame, const render::CameraView& view);
 
@@ -50,11 +57,13 @@ private:
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;
+    std::set<ParticipantId> clouds_;
+    std::map<ParticipantId, session::PoseTrack> tracks_;
     std::unique_ptr<room::People> avatars_;  // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
 };
 
-// All people of the room except room.self, with their newest poses. `now` is session time.
+// All people of the room except room.self, with these poses. `now` is session time.
 std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
                                         const std::map<ParticipantId, wire::PersonPose>& poses,
                                         TimePoint now);

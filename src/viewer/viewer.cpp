@@ -161,6 +161,7 @@ bool Viewer::step(Size picture, TimePoint now) {
         scene_changed_ = true;
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
+    moving_ = scene_.meeting().is_moving(participant_.session_time(now));
     send_pose(picture, now);
     if (first_picture_at_ == TimePoint{} && scene_.has_picture())
         first_picture_at_ = now;

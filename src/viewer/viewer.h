@@ -60,8 +60,8 @@ public:
     Facts facts(TimePoint now);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
-    // True while a fading camera changes the picture by itself.
-    bool is_fading() const { return fading_; }
+    // True while a fading camera or a moving person changes the picture by itself.
+    bool is_animated() const { return fading_ || moving_; }
     // The first moment that a picture could be drawn; TimePoint{} before.
     TimePoint first_picture_at() const { return first_picture_at_; }
 
@@ -90,7 +90,7 @@ private:
     session::RendererChoice choice_;
     std::string working_renderer_;
     xr::DrawingPace pace_;
-    bool fading_ = false;
+    bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
     bool help_ = false;
     bool line_ = true;

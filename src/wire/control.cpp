@@ -154,6 +154,12 @@ bool is_sound(const Join& join) {
 bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
+bool is_sound(const OfferedCamera& camera) {
+    return camera.frame <= CameraFrame::person;
+}
+bool is_sound(const Camera& camera) {
+    return camera.frame <= CameraFrame::person;
+}
 
 // False if the table has a value that its kind does not allow.
 template <class Message>

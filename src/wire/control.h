@@ -103,6 +103,14 @@ struct ChooseCodecs {
     }
 };
 
+// The frame that a camera's calibration calls the room.
+enum class CameraFrame : std::uint8_t {
+    room = 0,
+    // Of the person who publishes the camera: the origin is between the eyes, y is up, -z points
+    // where the person looks, without its slope. The person's pose moves it through the room.
+    person = 1,
+};
+
 // A camera that a participant offers. The host gives it its number.
 struct OfferedCamera {
     std::string name;
@@ -111,6 +119,7 @@ struct OfferedCamera {
     Bytes calibration;  // geometry/calibration.h
     // Its participant agrees that others record it; else the host sends it to no recorder.
     bool may_record = false;
+    CameraFrame frame{};
 
     static void fields(auto& m, auto&& field) {
         field(m.name, max_name);
@@ -118,6 +127,7 @@ struct OfferedCamera {
         field(m.frames_per_second);
         field(m.calibration, max_calibration_size);
         field(m.may_record);
+        field(m.frame);
     }
 };
 
@@ -213,6 +223,7 @@ struct Camera {
     ParticipantId publisher{};  // 0: the host
     SessionId session{};        // to which it belongs
     bool may_record = false;    // as in OfferedCamera; always for the host's own
+    CameraFrame frame{};
 
     static void fields(auto& m, auto&& field) {
         field(m.id);
@@ -225,6 +236,7 @@ struct Camera {
         field(m.publisher);
         field(m.session);
         field(m.may_record);
+        field(m.frame);
     }
 };
 

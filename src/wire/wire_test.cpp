@@ -296,7 +296,11 @@ TEST(Control, EveryMessageRoundTrips) {
     const std::vector<CameraId> cameras{CameraId{3}, CameraId{0x7fff}};
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).depth_codec, "rvl");
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).cameras, cameras);
-    const Publish offer = round_trip(Publish{{{"face", true, 30, numbered(5)}}});
+    const Publish offer =
+        round_trip(Publish{{{"face", true, 30, numbered(5), CameraFrame::person}}});
+    EXPECT_EQ(offer.cameras.at(0).frame, CameraFrame::person);
+    EXPECT_FALSE(
+        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), CameraFrame{2}}}})));
     ASSERT_EQ(offer.cameras.size(), 1u);
     EXPECT_EQ(offer.cameras[0].name, "face");
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));
@@ -312,7 +316,9 @@ TEST(Control, EveryMessageRoundTrips) {
                                                          30,
                                                          {},
                                                          ParticipantId{4},
-                                                         SessionId{7}}}});
+                                                         SessionId{7},
+                                                         CameraFrame::person}}});
+    EXPECT_EQ(added.cameras.at(0).frame, CameraFrame::person);
     EXPECT_EQ(added.cameras.at(0).session, SessionId{7});
     ASSERT_EQ(added.cameras.size(), 1u);
     EXPECT_EQ(added.cameras[0].publisher, ParticipantId{4});

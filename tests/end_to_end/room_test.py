@@ -9,7 +9,7 @@ import time
 import unittest
 
 from raw_peer import STATES, RawPeer
-from theatron_process import Process, host, make_recording, read_png
+from theatron_process import Process, host, make_recording, read_png, write_png
 
 ROOM = 3         # wire::Feature
 OBJECT_POSE = 2  # wire::StateTopic
@@ -26,6 +26,33 @@ def people(figures):
 def brick(figures, number=None):
     found = [o for o in figures["room"]["objects"] if number in (None, o["id"])]
     return found[0] if found else None
+
+
+FACE, WALL = (30, 220, 60), (220, 40, 220)
+
+
+def make_face(folder, width=160, height=120):
+    """A head and a trunk 0.8 m before the camera; a wall at 3 m."""
+    (folder / "depth").mkdir(parents=True)
+    (folder / "color").mkdir()
+    for n in range(5):
+        depth, pixels = [], []
+        for y in range(height):
+            person = [(x - 80) ** 2 + ((y - 60) * 0.8) ** 2 < 16 ** 2 or (y > 78 and abs(x - 80) < 36) for x in range(width)]
+            depth.append(struct.pack(f">{width}H", *[800 + (x + n) % 2 if p else 3000 for x, p in enumerate(person)]))
+            pixels.append(b"".join(bytes(FACE if p else WALL) for p in person))
+        write_png(folder / "depth" / f"{n:05}.png", width, height, 16, 1, depth)
+        write_png(folder / "color" / f"{n:05}.png", width, height, 8, 3, pixels)
+    lens = {"width": width, "height": height, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+    (folder / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens}))
+    return folder
+
+
+def count(picture, color, side):
+    """Pixels of this colour in the left (0) or the right half (1)."""
+    width, height, channels, rows = picture
+    columns = range(width // 2) if side == 0 else range(width // 2, width)
+    return sum(all(abs(rows[y][channels * x + c] - color[c]) < 30 for c in range(3)) for y in range(height) for x in columns)
 
 
 class Room(unittest.TestCase):
@@ -105,6 +132,25 @@ class Room(unittest.TestCase):
             self.assertGreater(facing, light_pixels(facing_away) + 150, "eyes")
             red, _, blue = facing_away[3][120][3 * 160:3 * 160 + 3]
             self.assertGreater(blue, red + 40)
+
+    def test_an_own_camera_is_its_persons_cloud(self):
+        face = make_face(self.folder / "face")
+        with self.start() as h, member(h.greeting["link"], "Ben") as ben:
+            with member(h.greeting["publish_link"], "Anna", "--publish", f"folder:{face},loop=1,preload=1") as anna:
+                ben.wait_for(lambda f: people(f) == ["Anna", "Ben"] and len(f["cameras"]) == 2, 20)
+
+                def picture(name, place):
+                    anna.say(f"stand {place}")
+                    with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240",
+                                 "--seconds", "1.5", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+                        self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                    return read_png(self.folder / name)
+
+                for name, place, side in (("left.png", "-0.25 1.6 -0.75 -0.25 1.6 0", 0), ("right.png", "0.25 1.6 -0.75 0.25 1.6 0", 1)):
+                    drawn = picture(name, place)
+                    self.assertGreater(count(drawn, FACE, side), 500, name)
+                    self.assertEqual(count(drawn, FACE, 1 - side), 0, name)
+                    self.assertEqual(count(drawn, WALL, 0) + count(drawn, WALL, 1), 0, "the wall behind Anna is cut off")
 
     def test_what_cannot_be_done_is_said(self):
         with self.start() as h, member(h.greeting["link"], "Anna Ö. Two") as anna, \
