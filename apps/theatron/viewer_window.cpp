@@ -99,7 +99,7 @@ void show(ViewerWindow options) {
         const bool picture_is_due = before < next_picture || viewer.is_animated();
         window.wait((picture_is_due ? next_picture : next_texts) - before);
 
-        const xr::WindowInput input = window.poll();
+        xr::WindowInput input = window.poll();
         const TimePoint now = steady_now();
         if (input.close)
             break;
@@ -115,6 +115,12 @@ void show(ViewerWindow options) {
         }
         if (left)
             break;
+        if (input.grabbed && overlay.covers(*input.grabbed)) {
+            if (const auto command = overlay.command_at(*input.grabbed))
+                viewer.press(*command, now);
+            input.grabbed.reset();
+            next_texts = now;
+        }
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
                         window.pixels(), now);
         if (const TimePoint first = viewer.first_picture_at();

@@ -39,6 +39,9 @@ public:
     // Rebuilds the room for these cameras. Cheap if nothing has changed.
     void set_cameras(const std::vector<RoomCamera>& cameras);
 
+    // Floor and walls; nothing if no camera is registered.
+    const std::optional<RoomExtent>& extent() const { return extent_; }
+
     // Appends the room's objects and texts and sets the light: labels face the eye of `view`, and a
     // mark around the eye is left out. Appends nothing if no camera is registered. The appended
     // objects are valid until the next call of set_cameras.

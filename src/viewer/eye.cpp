@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "room/moving.h"
+
 namespace theatron::viewer {
 
 render::CameraView Eye::view(Size picture) const {
@@ -44,6 +46,12 @@ bool Eye::follow(const ViewableCameras& cameras, bool must_exist, Size picture, 
     return true;
 }
 
+void Eye::go_to(const Pose& room_from_eye) {
+    const double distance = length(viewpoint_->pivot - viewpoint_->room_from_eye.translation);
+    viewpoint_ = {room_from_eye, room_from_eye * Vec3{0, 0, distance}};
+    moved_ = true;
+}
+
 void Eye::grab(Vec2 place, double distance_m, Size picture) {
     if (!viewpoint_)
         return;
@@ -61,6 +69,13 @@ bool Eye::steer(const xr::Steering& steering, Size picture, TimePoint now) {
         return false;
     const render::CameraView before = view(picture);
     viewpoint_ = xr::steered(*viewpoint_, steering, before.bottom - before.top, elapsed);
+    const bool travels = steering.fly != Vec3{} || steering.slide != Vec2{};
+    if (walls_ && travels) {
+        Vec3& eye = viewpoint_->room_from_eye.translation;
+        const Vec3 pushed = room::kept_inside(*walls_, eye) - eye;
+        eye = eye + pushed;
+        viewpoint_->pivot = viewpoint_->pivot + pushed;
+    }
     moved_ = true;
     return true;
 }

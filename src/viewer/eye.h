@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "room/virtual_room.h"
 #include "viewer/view_choice.h"
 #include "xr/navigation.h"
 
@@ -41,6 +42,13 @@ public:
     // changed. With `must_exist`, throws Error if there is no camera of the chosen number.
     bool follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now);
 
+    // The eye stays inside of these walls when it flies or slides, unless an orbit took it out.
+    void set_walls(const std::optional<room::RoomExtent>& walls) { walls_ = walls; }
+
+    // Needs is_placed(). Moves the eye to this pose (z forward, y down), whose pivot is ahead of it
+    // at the distance of the present one.
+    void go_to(const Pose& room_from_eye);
+
     // Begins a turn or a slide. `place` is in shares of the picture's width and height; the surface
     // there, at `distance_m` along the view's axis, stays under the mouse.
     void grab(Vec2 place, double distance_m, Size picture);
@@ -52,7 +60,8 @@ private:
     ViewChoice home_;
     std::optional<xr::Viewpoint> viewpoint_;
     CameraModel lens_;
-    Pose home_pose_;      // of the camera when the view started from it
+    Pose home_pose_;  // of the camera when the view started from it
+    std::optional<room::RoomExtent> walls_;
     bool moved_ = false;  // away from the home view
     bool flying_ = false;
     TimePoint steered_at_, first_picture_at_;

@@ -197,6 +197,8 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
     if (message.text.empty())
         content.notice = facts.notice;
     content.help = facts.help;
+    if (message.text.empty())
+        content.panels = facts.panels;
     return content;
 }
 

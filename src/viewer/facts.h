@@ -21,7 +21,8 @@ struct Facts {
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
     std::string notice;  // a recent event; empty: none
     bool help = false;
-    bool line = true;  // of facts, at the bottom
+    std::vector<xr::Panel> panels;  // of people and places, while they are shown
+    bool line = true;               // of facts, at the bottom
 };
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into

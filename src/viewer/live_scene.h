@@ -49,6 +49,7 @@ public:
 
     // The cameras of the room, without those that see their publisher.
     bool has_picture() const { return !newest_.empty(); }
+    const std::optional<room::RoomExtent>& walls() const { return room_.extent(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The last frame of each of these that sent one.
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }

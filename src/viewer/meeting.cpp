@@ -67,7 +67,7 @@ bool Meeting::take(const client::Participant& participant) {
         room_ = participant.room();
         changed = true;
     }
-    const TimePoint now = participant.now();
+    const TimePoint now = taken_at_ = participant.now();
     auto poses = participant.poses();
     std::erase_if(tracks_, [&](const auto& track) { return !poses.contains(track.first); });
     for (auto& [id, pose] : poses) {
@@ -86,8 +86,12 @@ bool Meeting::take(const client::Participant& participant) {
 }
 
 bool Meeting::is_moving(TimePoint session_time) const {
-    return std::any_of(tracks_.begin(), tracks_.end(),
-                       [&](const auto& track) { return track.second.is_moving(session_time); });
+    return std::any_of(tracks_.begin(), tracks_.end(), [&](const auto& track) {
+        const auto& teleport = track.second.teleport();
+        return track.second.is_moving(session_time) ||
+               (teleport && to_seconds(session_time - track.second.delay() - teleport->at) <
+                                room::TeleportMarks::effect_s);
+    });
 }
 
 const render::SceneMesh& Meeting::mesh_of(const room::Brick& brick) {
@@ -120,11 +124,30 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
             place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
         frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});
     }
+    add_teleports(frame);
     if (people_.empty())
         return;
     if (!avatars_)
         avatars_ = std::make_unique<room::People>();
     avatars_->add_to(frame, people_, view);
+}
+
+void Meeting::add_teleports(render::SceneFrame& frame) {
+    const auto marks = [&]() -> const room::TeleportMarks& {
+        if (!marks_)
+            marks_ = std::make_unique<room::TeleportMarks>();
+        return *marks_;
+    };
+    if (arc_)
+        marks().add_arc(frame, *arc_, room::color_of(room_.self));
+    for (const auto& [id, track] : tracks_)
+        if (const auto& teleport = track.teleport()) {
+            const double age_s = to_seconds(taken_at_ - track.delay() - teleport->at);
+            if (age_s < 0 || age_s >= room::TeleportMarks::effect_s)
+                continue;
+            for (const Vec3 head : {teleport->from, teleport->to})
+                marks().add_effect(frame, head, room::color_of(id), age_s);
+        }
 }
 
 std::optional<Meeting::Hit> Meeting::pick(const render::PickRay& ray,
@@ -167,6 +190,13 @@ std::optional<ParticipantId> Meeting::nearest_person(Vec3 place) const {
                 distance = length(part->translation - place);
             }
     return nearest;
+}
+
+const room::RoomPerson* Meeting::person(ParticipantId id) const {
+    for (const room::RoomPerson& person : people_)
+        if (person.id == id && person.head)
+            return &person;
+    return nullptr;
 }
 
 std::string Meeting::name_of(ParticipantId id) const {

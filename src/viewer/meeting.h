@@ -13,6 +13,7 @@
 #include "render/pick.h"
 #include "room/bricks.h"
 #include "room/people.h"
+#include "room/teleport_marks.h"
 #include "session/pose_track.h"
 
 namespace theatron::viewer {
@@ -33,6 +34,9 @@ public:
 
     void add_to(render::SceneFrame& frame, const render::CameraView& view);
 
+    // The arc of this person's own teleport, while it is aimed.
+    void set_arc(std::optional<room::TeleportArc> arc) { arc_ = std::move(arc); }
+
     // The nearest object that can be held on a ray.
     struct Hit {
         session::ObjectId object{};
@@ -50,16 +54,23 @@ public:
     std::string name_of(ParticipantId id) const;
 
     const std::vector<room::RoomPerson>& people() const { return people_; }
+    const client::Participant::Room& room() const { return room_; }
+    // Another person whose head has a pose; null if there is none of this number.
+    const room::RoomPerson* person(ParticipantId id) const;
 
 private:
     const render::SceneMesh& mesh_of(const room::Brick& brick);
+    void add_teleports(render::SceneFrame& frame);
 
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;
     std::set<ParticipantId> clouds_;
     std::map<ParticipantId, session::PoseTrack> tracks_;
-    std::unique_ptr<room::People> avatars_;  // created for the first other person
+    TimePoint taken_at_;  // session time
+    std::optional<room::TeleportArc> arc_;
+    std::unique_ptr<room::TeleportMarks> marks_;  // made for the first teleport
+    std::unique_ptr<room::People> avatars_;       // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
 };
 

@@ -49,6 +49,9 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     scene_changed_ = scene_changed_ || input.redraw;
     for (const xr::KeyPress& key : input.keys)
         on_key(key, picture, now);
+    aim_teleport(input, picture);
+    if (input.steering.moves())
+        stop_following();
     if (input.grabbed && grabbed_m)
         eye_.grab(*input.grabbed, *grabbed_m, picture);
     if (eye_.steer(input.steering, picture, now))
@@ -81,8 +84,25 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             participant_.choose_codecs("", options_.color_codec);
             note("Colour codec: " + options_.color_codec, now);
             break;
+        case xr::Action::people:
+            shows_panels_ = !shows_panels_;
+            break;
+        case xr::Action::sit_or_stand:
+            if (!eye_.is_placed())
+                break;
+            sits_ = !sits_;
+            stop_following();
+            scene_changed_ = true;
+            {
+                Pose eye = eye_.view(picture).room_from_eye;
+                eye.translation.y = sits_ ? room::sitting_eyes_m : room::standing_eyes_m;
+                eye_.go_to(eye);
+            }
+            note(sits_ ? "Sitting" : "Standing", now);
+            break;
         case xr::Action::own_view:
         case xr::Action::view_camera: {
+            stop_following();
             ViewChoice choice{eye_.home().camera, 0, 0};
             if (key.action == xr::Action::view_camera)
                 choice.camera = CameraId(key.camera);
@@ -103,6 +123,71 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::full_screen:
             break;  // of the window, not of the scene
     }
+}
+
+// The arc begins below the eye, so that it is seen from above.
+void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
+    constexpr Vec3 hand_from_eye{0.15, 0.3, 0.1};
+    if (!eye_.is_placed() || !scene_.walls())
+        return;
+    const render::CameraView view = eye_.view(picture);
+    const bool was_aiming = arc_.has_value();
+    if (input.aims_teleport) {
+        const render::PickRay ray = render::ray_through(view, input.pointer.value_or(Vec2{.5, .5}));
+        arc_ =
+            room::teleport_arc(*scene_.walls(), view.room_from_eye * hand_from_eye, ray.direction);
+    } else if (was_aiming) {
+        if (arc_->landing) {
+            stop_following();
+            eye_.go_to(room::standing_at(*arc_->landing, view.room_from_eye,
+                                         sits_ ? room::sitting_eyes_m : room::standing_eyes_m));
+        }
+        arc_.reset();
+    }
+    if (was_aiming || arc_) {
+        scene_.meeting().set_arc(arc_);
+        scene_changed_ = true;
+    }
+}
+
+void Viewer::press(int command, TimePoint now) {
+    if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
+        return;
+    const RoomCommand chosen = commands_[std::size_t(command)];
+    stop_following();
+    scene_changed_ = true;
+    if (const auto* place = std::get_if<GoToPlace>(&chosen)) {
+        eye_.go_to(place->place.room_from_eye);
+        return note(place->place.name, now);
+    }
+    const auto* through = std::get_if<LookThrough>(&chosen);
+    const ParticipantId id = through ? through->person : std::get<GoToPerson>(chosen).person;
+    const room::RoomPerson* person = scene_.meeting().person(id);
+    if (!person)
+        return note("This person has left", now);
+    if (through) {
+        followed_ = id;
+        note("You see through the eyes of " + person->name + "; move to leave", now);
+    } else {
+        eye_.go_to(beside(*person->head));
+        note("Beside " + person->name, now);
+    }
+}
+
+void Viewer::stop_following() {
+    followed_.reset();
+}
+
+void Viewer::look_through_followed(TimePoint now) {
+    if (!followed_ || !eye_.is_placed())
+        return;
+    const room::RoomPerson* person = scene_.meeting().person(*followed_);
+    if (!person) {
+        stop_following();
+        return note("The person through whose eyes you saw has left", now);
+    }
+    // The eye's frame has y down and z forward.
+    eye_.go_to(*person->head * Pose{Quat{0, 1, 0, 0}, {}});
 }
 
 void Viewer::choose_depth_codec() {
@@ -161,6 +246,8 @@ bool Viewer::step(Size picture, TimePoint now) {
         scene_changed_ = true;
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
+    eye_.set_walls(scene_.walls());
+    look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
     send_pose(picture, now);
     if (first_picture_at_ == TimePoint{} && scene_.has_picture())
@@ -244,6 +331,13 @@ Facts Viewer::facts(TimePoint now) {
     if (now < notice_until_)
         facts.notice = notice_;
     facts.help = help_;
+    commands_.clear();
+    if (shows_panels_) {
+        RoomPanel panel = room_panel(scene_.meeting().room(), scene_.meeting().people(),
+                                     places_of(cameras()), followed_);
+        facts.panels = std::move(panel.panels);
+        commands_ = std::move(panel.commands);
+    }
     facts.line = line_;
     return facts;
 }

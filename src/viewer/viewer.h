@@ -17,6 +17,7 @@
 #include "viewer/handling.h"
 #include "viewer/live_scene.h"
 #include "viewer/renderer_text.h"
+#include "viewer/room_panel.h"
 #include "xr/drawing_pace.h"
 #include "xr/window_input.h"
 
@@ -41,6 +42,8 @@ public:
     // of the surface at input.grabbed, along the view's axis, if there is one.
     void on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
                   TimePoint now);
+    // A button of the panels that facts() gave last.
+    void press(int command, TimePoint now);
 
     // Takes over the session's changes. `picture` is the size of the target in pixels. True if the
     // scene must be drawn again. Throws Error if the host refused this participant, or if the
@@ -76,6 +79,9 @@ private:
     void follow_host(TimePoint now);
     void choose_pace();
     void send_pose(Size picture, TimePoint now);
+    void aim_teleport(const xr::WindowInput& input, Size picture);
+    void look_through_followed(TimePoint now);
+    void stop_following();
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
@@ -92,6 +98,11 @@ private:
     xr::DrawingPace pace_;
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
+    std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees
+    std::optional<room::TeleportArc> arc_;   // while it is aimed
+    bool sits_ = false;
+    bool shows_panels_ = false;
+    std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;
     bool line_ = true;
     std::string notice_;

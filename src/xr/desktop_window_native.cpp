@@ -82,6 +82,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::give};
         case SDLK_DELETE:
             return KeyPress{Action::remove};
+        case SDLK_x:
+            return KeyPress{Action::sit_or_stand};
+        case SDLK_p:
+            return KeyPress{Action::people};
         case SDLK_r:
         case SDLK_HOME:
             return KeyPress{Action::own_view};
@@ -125,6 +129,12 @@ struct DesktopWindow::Parts {
         int width = 0, height = 0;
         SDL_GetWindowSize(window, &width, &height);
         return std::max(height, 1);
+    }
+    // A place in the window in shares of its width and height.
+    Vec2 shares_of(int x, int y) const {
+        int width = 0, height = 0;
+        SDL_GetWindowSize(window, &width, &height);
+        return {(x + 0.5) / std::max(width, 1), (y + 0.5) / std::max(height, 1)};
     }
     void take(const SDL_Event& event, WindowInput& input);
 };
@@ -182,6 +192,12 @@ WindowInput DesktopWindow::poll() {
     while (SDL_PollEvent(&event))
         parts_->take(event, input);
     read_held_keys(input.steering);
+    if (SDL_GetMouseFocus() == parts_->window) {
+        int x = 0, y = 0;
+        SDL_GetMouseState(&x, &y);
+        input.pointer = parts_->shares_of(x, y);
+    }
+    input.aims_teleport = SDL_GetKeyboardState(nullptr)[SDL_SCANCODE_T] != 0;
     return input;
 }
 
@@ -215,10 +231,7 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
             break;
         }
         case SDL_MOUSEBUTTONDOWN: {
-            int width = 0, height = 0;
-            SDL_GetWindowSize(window, &width, &height);
-            input.grabbed = Vec2{(event.button.x + 0.5) / std::max(width, 1),
-                                 (event.button.y + 0.5) / std::max(height, 1)};
+            input.grabbed = shares_of(event.button.x, event.button.y);
             input.grabbed_left = event.button.button == SDL_BUTTON_LEFT;
             break;
         }

@@ -17,6 +17,7 @@ constexpr ImU32 veil_color = IM_COL32(8, 10, 14, 170);
 constexpr ImU32 text_color = IM_COL32(245, 247, 250, 255);
 constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
 constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
+constexpr ImU32 button_color = IM_COL32(52, 66, 84, 255);
 constexpr ImU32 key_color = IM_COL32(140, 205, 255, 255);
 
 // Latin, Greek and Cyrillic letters, and the signs of our own texts.
@@ -55,6 +56,19 @@ struct Overlay::Parts {
     void message(const std::string& message, const std::string& detail, float bottom) const;
     float notice(const std::string& words, ImU32 color, float top) const;
     void help(float bottom) const;
+    void panels(const std::vector<Panel>& panels, float bottom);
+
+    struct Area {
+        ImVec2 from, to;
+        bool has(ImVec2 place) const {
+            return place.x >= from.x && place.x < to.x && place.y >= from.y && place.y < to.y;
+        }
+    };
+    std::vector<Area> panel_areas;
+    std::vector<std::pair<Area, int>> buttons;
+    ImVec2 pixel_at(Vec2 place) const {
+        return {float(place.x) * window.x, float(place.y) * window.y};
+    }
 
     ImDrawList* list = nullptr;
     ImVec2 window;
@@ -170,6 +184,84 @@ void Overlay::Parts::help(float bottom) const {
     }
 }
 
+// Rows that do not fit above `bottom` are left out, and a last line says how many.
+void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
+    const float padding = 1.4f * unit, gap = 0.7f * unit, left = 1.5f * unit;
+    const float button_height = normal->FontSize + gap;
+    float top = 1.5f * unit;
+    const auto button_width = [&](const PanelButton& button) {
+        return measure(small, button.label).x + 2 * gap;
+    };
+    for (const Panel& panel : shown) {
+        float width = measure(normal, panel.title).x;
+        for (const PanelRow& row : panel.rows) {
+            float buttons_width = 0;
+            for (const PanelButton& button : row.buttons)
+                buttons_width += button_width(button) + gap;
+            width = std::max({width, measure(normal, row.text).x + buttons_width + 2 * padding,
+                              measure(small, row.detail).x});
+        }
+        width = std::min(width, window.x - 2 * (left + padding));
+        const auto row_height = [&](const PanelRow& row) {
+            return button_height + (row.detail.empty() ? 0 : small->FontSize) + gap;
+        };
+        const float room = window.y - bottom - top - 2 * padding - normal->FontSize - gap;
+        float height = 0;
+        std::size_t rows = 0;
+        while (rows < panel.rows.size() &&
+               height + row_height(panel.rows[rows]) + small->FontSize <= room)
+            height += row_height(panel.rows[rows++]);
+        const std::size_t left_out = panel.rows.size() - rows;
+        const Area area{
+            {left, top},
+            {left + width + 2 * padding, top + 2 * padding + normal->FontSize + gap + height +
+                                             (left_out > 0 ? small->FontSize : 0)}};
+        panel_areas.push_back(area);
+        list->AddRectFilled(area.from, area.to, panel_color, unit);
+        list->PushClipRect(area.from, area.to);
+        float y = top + padding;
+        text(small, {left + padding, y}, label_color, panel.title);
+        y += normal->FontSize + gap;
+        for (std::size_t i = 0; i < rows; ++i) {
+            const PanelRow& row = panel.rows[i];
+            float x = area.to.x - padding;
+            for (auto button = row.buttons.rbegin(); button != row.buttons.rend(); ++button) {
+                const float wide = button_width(*button);
+                const Area place{{x - wide, y}, {x, y + button_height}};
+                list->AddRectFilled(place.from, place.to, button_color, 0.5f * unit);
+                text(small, {place.from.x + gap, y + (button_height - small->FontSize) / 2},
+                     key_color, button->label);
+                buttons.push_back({place, button->command});
+                x -= wide + gap;
+            }
+            list->PushClipRect({left + padding, y}, {x, y + row_height(row)}, true);
+            text(normal, {left + padding, y + gap / 2}, text_color, row.text);
+            list->PopClipRect();
+            if (!row.detail.empty())
+                text(small, {left + padding, y + button_height}, label_color, row.detail);
+            y += row_height(row);
+        }
+        if (left_out > 0)
+            text(small, {left + padding, y}, label_color, std::to_string(left_out) + " more");
+        list->PopClipRect();
+        top = area.to.y + unit;
+    }
+}
+
+bool Overlay::covers(Vec2 place) const {
+    const ImVec2 pixel = parts_->pixel_at(place);
+    return std::any_of(parts_->panel_areas.begin(), parts_->panel_areas.end(),
+                       [&](const Parts::Area& area) { return area.has(pixel); });
+}
+
+std::optional<int> Overlay::command_at(Vec2 place) const {
+    const ImVec2 pixel = parts_->pixel_at(place);
+    for (const auto& [area, command] : parts_->buttons)
+        if (area.has(pixel))
+            return command;
+    return std::nullopt;
+}
+
 Overlay::Overlay() : parts_(std::make_unique<Parts>()) {}
 Overlay::~Overlay() = default;
 
@@ -186,6 +278,9 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     p.list = ImGui::GetForegroundDrawList();
 
     const float bottom = p.facts(content.facts);
+    p.panel_areas.clear();
+    p.buttons.clear();
+    p.panels(content.panels, bottom);
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);
     if (content.help)

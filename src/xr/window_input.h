@@ -19,9 +19,11 @@ enum class Action {
     next_renderer,
     next_depth_codec,
     next_color_codec,
-    new_brick,    // creates a shared object
-    give,         // gives the held object to the nearest person
-    remove,       // removes the held object
+    new_brick,  // creates a shared object
+    give,       // gives the held object to the nearest person
+    remove,     // removes the held object
+    sit_or_stand,
+    people,       // shows or hides the panel of people and places
     own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };
@@ -40,6 +42,10 @@ struct WindowInput {
     std::optional<Vec2> grabbed;
     bool grabbed_left = false;  // it began with the left button
     bool released = false;      // the left button
+    // The mouse, in the same shares, if it is in the window; and whether the key for teleports is
+    // down.
+    std::optional<Vec2> pointer;
+    bool aims_teleport = false;
     Steering steering;
 };
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The window of `theatron join`, with the keys and the mouse that a person would use."""
+import json
 import os
 import pathlib
 import shutil
@@ -7,6 +8,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import time
 import unittest
 
 from theatron_process import PROGRAM, Process, host, make_recording, wait_until
@@ -94,6 +96,61 @@ class Window(unittest.TestCase):
             output = "".join(iter(viewer.lines.get, None))
             self.assertIn("age on screen", output)
             self.assertNotIn("reported", "".join(viewer.errors))  # errors of the driver
+
+    def buttons(self):
+        """Middles of the panel's buttons, from top to bottom and left to right."""
+        rows = self.screen.pixels(0, 0, WIDTH, HEIGHT)
+        color = bytes((84, 66, 52))
+        found = []
+        for y, row in enumerate(rows):
+            x = 0
+            while x < WIDTH:
+                end = x
+                while end < WIDTH and row[4 * end:4 * end + 3] == color:
+                    end += 1
+                if end - x > 30 and not any(abs(x + (end - x) // 2 - bx) < 20 and y - by < 30 for bx, by in found):
+                    found.append((x + (end - x) // 2, y + 3))
+                x = end + 1
+        return found
+
+    def click(self, place):
+        self.screen.do("mousemove", *place, "click", 1, "mousemove", WIDTH - 5, HEIGHT // 2)
+
+    def test_people_and_places_and_a_teleport(self):
+        recording = make_recording(self.folder / "placed", frames=1)
+        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.6, 0]}
+        (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+        do = self.screen.do
+        with host(self.folder / "placed_state", f"folder:{recording},loop=1,preload=1") as h, \
+                Process("join", h.greeting["link"], "--name", "Anna", "--every", "0.2") as anna, \
+                self.window(h.greeting["link"], "--name", "Ben", "--renderer", "splat"):
+            own = self.wait_for_scene()
+            anna.say("stand 1 1.6 -0.2 0 1.3 -1.2")
+            with self.subTest("a button goes beside a person"):
+                do("key", "p")
+                wait_until(lambda: len(self.buttons()) == 6)  # two for Anna, four places
+                self.click(self.buttons()[0])
+                self.wait_for_change(own, 0.2)
+            with self.subTest("through a person's eyes the view moves with them"):
+                self.click(self.buttons()[1])
+                time.sleep(0.5)
+                through = self.picture()
+                anna.say("stand -1 1.6 -0.2 0 1.3 -1.2")
+                self.wait_for_change(through, 0.2)
+            with self.subTest("and moving ends that"):
+                do("key", "p", "key", "r")
+                self.wait_for_return(own)
+                anna.say("stand 1 1.6 -0.2 0 1.3 -1.2")
+                time.sleep(0.5)
+                self.assertLess(difference(own, self.picture()), 0.02)
+            with self.subTest("T aims, and releasing it goes there"):
+                do("mousemove", WIDTH // 2 + 60, HEIGHT // 2 + 40, "keydown", "t")
+                self.wait_for_change(own, 0.001)
+                do("keyup", "t")
+                self.wait_for_change(own, 0.2)
+                do("key", "r")
+                self.wait_for_return(own)
 
     def test_a_lost_host_is_told_and_found_again(self):
         with socket.socket() as probe:

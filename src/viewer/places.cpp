@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "room/moving.h"
+
+namespace theatron::viewer {
+namespace {
+
+constexpr double side_distance_m = 0.9, above_m = 1.0, overview_distance_m = 2.6,
+                 overview_height_m = 2.1, beside_m = 0.6;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+std::vector<Place> places_of(const ViewableCameras& cameras) {
+    std::vector<double> x, y, z;
+    Vec3 towards{};  // horizontal, from the first camera to the point
+    for (const auto& [id, frame] : cameras.newest) {
+        const auto calibration = cameras.calibrations.find(id);
+        if (calibration == cameras.calibrations.end() || !calibration->second.registered)
+            continue;
+        const Vec3 point = render::point_of_interest(calibration->second, frame->depth.view());
+        if (x.empty())
+            towards = point - calibration->second.room_from_camera.translation;
+        x.push_back(point.x);
+        y.push_back(point.y);
+        z.push_back(point.z);
+    }
+    if (x.empty())
+        return {};
+    const Vec3 middle{median(x), median(y), median(z)};
+    towards.y = 0;
+    const Vec3 ahead = length(towards) > 1e-3 ? normalized(towards) : Vec3{0, 0, -1};
+    const Vec3 up{0, 1, 0}, side = cross(ahead, up);
+    const auto standing = [&](Vec3 from, double height) {
+        const Vec3 eye{middle.x + from.x, height, middle.z + from.z};
+        return look_at(eye, middle, up);
+    };
+    return {{"At the surgeon's side", standing(side * side_distance_m, room::standing_eyes_m)},
+            {"Opposite", standing(side * -side_distance_m, room::standing_eyes_m)},
+            {"Above the situs", look_at(middle + up * above_m, middle, ahead)},
+            {"Overview", standing(ahead * -overview_distance_m, overview_height_m)}};
+}
+
+Pose beside(const Pose& room_from_head) {
+    const Pose eye = room_from_head * Pose{Quat{0, 1, 0, 0}, {}};
+    const Vec3 right = rotate(eye.rotation, {1, 0, 0});
+    const double flat = std::hypot(right.x, right.z);
+    const Vec3 aside = flat > 1e-3 ? Vec3{right.x / flat, 0, right.z / flat} : Vec3{1, 0, 0};
+    return {eye.rotation, eye.translation + aside * beside_m};
+}
+
+}  // namespace theatron::viewer

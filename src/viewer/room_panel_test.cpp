@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/room_panel.h"
+
+#include <gtest/gtest.h>
+
+#include "room/moving.h"
+#include "session/room_bytes.h"
+
+namespace theatron::viewer {
+namespace {
+
+TEST(RoomPanel, ListsPeopleWithWhatTheyDoAndPlaces) {
+    client::Participant::Room room;
+    room.self = ParticipantId{1};
+    session::RoomObject anna;
+    anna.kind = session::ObjectKind::person;
+    anna.creator = ParticipantId{2};
+    session::PersonFacts facts;
+    facts.name = "Anna";
+    facts.records = true;
+    anna.properties = session::encode_person(facts);
+    room.objects[session::ObjectId{1}] = anna;
+    session::RoomObject brick;
+    brick.kind = session::ObjectKind::brick;
+    brick.grip = {ParticipantId{2}, 1};
+    room.objects[session::ObjectId{2}] = brick;
+
+    room::RoomPerson person;
+    person.id = ParticipantId{2};
+    person.name = "Anna";
+    person.head = Pose{};
+    room::RoomPerson absent;
+    absent.id = ParticipantId{3};
+    absent.name = "Ben";
+    const RoomPanel panel =
+        room_panel(room, {person, absent}, {{"Overview", {}}}, ParticipantId{2});
+    ASSERT_EQ(panel.panels.size(), 2u);
+    const auto& rows = panel.panels[0].rows;
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].text, "Anna");
+    EXPECT_EQ(rows[0].detail, "records, holds an object, you see through their eyes");
+    ASSERT_EQ(rows[0].buttons.size(), 2u);
+    const auto* look = std::get_if<LookThrough>(&panel.commands.at(rows[0].buttons[1].command));
+    ASSERT_TRUE(look);
+    EXPECT_EQ(look->person, ParticipantId{2});
+    EXPECT_TRUE(rows[1].buttons.empty()) << "nobody knows where Ben is";
+    const auto& place = panel.panels[1].rows.at(0).buttons.at(0);
+    EXPECT_TRUE(std::holds_alternative<GoToPlace>(panel.commands.at(place.command)));
+}
+
+TEST(RoomPanel, SaysThatNobodyIsHere) {
+    const RoomPanel panel = room_panel({}, {}, {}, std::nullopt);
+    ASSERT_EQ(panel.panels.size(), 1u);
+    EXPECT_EQ(panel.panels[0].rows.at(0).text, "Nobody else is here");
+}
+
+TEST(Places, AreAroundThePointThatTheCamerasLookAt) {
+    Calibration calibration;
+    calibration.depth = pinhole({64, 48}, 60);
+    calibration.room_from_camera = look_at({0, 1.8, 2}, {0, 1, 0}, {0, 1, 0});
+    calibration.registered = true;
+    auto frame = std::make_shared<receive::CameraFrame>();
+    frame->depth = DepthImage({64, 48});
+    std::fill(frame->depth.pixels.begin(), frame->depth.pixels.end(), std::uint16_t(2150));
+    const std::map<CameraId, Calibration> calibrations{{CameraId{0}, calibration}};
+    const std::map<CameraId, receive::CameraFramePtr> newest{{CameraId{0}, frame}};
+    const std::vector<Place> places = places_of({calibrations, newest});
+    ASSERT_EQ(places.size(), 4u);
+    for (const Place& place : places) {
+        // Every place shows the point in the middle of the picture.
+        const Vec3 seen = inverse(place.room_from_eye) * Vec3{0, 1, 0};
+        EXPECT_GT(seen.z, 0) << place.name;
+        EXPECT_LT(std::hypot(seen.x, seen.y) / seen.z, 0.15) << place.name;
+    }
+    EXPECT_NEAR(places[0].room_from_eye.translation.y, room::standing_eyes_m, 1e-9);
+    const std::map<CameraId, Calibration> no_calibrations;
+    const std::map<CameraId, receive::CameraFramePtr> no_frames;
+    EXPECT_TRUE(places_of({no_calibrations, no_frames}).empty());
+}
+
+TEST(Places, BesideAPersonTheViewIsTheSame) {
+    const Pose head = look_at({1, 1.6, 0}, {0, 1.6, 0}, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
+    const Pose eye = beside(head);
+    EXPECT_LT(length(rotate(eye.rotation, {0, 0, 1}) - Vec3{-1, 0, 0}), 1e-9);
+    EXPECT_NEAR(eye.translation.y, 1.6, 1e-9);
+    EXPECT_NEAR(length(eye.translation - head.translation), 0.6, 1e-9);
+}
+
+}  // namespace
+}  // namespace theatron::viewer
