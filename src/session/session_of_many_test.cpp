@@ -176,6 +176,30 @@ TEST_F(SessionOfMany, ARecorderGetsTheCamerasOfTheHostAndOfThoseWhoAgree) {
     EXPECT_EQ(codec_of(ParticipantId{77}, depth_stream(refused.at(0))), "strata");
 }
 
+// Settings of single cameras use up numbers faster than settings of all.
+TEST_F(SessionOfMany, APictureUnderAnOldNumberGoesToNobodyThoughAnotherCameraHasTheNumberNow) {
+    join(alice, "publish");
+    join(bob);
+    const auto cameras = publish(alice, 2);
+    const SettingId old = session.depth_settings(cameras[0]).at(0).id;
+    say(bob, wire::ChooseCodecs{"other", "", {cameras[0]}});
+    ASSERT_NE(session.depth_settings(cameras[0]).at(0).id, old);
+    SettingId reused{};
+    for (std::size_t i = 0; i < SettingNumbers::how_many && reused != old; ++i) {
+        now += std::chrono::milliseconds(500);
+        const std::string codec = i % 2 == 0 ? "even" : "odd";
+        say(bob, wire::ChooseCodecs{codec, codec, {cameras[1]}});
+        (void)session.take_actions();
+        reused = session.depth_settings(cameras[1]).at(0).id;
+        if (session.color_settings(cameras[1]).at(0).id == old)
+            reused = old;
+    }
+    ASSERT_EQ(reused, old);
+    EXPECT_TRUE(session.on_media_from(alice, picture(cameras[0], old), now).empty());
+    const SettingId present = session.depth_settings(cameras[0]).at(0).id;
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], present), now), std::vector{bob});
+}
+
 TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     join(alice);
     actions = session.take_actions();
