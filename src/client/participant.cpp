@@ -82,8 +82,10 @@ Decoders::Events Participant::decoded_events() {
             const std::lock_guard lock(shared_->mutex);
             if (generation != shared_->decoder_generation)
                 return;
-            shared_->newest[frame->camera] = std::move(frame);
+            shared_->newest[frame->camera].swap(frame);
         }
+        // Outside of the lock, so that the network's thread does not wait for it.
+        frame.reset();
         announce();
     };
     events.needs_key = [this](StreamId stream, SettingId setting) {
