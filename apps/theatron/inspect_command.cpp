@@ -99,6 +99,8 @@ Json describe_calibration(const Bytes& bytes) {
     const auto calibration = decode_calibration(bytes);
     if (!calibration)
         return {{"problem", to_text(calibration.error())}};
+    if (calibration->depth.size == Size{})
+        return {{"problem", "without depth"}};
     Json json{{"depth", describe(calibration->depth)},
               {"depth_unit_mm", calibration->depth_unit_mm},
               {"registered", calibration->registered}};
@@ -106,21 +108,11 @@ Json describe_calibration(const Bytes& bytes) {
         json["color"] = describe(calibration->color);
         json["baseline_mm"] = length(calibration->color_from_depth.translation) * 1000;
     }
+    if (calibration->depth_offset_mm)
+        json["depth_offset_mm"] = *calibration->depth_offset_mm;
+    if (const auto& gain = calibration->color_gain)
+        json["color_gain"] = {gain->x, gain->y, gain->z};
     return json;
-}
-
-// As in 2026-11-22T07:31:41.250Z; empty if it is not known.
-std::string utc_text(record::UtcTime time) {
-    const std::time_t seconds =
-        std::chrono::floor<std::chrono::seconds>(time).time_since_epoch().count();
-    std::tm parts{};
-    if (time == record::UtcTime{} || !gmtime_r(&seconds, &parts))
-        return "";
-    char date[64], text[96];
-    std::strftime(date, sizeof(date), "%Y-%m-%dT%H:%M:%S", &parts);
-    const auto us = (time - std::chrono::floor<std::chrono::seconds>(time)).count();
-    std::snprintf(text, sizeof(text), "%s.%03dZ", date, int(us / 1000));
-    return text;
 }
 
 Json describe_segments(const record::RecordingFile& recording) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/utc.h"
 #include "client/participant_figures.h"
 #include "wire/condition_text.h"
 
@@ -79,7 +80,9 @@ nlohmann::json participant_json(const client::Participant& participant) {
     nlohmann::json recordings = nlohmann::json::array();
     for (const auto& [name, lasts] : figures.recordings)
         recordings.push_back({{"name", name}, {"seconds", to_seconds(lasts)}});
-    return {{"host", status.host_name},
+    return {{"utc", utc_text(utc_now())},
+            {"session_us", to_us(participant.now())},
+            {"host", status.host_name},
             {"recordings", recordings},
             {"phase", client::text_of(status.phase)},
             {"cameras", cameras},

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "base/utc.h"
 #include "cli/camera_option.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
@@ -52,7 +53,8 @@ nlohmann::json figures_json(const publish::CameraPublisher& publisher,
     nlohmann::json cameras = nlohmann::json::array();
     for (const auto& camera : publisher.figures())
         cameras.push_back(camera_json(camera));
-    return {{"host", status.host_name},
+    return {{"utc", utc_text(utc_now())},
+            {"host", status.host_name},
             {"phase", client::text_of(status.phase)},
             {"joins", status.joins},
             {"dropped_slow", status.media_dropped},

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "base/utc.h"
 #include "cli/camera_option.h"
 #include "cli/progress.h"
 #include "cli/seconds_option.h"
@@ -328,6 +329,7 @@ void run(const Flags& flags) {
                           !(end && end->fault) && f.problem.empty();
     if (flags.json)
         std::cout << nlohmann::json{{"file", file},
+                                    {"utc", utc_text(utc_now())},
                                     {"segments", f.segments},
                                     {"seconds", to_seconds(f.duration)},
                                     {"bytes", f.bytes},

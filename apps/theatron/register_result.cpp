@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "base/error.h"
+#include "base/utc.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "registration/room_alignment.h"
@@ -70,15 +70,6 @@ std::string table_text(const Cameras& cameras, const BoardSession& session,
             "x %.2f, z %.2f m.",
             at.y, area, at.x, at.z);
     }
-    return text;
-}
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
     return text;
 }
 
@@ -196,7 +187,7 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
     if (const std::string table = table_text(cameras, session, solution, room); !table.empty())
         report.remarks.push_back(table);
 
-    rig.places.made = utc_now();
+    rig.places.made = utc_text(utc_now());
     rig.places.method = method + ", " + std::to_string(session.places()) + " places" +
                         (refined.is_kept ? ", surfaces" : "") + "; room from " + rig.room;
     std::vector<Pose> places, before = earlier_places(cameras);
@@ -204,7 +195,7 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
         const registration::CameraPlace& found = solution.cameras[c];
         places.push_back(room * refined.reference_from_camera[c]);
         capture::CameraPlaces::Entry entry{
-            cameras[c].name, places[c], {}, found.bias.offset_m * 1000};
+            cameras[c].name, places[c], {}, found.bias.offset_m * 1000, {}};
         auto& covariance = entry.covariance.emplace();
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j)
@@ -260,7 +251,7 @@ RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlace
         scene.cameras.emplace_back(
             cameras[c].calibration.depth,
             cameras[c].calibration.depth_unit_mm / registration::FrameMean::finer);
-        scene.cameras.back().bias.offset_m = entry->depth_offset_mm / 1000;
+        scene.cameras.back().bias.offset_m = entry->depth_offset_mm.value_or(0) / 1000;
         scene.images.push_back(means[c].mean());
     }
     const auto refined =
@@ -271,12 +262,13 @@ RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlace
             "the picture is wrong all the same, register with the board.");
     const std::vector<Pose> places =
         registration::with_most_places_kept(before, refined.reference_from_camera);
-    rig.places.made = utc_now();
+    rig.places.made = utc_text(utc_now());
     rig.places.method = ("surfaces; before: " + earlier.method).substr(0, 480);
     Vec3 middle{};
     for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const capture::CameraPlaces::Entry& entry = *earlier.find(cameras[c].name);
         rig.places.cameras.push_back(
-            {cameras[c].name, places[c], {}, earlier.find(cameras[c].name)->depth_offset_mm});
+            {cameras[c].name, places[c], {}, entry.depth_offset_mm, entry.color_gain});
         RegistrationReport::Camera& drawn = rig.report.cameras.emplace_back();
         drawn.name = cameras[c].name;
         drawn.room_from_camera = places[c];

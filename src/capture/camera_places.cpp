@@ -40,12 +40,35 @@ Pose pose_of(JsonFields& fields, const Json& object) {
     return {{q[0], q[1], q[2], q[3]}, at};
 }
 
+double offset_of(JsonFields& fields, const Json& camera) {
+    const double mm = fields.number(camera, "depth_offset_mm");
+    if (!(std::abs(mm) <= max_depth_offset_mm))
+        fields.note("has a camera whose 'depth_offset_mm' is more than 100");
+    return mm;
+}
+
+Vec3 gain_of(JsonFields& fields, const Json& camera) {
+    const Vec3 gain = fields.vector(camera, "color_gain");
+    for (const double v : {gain.x, gain.y, gain.z})
+        if (!(v >= 1 / max_color_gain && v <= max_color_gain))
+            fields.note("has a camera whose 'color_gain' is not three numbers from 0.25 to 4");
+    return gain;
+}
+
 }  // namespace
 
 const CameraPlaces::Entry* CameraPlaces::find(std::string_view camera) const {
     const auto found = std::find_if(cameras.begin(), cameras.end(),
                                     [&](const Entry& e) { return e.camera == camera; });
     return found == cameras.end() ? nullptr : &*found;
+}
+
+// FNV-1a.
+std::uint64_t CameraPlaces::registration() const {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : write_places(*this))
+        hash = (hash ^ std::uint8_t(c)) * 0x100000001b3;
+    return hash == 0 ? 1 : hash;
 }
 
 ParsedPlaces parse_places(std::string_view text) {
@@ -66,13 +89,16 @@ ParsedPlaces parse_places(std::string_view text) {
         return {.places = {}, .problem = fields.problem()};
     for (const Json& camera : cameras) {
         fields.only(camera, "cameras",
-                    {"camera", "room_from_camera", "covariance", "depth_offset_mm"});
+                    {"camera", "room_from_camera", "covariance", "depth_offset_mm", "color_gain"});
         CameraPlaces::Entry entry;
         entry.camera = text_of(fields, camera, "camera");
         entry.room_from_camera = pose_of(fields, fields.member(camera, "room_from_camera"));
         if (fields.has(camera, "covariance"))
             fields.numbers(camera, "covariance", entry.covariance.emplace());
-        entry.depth_offset_mm = fields.number_or(camera, "depth_offset_mm", 0);
+        if (fields.has(camera, "depth_offset_mm"))
+            entry.depth_offset_mm = offset_of(fields, camera);
+        if (fields.has(camera, "color_gain"))
+            entry.color_gain = gain_of(fields, camera);
         if (places.find(entry.camera))
             fields.note("names the camera '" + entry.camera + "' twice");
         if (!fields.problem().empty())
@@ -96,7 +122,10 @@ std::string write_places(const CameraPlaces& places) {
                                       {"translation", {t.x, t.y, t.z}}};
         if (entry.covariance)
             camera["covariance"] = *entry.covariance;
-        camera["depth_offset_mm"] = entry.depth_offset_mm;
+        if (entry.depth_offset_mm)
+            camera["depth_offset_mm"] = *entry.depth_offset_mm;
+        if (entry.color_gain)
+            camera["color_gain"] = {entry.color_gain->x, entry.color_gain->y, entry.color_gain->z};
         json["cameras"].push_back(std::move(camera));
     }
     // Invalid UTF-8 in a name is replaced by U+FFFD.

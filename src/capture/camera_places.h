@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,7 +20,8 @@ struct CameraPlaces {
         // Covariance of rotation (about the camera's axes, radians), then translation (along them,
         // metres), row by row; empty if unknown.
         std::optional<std::array<double, 36>> covariance;
-        double depth_offset_mm = 0;  // distance by which the camera measures too far
+        std::optional<double> depth_offset_mm;  // distance by which the camera measures too far
+        std::optional<Vec3> color_gain;         // factors of red, green, blue sRGB values
         bool operator==(const Entry&) const = default;
     };
 
@@ -28,6 +30,8 @@ struct CameraPlaces {
     std::vector<Entry> cameras;
 
     const Entry* find(std::string_view camera) const;
+    // A number for Calibration::registration, made from the content.
+    std::uint64_t registration() const;
     bool operator==(const CameraPlaces&) const = default;
 };
 

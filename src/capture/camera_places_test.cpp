@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 
 CameraPlaces two_places() {
     CameraPlaces places{"2026-05-04T10:20:30Z", "lattice board, 10 poses", {}};
-    places.cameras.push_back({"left", {{0, 1, 0, 0}, {1, 1.5, -2}}, {}, 1.25});
-    places.cameras.push_back({"right", {{1, 0, 0, 0}, {0, 2, 0}}, {}, 0});
+    places.cameras.push_back({"left", {{0, 1, 0, 0}, {1, 1.5, -2}}, {}, 1.25, {}});
+    places.cameras.push_back({"right", {{1, 0, 0, 0}, {0, 2, 0}}, {}, {}, Vec3{1, 0.5, 2}});
     places.cameras[1].covariance.emplace().fill(1e-6);
     return places;
 }
@@ -44,6 +44,8 @@ TEST(CameraPlaces, SaysWhatIsWrongWithAFile) {
     EXPECT_THAT(changed("\"quaternion\"", "\"quaternian\""), HasSubstr("quaternian"));
     EXPECT_THAT(changed("1.5", "1e9"), HasSubstr("1 km away"));
     EXPECT_THAT(changed("\"made\"", "\"mad\""), HasSubstr("'mad'"));
+    EXPECT_THAT(changed("1.25", "101"), HasSubstr("depth_offset_mm"));
+    EXPECT_THAT(changed("0.5", "5.5"), HasSubstr("color_gain"));
 }
 
 TEST(CameraPlaces, APlaceByHandIsMetresAndDegrees) {
@@ -73,7 +75,12 @@ TEST(PlacedCamera, EveryKindOfCameraTakesAPlaceAndTheHandIsTheLastWord) {
     const auto from_file = open_camera_at(camera, places);
     EXPECT_TRUE(from_file->info().calibration.registered);
     EXPECT_EQ(from_file->info().calibration.room_from_camera, places.cameras[0].room_from_camera);
+    EXPECT_EQ(from_file->info().calibration.depth_offset_mm, 1.25);
+    EXPECT_EQ(from_file->info().calibration.registration, places.registration());
+    EXPECT_NE(places.registration(), two_places().registration());
     const auto by_hand = open_camera_at(camera + ",place=5:1:2", places);
+    EXPECT_EQ(by_hand->info().calibration.depth_offset_mm, std::nullopt);
+    EXPECT_EQ(by_hand->info().calibration.registration, 0u);
     EXPECT_EQ(by_hand->info().calibration.room_from_camera.translation, (Vec3{5, 1, 2}));
     EXPECT_THROW(open_camera(camera + ",place=here"), Error);
 }

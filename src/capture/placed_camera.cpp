@@ -8,10 +8,18 @@ namespace {
 
 class PlacedCamera final : public Camera {
 public:
-    PlacedCamera(std::unique_ptr<Camera> camera, const Pose& place)
+    PlacedCamera(std::unique_ptr<Camera> camera, const CameraPlaces::Entry& entry,
+                 std::uint64_t registration)
         : camera_(std::move(camera)), info_(camera_->info()) {
-        info_.calibration.room_from_camera = place;
-        info_.calibration.registered = true;
+        Calibration& calibration = info_.calibration;
+        calibration.room_from_camera = entry.room_from_camera;
+        calibration.registered = true;
+        calibration.registration = registration;
+        calibration.covariance = entry.covariance;
+        if (entry.depth_offset_mm)
+            calibration.depth_offset_mm = entry.depth_offset_mm;
+        if (entry.color_gain)
+            calibration.color_gain = entry.color_gain;
     }
 
     const CameraInfo& info() const override { return info_; }
@@ -37,7 +45,9 @@ std::optional<Pose> take_place_option(Options& options) {
 }
 
 std::unique_ptr<Camera> make_placed_camera(std::unique_ptr<Camera> camera, const Pose& place) {
-    return std::make_unique<PlacedCamera>(std::move(camera), place);
+    CameraPlaces::Entry by_hand;
+    by_hand.room_from_camera = place;
+    return std::make_unique<PlacedCamera>(std::move(camera), by_hand, 0);
 }
 
 std::unique_ptr<Camera> open_camera_at(const std::string& specification, const CameraPlaces& places,
@@ -47,7 +57,7 @@ std::unique_ptr<Camera> open_camera_at(const std::string& specification, const C
     const bool by_hand = !Options::parse(specification).take("place").empty();
     if (!entry || by_hand)
         return camera;
-    return make_placed_camera(std::move(camera), entry->room_from_camera);
+    return std::make_unique<PlacedCamera>(std::move(camera), *entry, places.registration());
 }
 
 }  // namespace theatron::capture

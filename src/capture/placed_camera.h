@@ -20,8 +20,8 @@ std::optional<Pose> take_place_option(Options& options);
 // `camera`, registered at this place whatever its own calibration says.
 std::unique_ptr<Camera> make_placed_camera(std::unique_ptr<Camera> camera, const Pose& place);
 
-// Opens a camera and gives it the place that `places` has under its name. A place in the
-// specification, given by hand, overrides it. Throws as open_camera does.
+// Opens a camera and gives it the place and the corrections that `places` has under its name. A
+// place in the specification, given by hand, overrides all of them. Throws as open_camera does.
 std::unique_ptr<Camera> open_camera_at(const std::string& specification, const CameraPlaces& places,
                                        const Progress& progress = {});
 

@@ -67,6 +67,8 @@ RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> reco
     if (!calibration)
         throw Error("The calibration in " + name + " is " +
                     std::string(theatron::to_text(calibration.error())) + ".");
+    if (calibration->depth.size == Size{})
+        throw Error("The camera in " + name + " has no depth, which this version cannot play.");
     info_ = {parts_[0].name, *calibration, parts_[0].frames_per_second};
     for (const record::CameraPart& one : parts_) {
         const auto depth = video::parse_depth_setting(one.depth.codec);

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr Size depth_size{24, 18}, color_size{16, 12};
-const record::ClockPair session_begin{from_us(5), record::UtcTime(1'700'000'000s)};
+const record::ClockPair session_begin{from_us(5), UtcTime(1'700'000'000s)};
 constexpr int period_us = 33'333;
 
 Calibration calibration_of(int camera) {

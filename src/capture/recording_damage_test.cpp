@@ -22,7 +22,7 @@ constexpr int cameras = 2, frames_per_second = 10, frames = 8 * frames_per_secon
 // The most frames lost by a single damage: key frames come every two seconds.
 constexpr int key_distance = 2 * frames_per_second;
 constexpr Size small{32, 32}, larger{128, 96};
-const record::ClockPair begin{from_us(9'000'000), record::UtcTime(1'700'000'000s)};
+const record::ClockPair begin{from_us(9'000'000), UtcTime(1'700'000'000s)};
 
 Bytes bytes_of(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
@@ -387,7 +387,7 @@ TEST(RecordingOfVersion1, OpensAndPlays) {
         record::RecordingFile::open("tests/golden/recording_v1.mkv");
     EXPECT_TRUE(recording->complete());
     EXPECT_FALSE(recording->segments()[0].has_info);
-    EXPECT_NE(recording->segments()[0].begin_utc, record::UtcTime{});
+    EXPECT_NE(recording->segments()[0].begin_utc, UtcTime{});
     RecordedFrames camera(recording, 0, "recording_v1.mkv");
     Frame frame;
     int frames_seen = 0;

@@ -96,7 +96,7 @@ public:
 
     record::Intake& intake() override { return intake_; }
     record::Intake::Now now() const override {
-        return {steady_now(), {participant_->now(), record::utc_now()}};
+        return {steady_now(), {participant_->now(), utc_now()}};
     }
     std::optional<End> ended() override { return end_; }
     bool is_connected() const override {

@@ -3,6 +3,10 @@
 // in messages and recordings (docs/formats/calibration.md).
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+
 #include "base/bytes.h"
 #include "base/status.h"
 #include "geometry/camera_model.h"
@@ -10,6 +14,7 @@
 namespace theatron {
 
 struct Calibration {
+    // Size 0 x 0 if the camera has no depth; its place is then that of the colour camera.
     CameraModel depth;
     // Size 0 x 0 if the camera has no colour.
     CameraModel color;
@@ -21,6 +26,16 @@ struct Calibration {
     Pose room_from_camera{Quat{0, 1, 0, 0}, Vec3{0, 1.5, 0}};
     bool registered = false;
 
+    // Of one registration; cameras with the same number were placed together. 0: unknown.
+    std::uint64_t registration = 0;
+    // Of rotation about the camera's axes (radians), then translation along them (metres), row by
+    // row; symmetric.
+    std::optional<std::array<double, 36>> covariance;
+
+    // Corrections that were measured once. Without them a viewer estimates its own.
+    std::optional<double> depth_offset_mm;  // by which depth is too large, along the camera's axis
+    std::optional<Vec3> color_gain;         // factors of red, green, blue sRGB values
+
     bool operator==(const Calibration&) const = default;
 };
 
@@ -29,10 +44,21 @@ struct Calibration {
 inline constexpr std::size_t max_depth_pixels = 2048 * 2048;
 inline constexpr std::size_t max_color_pixels = 4096 * 3072;
 
+// Larger corrections are refused.
+inline constexpr double max_depth_offset_mm = 100, max_color_gain = 4;  // gains: also 1 / 4
+
+// The distance of a depth pixel along the camera's axis, in metres; 0 where nothing was measured.
+inline double depth_m(const Calibration& calibration, std::uint16_t units) {
+    const double mm = units * calibration.depth_unit_mm - calibration.depth_offset_mm.value_or(0);
+    return units == 0 || mm < 0 ? 0 : mm / 1000;
+}
+
+// In version 2 of the format.
 Bytes encode_calibration(const Calibration& calibration);
 
-// Safe for untrusted input. Refuses sizes out of range (Status::too_large), focal lengths that are
-// not positive, and anything that is not finite.
+// Of version 1 or 2. Safe for untrusted input. Refuses sizes out of range (Status::too_large),
+// focal lengths that are not positive, cameras without any lens, and anything that is not finite.
+// Fields of a newer program are skipped.
 Result<Calibration> decode_calibration(ByteView bytes);
 
 }  // namespace theatron

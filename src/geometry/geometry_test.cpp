@@ -111,12 +111,118 @@ TEST(Calibration, RoundTripsWithoutColor) {
     EXPECT_EQ(*decoded, c);
 }
 
-TEST(Calibration, RefusesEveryTruncationAndSurplus) {
-    Bytes whole = encode_calibration(sample());
+Calibration corrected() {
+    Calibration c = sample();
+    c.registration = 0x0123456789abcdef;
+    c.covariance.emplace();
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+            (*c.covariance)[6 * i + j] = 1e-6 * double((i + 1) * (j + 1));
+    c.depth_offset_mm = -3.5;
+    c.color_gain = {1.25, 1, 0.5};
+    return c;
+}
+
+TEST(Calibration, RoundTripsWithItsCorrections) {
+    const auto decoded = decode_calibration(encode_calibration(corrected()));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(*decoded, corrected());
+}
+
+TEST(Calibration, RoundTripsWithoutDepth) {
+    Calibration c = sample();
+    c.depth = {};
+    const auto decoded = decode_calibration(encode_calibration(c));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(*decoded, c);
+    c.color = {};
+    EXPECT_FALSE(decode_calibration(encode_calibration(c))) << "no lens at all";
+}
+
+// Version 1 of docs/formats/calibration.md, field by field.
+Bytes in_version_1(const Calibration& c) {
+    Bytes bytes;
+    ByteWriter out(bytes);
+    const auto put_all = [&](std::initializer_list<double> values) {
+        for (const double v : values)
+            out.put_f64(v);
+    };
+    const auto put_pose = [&](const Pose& p) {
+        put_all({p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z, p.translation.x,
+                 p.translation.y, p.translation.z});
+    };
+    out.put(std::uint8_t(1));
+    out.put(std::uint8_t(c.registered));
+    for (const CameraModel& m : {c.depth, c.color}) {
+        out.put(std::uint16_t(m.size.width));
+        out.put(std::uint16_t(m.size.height));
+        put_all({m.fx, m.fy, m.cx, m.cy, m.k[0], m.k[1], m.k[2], m.k[3], m.k[4], m.k[5], m.p1, m.p2,
+                 m.max_radius});
+    }
+    put_pose(c.color_from_depth);
+    out.put_f64(c.depth_unit_mm);
+    put_pose(c.room_from_camera);
+    return bytes;
+}
+
+TEST(Calibration, Version1IsStillRead) {
+    Bytes bytes = in_version_1(sample());
+    EXPECT_EQ(bytes.size(), 338u);
+    const auto decoded = decode_calibration(bytes);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(*decoded, sample());
+    for (std::size_t n = 0; n < bytes.size(); ++n)
+        EXPECT_FALSE(decode_calibration(ByteView(bytes).first(n)));
+    bytes.push_back({});
+    EXPECT_EQ(decode_calibration(bytes).error(), Status::trailing_bytes);
+}
+
+TEST(Calibration, AFieldOfANewerProgramIsSkipped) {
+    Bytes bytes = encode_calibration(corrected());
+    for (const int b : {200, 2, 0, 7, 7})
+        bytes.push_back(std::byte(b));
+    const auto decoded = decode_calibration(bytes);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(*decoded, corrected());
+    for (const int b : {200, 0, 0})
+        bytes.push_back(std::byte(b));
+    EXPECT_EQ(decode_calibration(bytes).error(), Status::malformed) << "fields come once";
+}
+
+// Cut between two fields it is a calibration that says less.
+TEST(Calibration, RefusesEveryTruncationInsideAField) {
+    const Bytes whole = encode_calibration(sample());
+    int accepted = 0;
     for (std::size_t n = 0; n < whole.size(); ++n)
-        EXPECT_FALSE(decode_calibration(Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(n))));
-    whole.push_back({});
-    EXPECT_EQ(decode_calibration(whole).error(), Status::trailing_bytes);
+        accepted += bool(decode_calibration(ByteView(whole).first(n)));
+    EXPECT_EQ(accepted, 4) << "behind depth, colour, the pose between them, and the unit";
+    Bytes more = whole;
+    more.push_back({});
+    EXPECT_FALSE(decode_calibration(more));
+}
+
+TEST(Calibration, RefusesCorrectionsThatCannotBe) {
+    for (const auto& spoil : std::vector<void (*)(Calibration&)>{
+             [](Calibration& c) { c.depth_offset_mm = 101; },
+             [](Calibration& c) { c.depth_offset_mm = NAN; },
+             [](Calibration& c) { c.color_gain->y = 0; },
+             [](Calibration& c) { c.color_gain->x = 4.1; },
+             [](Calibration& c) { (*c.covariance)[7] = -1; },
+             [](Calibration& c) { (*c.covariance)[1] = INFINITY; }}) {
+        Calibration c = corrected();
+        spoil(c);
+        EXPECT_EQ(decode_calibration(encode_calibration(c)).error(), Status::malformed);
+    }
+}
+
+TEST(Calibration, DepthIsCorrectedByItsOffset) {
+    Calibration c;
+    c.depth_unit_mm = 0.5;
+    EXPECT_DOUBLE_EQ(depth_m(c, 2000), 1);
+    c.depth_offset_mm = 4;
+    EXPECT_DOUBLE_EQ(depth_m(c, 2000), 0.996);
+    EXPECT_EQ(depth_m(c, 0), 0) << "nothing was measured";
+    EXPECT_EQ(depth_m(c, 7), 0) << "nothing is behind the camera";
 }
 
 TEST(Calibration, RefusesWhatIsNotACamera) {

@@ -36,9 +36,9 @@ void append_points(DepthView depth, const Image<Ray>& rays, ColorView color,
         const std::uint16_t* row = depth.row(y);
         const Ray* ray_row = rays.view().row(y);
         for (int x = 0; x < depth.size.width; ++x) {
-            if (row[x] == 0 || ray_row[x].x == no_ray)
+            const double z = depth_m(calibration, row[x]);
+            if (z == 0 || ray_row[x].x == no_ray)
                 continue;
-            const double z = row[x] * calibration.depth_unit_mm / 1000;
             const Vec3 point{ray_row[x].x * z, ray_row[x].y * z, z};
             out.push_back({float(point.x), float(point.y), float(point.z),
                            color_of(point, color, calibration)});

@@ -96,9 +96,7 @@ public:
     }
 
     record::Intake& intake() override { return intake_; }
-    record::Intake::Now now() const override {
-        return {steady_now(), {steady_now(), record::utc_now()}};
-    }
+    record::Intake::Now now() const override { return {steady_now(), {steady_now(), utc_now()}}; }
 
     std::optional<End> ended() override {
         const std::lock_guard lock(mutex_);

@@ -148,6 +148,8 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"state", wire::text_of(camera.condition)},
                              {"dropped_slow", camera.dropped_slow}});
     return {{"name", figures.name},
+            {"utc", utc_text(figures.utc)},
+            {"session_us", to_us(figures.session_time)},
             {"seconds", figures.seconds},
             {"automatic_color", figures.automatic_color},
             {"cameras", cameras},

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/time.h"
+#include "base/utc.h"
 #include "host/place_watch.h"
 #include "send/lane_figures.h"
 #include "wire/control.h"
@@ -16,6 +18,8 @@ namespace theatron::host {
 struct HostFigures {
     std::string name;
     double seconds = 0;           // since the host began
+    TimePoint session_time;       // now
+    UtcTime utc;                  // now
     std::string automatic_color;  // its current choice, and why
     struct Camera {
         send::LaneFigures lane;
@@ -44,7 +48,7 @@ struct HostFigures {
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 };
 
-// {"name","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
+// {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
 // "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests",…}],"published":[{"id","name","publisher","state",
 // "dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}

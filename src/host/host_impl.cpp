@@ -463,7 +463,9 @@ HostFigures Host::Impl::figures() const {
     const std::lock_guard lock(figures_mutex);
     HostFigures figures;
     figures.name = name;
-    figures.seconds = to_seconds(steady_now() - begun);
+    figures.session_time = steady_now();
+    figures.utc = utc_now();
+    figures.seconds = to_seconds(figures.session_time - begun);
     figures.automatic_color = color_watch.reason();
     for (const auto& lane : lanes) {
         const auto dropped = dropped_slow_figures.find(lane->id());

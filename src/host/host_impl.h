@@ -83,7 +83,7 @@ struct Host::Impl {
             server->stop();
         if (thread.joinable()) {
             thread.join();
-            room_file->save(session->room());
+            room_file->save(session->room(), steady_now());
         }
         lanes.clear();
         place_watch.reset();

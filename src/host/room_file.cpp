@@ -14,39 +14,47 @@ namespace theatron::host {
 namespace {
 
 constexpr std::uint32_t magic = 0x4d525448;  // "HTRM"
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2, version_without_times = 1;
 constexpr std::size_t max_file_bytes = 1 << 20;
 
 }  // namespace
 
-Bytes encode_room(const session::RoomSnapshot& room) {
+Bytes encode_room(const SavedRoom& saved) {
     Bytes bytes;
     ByteWriter out(bytes);
     out.put(magic);
     out.put(version);
-    out.put(room.revision);
-    out.put_bytes(session::encode_objects(room.objects));
+    out.put(saved.room.revision);
+    out.put(to_us(saved.session_time));
+    out.put(std::int64_t(saved.utc.time_since_epoch().count()));
+    out.put_bytes(session::encode_objects(saved.room.objects));
     out.put(record::crc32c(bytes));
     return bytes;
 }
 
-Result<session::RoomSnapshot> decode_room(ByteView bytes) {
+Result<SavedRoom> decode_room(ByteView bytes) {
     constexpr std::size_t check_size = sizeof(std::uint32_t);
     if (bytes.size() < check_size)
         return Status::malformed;
     const ByteView checked = bytes.first(bytes.size() - check_size);
     ByteReader in(checked);
-    session::RoomSnapshot room;
-    const bool known = in.get<std::uint32_t>() == magic && in.get<std::uint32_t>() == version;
-    room.revision = in.get<std::uint64_t>();
+    SavedRoom saved;
+    const bool is_room = in.get<std::uint32_t>() == magic;
+    const auto of_version = in.get<std::uint32_t>();
+    const bool known = is_room && (of_version == version || of_version == version_without_times);
+    saved.room.revision = in.get<std::uint64_t>();
+    if (of_version == version) {
+        saved.session_time = from_us(in.get<std::int64_t>());
+        saved.utc = UtcTime(std::chrono::microseconds(in.get<std::int64_t>()));
+    }
     if (!known || !in.ok() ||
         load_le<std::uint32_t>(bytes.data() + checked.size()) != record::crc32c(checked))
         return Status::malformed;
     auto objects = session::decode_objects(in.rest(), 2 * session::RoomState::max_objects);
     if (!objects)
         return objects.error();
-    room.objects = std::move(*objects);
-    return room;
+    saved.room.objects = std::move(*objects);
+    return saved;
 }
 
 RoomFile::RoomFile(std::filesystem::path path)
@@ -68,10 +76,12 @@ session::RoomSnapshot RoomFile::load() {
     const auto text = files::read_private_file(path_, files::Privacy::secret, max_file_bytes);
     if (!text)
         return {};
-    const auto room = decode_room(as_bytes(*text));
-    if (room) {
-        saved_version_ = room->revision;
-        return *room;
+    auto saved = decode_room(as_bytes(*text));
+    if (saved) {
+        saved_version_ = saved->room.revision;
+        log::info("host", "the saved room is used",
+                  {{"objects", saved->room.objects.size()}, {"saved", utc_text(saved->utc)}});
+        return std::move(saved->room);
     }
     const auto kept = std::filesystem::path(path_) += ".damaged";
     std::error_code ignored;
@@ -85,12 +95,12 @@ void RoomFile::on_tick(const session::HostRoom& room, TimePoint now) {
     if (room.version() == saved_version_ || now - saved_ < interval)
         return;
     saved_ = now;
-    save(room);
+    save(room, now);
 }
 
-void RoomFile::save(const session::HostRoom& room) {
+void RoomFile::save(const session::HostRoom& room, TimePoint now) {
     saved_version_ = room.version();
-    Bytes bytes = encode_room(room.snapshot());
+    Bytes bytes = encode_room({room.snapshot(), now, utc_now()});
     {
         const std::lock_guard lock(mutex_);
         waiting_ = std::move(bytes);

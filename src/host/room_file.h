@@ -11,13 +11,20 @@
 #include <thread>
 
 #include "base/time.h"
+#include "base/utc.h"
 #include "session/host_room.h"
 
 namespace theatron::host {
 
-Bytes encode_room(const session::RoomSnapshot& room);
+struct SavedRoom {
+    session::RoomSnapshot room;
+    // When it was saved; times of its objects are session time of that run. 0: unknown.
+    TimePoint session_time;
+    UtcTime utc;
+};
+Bytes encode_room(const SavedRoom& saved);
 // Safe for untrusted input. Status::malformed for damaged bytes and for a wrong checksum.
-Result<session::RoomSnapshot> decode_room(ByteView bytes);
+Result<SavedRoom> decode_room(ByteView bytes);
 
 class RoomFile {
 public:
@@ -36,7 +43,7 @@ public:
     // From one thread, several times a second: writes the room if it has changed.
     void on_tick(const session::HostRoom& room, TimePoint now);
     // The same at once.
-    void save(const session::HostRoom& room);
+    void save(const session::HostRoom& room, TimePoint now);
 
 private:
     void run();

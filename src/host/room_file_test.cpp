@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "files/private_file.h"
+#include "record/crc32c.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::host {
@@ -40,8 +41,12 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
     session::RoomSnapshot room;
     room.revision = 5;
     room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
-    Bytes bytes = encode_room(room);
-    ASSERT_TRUE(decode_room(bytes));
+    const UtcTime utc{std::chrono::microseconds(1'700'000'000'123'456)};
+    Bytes bytes = encode_room({room, from_us(77), utc});
+    const auto decoded = decode_room(bytes);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->utc, utc);
+    EXPECT_EQ(decoded->session_time, from_us(77));
     for (std::size_t at = 0; at < bytes.size(); ++at) {
         Bytes flipped = bytes;
         flipped[at] ^= std::byte{1};
@@ -53,6 +58,23 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
     EXPECT_TRUE(file.load().objects.empty());
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / "room.damaged"));
     EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(RoomFile, Version1HadNoTimes) {
+    session::RoomSnapshot room;
+    room.revision = 5;
+    room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
+    const Bytes now = encode_room({room, from_us(77), UtcTime(1s)});
+    constexpr std::size_t times_at = 16, times_size = 16, check_size = 4;
+    Bytes before(now.begin(), now.end() - check_size);
+    before[4] = std::byte{1};
+    before.erase(before.begin() + times_at, before.begin() + times_at + times_size);
+    ByteWriter out(before);
+    out.put(record::crc32c(before));
+    const auto decoded = decode_room(before);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->room.objects.size(), 1u);
+    EXPECT_EQ(decoded->utc, UtcTime{});
 }
 
 }  // namespace

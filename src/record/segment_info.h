@@ -4,18 +4,17 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <string>
 
 #include "base/bytes.h"
 #include "base/status.h"
 #include "base/time.h"
+#include "base/utc.h"
 
 namespace theatron::record {
 
 using Uid = std::array<std::byte, 16>;
-using UtcTime = std::chrono::sys_time<std::chrono::microseconds>;
 
 // The session's clock and the wall's, read at the same instant.
 struct ClockPair {

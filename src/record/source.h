@@ -12,11 +12,6 @@
 
 namespace theatron::record {
 
-// Read at the same instant as the session's clock, it tells when a recording was made.
-inline UtcTime utc_now() {
-    return std::chrono::floor<std::chrono::microseconds>(std::chrono::system_clock::now());
-}
-
 class RecordSource {
 public:
     virtual ~RecordSource() = default;

@@ -88,11 +88,13 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
             may_be_hidden(calibration) ? 1 : 0);
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
-    put(u.depth, calibration.depth_unit_mm / 1000, tan_per_pixel, camera.depth_offset_m, 0);
+    const double offset_m =
+        calibration.depth_offset_mm ? *calibration.depth_offset_mm / 1000 : camera.depth_offset_m;
+    put(u.depth, calibration.depth_unit_mm / 1000, tan_per_pixel, offset_m, 0);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
-    put(u.color_gain, camera.color_gain.x, camera.color_gain.y, camera.color_gain.z,
-        camera.presence);
+    const Vec3 gain = calibration.color_gain.value_or(camera.color_gain);
+    put(u.color_gain, gain.x, gain.y, gain.z, camera.presence);
     put_cut(u, camera.cut, inverse(calibration.room_from_camera));
     return u;
 }
@@ -101,6 +103,8 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
 bool same_images(Calibration a, const Calibration& b) {
     a.room_from_camera = b.room_from_camera;
     a.registered = b.registered;
+    a.registration = b.registration;
+    a.covariance = b.covariance;
     return a == b;
 }
 

@@ -84,8 +84,8 @@ public:
     unsigned content() const { return content_; }
 
     double presence = 1;        // see CloudSet
-    Vec3 color_gain{1, 1, 1};   // red, green, blue; see ColorBalance
-    double depth_offset_m = 0;  // see DepthOffsets
+    Vec3 color_gain{1, 1, 1};   // see ColorBalance; a calibration with gains overrides it
+    double depth_offset_m = 0;  // see DepthOffsets; likewise
     CloudCut cut;
 
     VisibilityMap visibility;

@@ -50,8 +50,15 @@ void ColorBalance::add(CameraId id, const Calibration& calibration, DepthView de
     if (camera.uploads++ % uploads_per_copy != 0 && !moved)
         return;
     camera.calibration = calibration;
+    if (!has_unknown_gains())
+        return;
     copy_images(camera, depth, color);
     ++copies_;
+}
+
+bool ColorBalance::has_unknown_gains() const {
+    return std::any_of(cameras_.begin(), cameras_.end(),
+                       [](const auto& entry) { return !entry.second.calibration.color_gain; });
 }
 
 void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color) {
@@ -65,6 +72,9 @@ void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color)
     const Size cells{std::max(color.size.width / color_step, 1),
                      std::max(color.size.height / color_step, 1)};
     camera.light.resize(cells);
+    // sRGB is about the 2.2nd root of light.
+    const Vec3 known = camera.calibration.color_gain.value_or(Vec3{1, 1, 1});
+    const Vec3 gain{std::pow(known.x, 2.2), std::pow(known.y, 2.2), std::pow(known.z, 2.2)};
     for (int cy = 0; cy < cells.height; ++cy)
         for (int cx = 0; cx < cells.width; ++cx) {
             Vec3 sum;
@@ -78,7 +88,8 @@ void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color)
                           Vec3{linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b)};
                     ++count;
                 }
-            camera.light.view().row(cy)[cx] = sum * (1 / count);
+            camera.light.view().row(cy)[cx] =
+                Vec3{sum.x * gain.x, sum.y * gain.y, sum.z * gain.z} * (1 / count);
         }
     camera.color = scaled(camera.calibration.color, cells);
 
@@ -86,7 +97,7 @@ void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color)
     camera.samples.clear();
     for (int y = 1; y + 1 < small.height; ++y)
         for (int x = 1; x + 1 < small.width; ++x) {
-            const double z = camera.depth.view().row(y)[x] * c.depth_unit_mm / 1000;
+            const double z = depth_m(c, camera.depth.view().row(y)[x]);
             if (z == 0)
                 continue;
             const auto ray = unproject(c.depth, {double(x * depth_step + depth_step / 2),
@@ -114,7 +125,7 @@ std::optional<Vec3> ColorBalance::light_at(const Camera& camera, Vec3 point_room
     // All neighbours must be on the same surface: at edges light comes from both sides.
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
-            const double z = camera.depth.view().row(y + dy)[x + dx] * c.depth_unit_mm / 1000;
+            const double z = depth_m(c, camera.depth.view().row(y + dy)[x + dx]);
             if (std::abs(z - p.z) > (dx == 0 && dy == 0 ? 0.02 : 0.06) + 0.02 * p.z)
                 return std::nullopt;
         }
@@ -155,7 +166,7 @@ ColorBalance::Difference ColorBalance::compare(const Camera& a, const Camera& b,
 }
 
 bool ColorBalance::update() {
-    if (cameras_.size() < 2 || copies_ < cameras_.size())
+    if (cameras_.size() < 2 || copies_ < cameras_.size() || !has_unknown_gains())
         return false;
     copies_ = 0;
     std::vector<Camera*> cameras;
@@ -176,6 +187,8 @@ bool ColorBalance::update() {
     std::vector<Vec3> log_gains(n);
     for (int round = 0; round < 60; ++round)
         for (std::size_t a = 0; a < n; ++a) {
+            if (cameras[a]->calibration.color_gain)
+                continue;
             Vec3 sum;
             double weight = 1;
             for (std::size_t b = 0; b < n; ++b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras differ in exposure and white balance. Where two of them see the same surface, the ratio
-// of their colours measures the difference; a common solution gives each camera a gain.
+// of their colours measures the difference; a common solution gives each camera a gain. Cameras
+// whose calibration has gains keep them, and the others follow them.
 //
 // Works on small copies of a few of the cameras' images, on the CPU, so that it costs some
 // milliseconds now and then.
@@ -50,6 +51,7 @@ private:
         Vec3 log_ratio;
         double places = 0;
     };
+    bool has_unknown_gains() const;
     static void copy_images(Camera& camera, DepthView depth, ColorView color);
     static std::optional<Vec3> light_at(const Camera& camera, Vec3 point_room);
     Difference compare(const Camera& a, const Camera& b, std::size_t step) const;

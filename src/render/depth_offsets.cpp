@@ -27,10 +27,6 @@ constexpr double usual_difference = 30;  // between two cameras' textures; more 
 constexpr double prior_weight = 1e8;     // pulls towards 0 where there is little texture
 constexpr double follow = 0.2;           // smallest weight of a new estimate in the offset
 
-double metres(const Calibration& calibration, std::uint16_t units) {
-    return units * calibration.depth_unit_mm / 1000;
-}
-
 // Every `step`th pixel.
 void copy_brightness(ColorView color, int step, Image<std::uint8_t>& out) {
     out.resize({color.size.width / step, color.size.height / step});
@@ -71,7 +67,7 @@ std::optional<Patch> patch_at(const Calibration& calibration, DepthView depth, i
     Patch patch;
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) {
-            z[j][i] = metres(calibration, depth.row(y + j - 1)[x + i - 1]);
+            z[j][i] = depth_m(calibration, depth.row(y + j - 1)[x + i - 1]);
             if (z[j][i] == 0)
                 return std::nullopt;
             patch.z += z[j][i] / 9;
@@ -106,6 +102,8 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
     if (camera.calibration.depth != calibration.depth || camera.rays.size == Size{})
         camera.rays = make_ray_table(every_nth(calibration.depth, sample_step));
     camera.calibration = calibration;
+    if (!has_unknown_offsets())
+        return;
     camera.depth.resize(depth.size);
     copy_pixels(depth, camera.depth.view());
     const int step = (color.size.width + largest_copy - 1) / largest_copy;
@@ -116,6 +114,11 @@ void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView de
     camera.color.cy += 0.5 - 0.5 / step;
     find_samples(camera);
     ++copies_;
+}
+
+bool DepthOffsets::has_unknown_offsets() const {
+    return std::any_of(cameras_.begin(), cameras_.end(),
+                       [](const auto& entry) { return !entry.second.calibration.depth_offset_mm; });
 }
 
 void DepthOffsets::find_samples(Camera& camera) {
@@ -180,7 +183,7 @@ DepthOffsets::Equation DepthOffsets::compare(const Camera& a, const Camera& b, d
             continue;
         const int x = int(std::lround(pixel->x)), y = int(std::lround(pixel->y));
         if (x < 0 || y < 0 || x >= b.depth.size.width || y >= b.depth.size.height ||
-            std::abs(metres(b.calibration, b.depth.view().row(y)[x]) - there.z) > hidden_m)
+            std::abs(depth_m(b.calibration, b.depth.view().row(y)[x]) - there.z) > hidden_m)
             continue;
         // Texture in b if the point is nearer or further by half a texture's size, and the place
         // on the surface of `a` to which that move corresponds.
@@ -245,7 +248,8 @@ bool DepthOffsets::update() {
     if (waiting_.empty() && cameras_.size() > 1 && copies_ >= cameras_.size()) {
         copies_ = 0;
         for (const auto& [id, camera] : cameras_)
-            waiting_.insert(waiting_.begin(), id);
+            if (!camera.calibration.depth_offset_mm)
+                waiting_.insert(waiting_.begin(), id);
     }
     if (waiting_.empty())
         return false;

@@ -6,7 +6,8 @@
 // The colours show the offset: a camera's points are moved along its rays until they have the
 // texture that other cameras see there. It is the registration of Lucas and Kanade (1981) with one
 // unknown for each camera; its start is found by a search, because texture repeats. Works on small
-// copies of a few of the cameras' images, on the CPU, in some milliseconds now and then.
+// copies of a few of the cameras' images, on the CPU, in some milliseconds now and then. Cameras
+// whose calibration has an offset keep it, and the others follow them.
 #pragma once
 
 #include <map>
@@ -35,8 +36,8 @@ public:
     bool update();
 
     // The offset by which a camera measures too far, in metres along its axis, at any distance; 0
-    // without an estimate. At most largest_m in either direction. Changes slowly, except when a
-    // camera is first compared with others.
+    // without an estimate, and where the calibration has one. At most largest_m in either
+    // direction. Changes slowly, except when a camera is first compared with others.
     double offset_m(CameraId camera) const;
 
 private:
@@ -61,6 +62,7 @@ private:
         double error = 0, weight = 0;
         double cost = 0, samples = 0;
     };
+    bool has_unknown_offsets() const;
     static void find_samples(Camera& camera);
     static Equation compare(const Camera& a, const Camera& b, double offset_m, int size);
     Equation compare_with_others(CameraId camera, double offset_m, int size) const;

@@ -93,6 +93,26 @@ TEST_F(DepthOffsetsTest, FindsWhatEachCameraMeasuresTooMuch) {
         EXPECT_NEAR(offsets.offset_m(CameraId(i)), exact[i], 0.0007) << "camera " << i;
 }
 
+TEST_F(DepthOffsetsTest, ACameraWithAMeasuredOffsetKeepsItAndTheOthersFollow) {
+    const auto show_measured = [&](int camera, double offset_m) {
+        Images i = images(100 * camera, offset_m, 30);
+        i.calibration.depth_offset_mm = offset_m * 1000;
+        offsets.add(CameraId(camera), i.calibration, i.depth.view(), i.color.view());
+    };
+    show(0, -0.003);
+    show_measured(1, 0.008);
+    show(2, 0.002);
+    ASSERT_TRUE(update_all());
+    EXPECT_EQ(offsets.offset_m(CameraId(1)), 0);
+    EXPECT_NEAR(offsets.offset_m(CameraId(0)), -0.003, 0.001);
+    EXPECT_NEAR(offsets.offset_m(CameraId(2)), 0.002, 0.001);
+
+    offsets = {};
+    for (int i = 0; i < 3; ++i)
+        show_measured(i, 0.002);
+    EXPECT_FALSE(update_all()) << "nothing is unknown";
+}
+
 TEST_F(DepthOffsetsTest, FindsMuchAsWell) {
     const double exact[] = {0.011, -0.009, 0.007};
     for (int i = 0; i < 3; ++i)

@@ -26,37 +26,27 @@ wire::Text problem_of(const wire::Camera& camera, const Result<Calibration>& cal
     if (!calibration)
         return {TextCode::camera_bad_calibration,
                 {camera.name, std::string(to_text(calibration.error()))}};
+    if (calibration->depth.size == Size{})
+        return {TextCode::camera_without_depth, {camera.name}};
     return {};
 }
 
-// The pictures of all accepted cameras together.
+// The pixels of all accepted cameras together.
 class Room {
 public:
     // False, and nothing changes, if the camera does not fit beside them.
     bool take(const Calibration& calibration) {
-        Room with = *this;
-        with.depth_.add(calibration.depth.size);
-        with.color_.add(calibration.color.size);
-        if (!with.depth_.fits(max_total_depth_pixels, max_array_factor * max_depth_pixels) ||
-            !with.color_.fits(max_total_color_pixels, max_array_factor * max_color_pixels))
+        const std::size_t depth = depth_ + calibration.depth.size.area(),
+                          color = color_ + calibration.color.size.area();
+        if (depth > max_total_depth_pixels || color > max_total_color_pixels)
             return false;
-        *this = with;
+        depth_ = depth;
+        color_ = color;
         return true;
     }
 
 private:
-    struct Pictures {
-        std::size_t pixels = 0;
-        Size largest;  // the widest and the highest
-        void add(Size size) {
-            pixels += size.area();
-            largest = {std::max(largest.width, size.width), std::max(largest.height, size.height)};
-        }
-        bool fits(std::size_t max_pixels, std::size_t max_layer) const {
-            return pixels <= max_pixels && largest.area() <= max_layer;
-        }
-    };
-    Pictures depth_, color_;
+    std::size_t depth_ = 0, color_ = 0;
 };
 
 }  // namespace

@@ -14,10 +14,6 @@ namespace theatron::session {
 inline constexpr std::size_t max_total_depth_pixels = std::size_t(16) << 20;
 inline constexpr std::size_t max_total_color_pixels = std::size_t(64) << 20;
 
-// The smallest picture that covers the widest and the highest of all cameras may have at most this
-// many times the pixels of the largest camera allowed.
-inline constexpr std::size_t max_array_factor = 2;
-
 struct AnnouncedCameras {
     std::vector<wire::Camera> accepted;
     std::vector<wire::Text> left_out;  // one about each other camera
@@ -28,8 +24,8 @@ inline constexpr int max_camera_number = 0x7fff;
 
 // Leaves out cameras beyond wire::max_cameras, those whose number is beyond max_camera_number or
 // used twice, whose streams are not theirs (depth_stream(), color_stream()), whose frame rate is
-// not from 0 to 1000, whose calibration decode_calibration() refuses, and those that exceed the
-// limits above. Order is kept.
+// not from 0 to 1000, whose calibration decode_calibration() refuses or that has no depth, and
+// those that exceed the limits above. Order is kept.
 AnnouncedCameras judge_cameras(std::vector<wire::Camera> announced);
 
 }  // namespace theatron::session

@@ -71,6 +71,12 @@ TEST(AnnouncedCameras, RatesAndCalibrationsMakeSense) {
         odd.frames_per_second = rate;
         EXPECT_EQ(accepted({odd}), 0u) << rate;
     }
+    Calibration flat = *decode_calibration(camera(0).calibration);
+    flat.depth = {};
+    wire::Camera without_depth = camera(0);
+    without_depth.calibration = encode_calibration(flat);
+    EXPECT_EQ(judge_cameras({without_depth, camera(1)}).left_out,
+              (std::vector{wire::Text{wire::TextCode::camera_without_depth, {"camera 0"}}}));
     wire::Camera uncalibrated = camera(0);
     uncalibrated.calibration.pop_back();
     EXPECT_EQ(accepted({uncalibrated}), 0u);
@@ -91,10 +97,9 @@ TEST(AnnouncedCameras, PixelsAreLimitedForOneAndForAllTogether) {
     EXPECT_EQ(accepted(many), max_total_color_pixels / max_color_pixels);
 }
 
-// One picture of all cameras' is as wide and as high as the widest and the highest.
-TEST(AnnouncedCameras, WideAndHighOnesDoNotComeTogether) {
-    EXPECT_EQ(accepted({camera(0, {8192, 512}), camera(1, {512, 8192})}), 1u);
-    EXPECT_EQ(accepted({camera(0, {64, 48}, {8192, 1024}), camera(1, {64, 48}, {1024, 8192})}), 1u);
+TEST(AnnouncedCameras, ShapesMayDifferAsTheyLike) {
+    EXPECT_EQ(accepted({camera(0, {8192, 512}), camera(1, {512, 8192})}), 2u);
+    EXPECT_EQ(accepted({camera(0, {64, 48}, {8192, 1024}), camera(1, {64, 48}, {1024, 8192})}), 2u);
     EXPECT_EQ(accepted({camera(0, {640, 576}, {3840, 2160}), camera(1, {512, 512}, {2160, 3840})}),
               2u);
 }

@@ -61,6 +61,8 @@ constexpr Row rows[] = {
     {TextCode::cameras_apart,
      "Surfaces that {0} sees, too, are {1} mm apart. Find the cameras' places again with 'theatron "
      "register LINK --output NEW' and the board."},
+    {TextCode::camera_without_depth,
+     "The camera {0} has no depth, which this version cannot show; it is left out."},
 
     {TextCode::all_encodings_taken,
      "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},

@@ -45,6 +45,7 @@ enum class TextCode : std::uint16_t {
     camera_too_many_pixels = 212,   // {0}: name
     camera_moved = 213,             // {0}: mm, {1}: degrees
     cameras_apart = 214,            // {0}: another camera's name, {1}: mm
+    camera_without_depth = 215,     // {0}: name
 
     // What a participant is sent.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for
