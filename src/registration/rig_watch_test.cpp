@@ -101,5 +101,55 @@ TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAla
     EXPECT_FALSE(has_alarm(1));
 }
 
+// A bed with raised sides that fills most of both pictures, above a floor; through the sensor.
+DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, double raised_m,
+               synthetic::DepthSensor& sensor, std::uint32_t frame) {
+    BoardScene scene(camera.model.size, 0);
+    std::fill(scene.depth_m.pixels.begin(), scene.depth_m.pixels.end(), 0.0f);
+    for (std::size_t i = 0; i < camera.rays.pixels.size(); ++i) {
+        const Ray ray = camera.rays.pixels[i];
+        if (ray.x == no_ray)
+            continue;
+        const Vec3 d = rotate(room_from_camera.rotation, {ray.x, ray.y, 1});
+        const Vec3 o = room_from_camera.translation;
+        double z = d.y < 0 ? -o.y / d.y : 8;
+        // Two slopes that meet in the middle, like a roof.
+        for (const double slope : {-0.3, 0.3}) {
+            const double t = (0.9 + raised_m - o.y + slope * o.x) / (d.y - slope * d.x);
+            const Vec3 p = o + d * t;
+            if (t > 0 && t < z && p.x * slope <= 0 && std::abs(p.x) < 1.1 && std::abs(p.z) < 0.8)
+                z = t;
+        }
+        scene.depth_m.pixels[i] = float(z);
+    }
+    return scene.seen_by(sensor, frame);
+}
+
+TEST(RaisedTable, IsNoCameraThatWasMoved) {
+    std::vector<Pose> places;
+    std::vector<RigWatch::Camera> about;
+    std::vector<SurfaceCamera> cameras;
+    std::vector<synthetic::DepthSensor> sensors;
+    for (const double side : {-0.7, 0.7}) {
+        const Calibration c = synthetic::synthetic_camera(synthetic::Variant::room, 0, 2, {});
+        places.push_back(look_at({side, 2.2, 0.5}, {0.3 * side, 0.9, 0}, {0, 1, 0}));
+        cameras.emplace_back(c.depth, 1);
+        sensors.emplace_back(synthetic::nfov_unbinned(), c.depth.size, 40 + sensors.size());
+        about.push_back({c.depth, 1, places.back()});
+    }
+    RigWatch watch(about);
+    TimePoint now{std::chrono::seconds(1)};
+    std::uint32_t frame = 0;
+    for (int image = 0; image < 36; ++image, now += watch.period())
+        for (std::size_t c = 0; c < 2; ++c) {
+            const double raised_m = image < 22 ? 0 : 0.015;
+            const DepthImage depth = bed(places[c], cameras[c], raised_m, sensors[c], ++frame);
+            watch.add(c, depth.view(), now);
+            EXPECT_FALSE(watch.motion(c).is_alarm) << image;
+        }
+    ASSERT_FALSE(watch.pairs().empty());
+    EXPECT_GT(watch.pairs()[0].points, 300u);
+}
+
 }  // namespace
 }  // namespace theatron::registration
