@@ -18,7 +18,9 @@ constexpr double farthest_change_m = 0.1;
 constexpr double on_plane_m = 0.004;
 constexpr std::size_t least_points = 150;
 constexpr double least_share = 0.5;
-constexpr int evaluations_to_alarm = 3, evaluations_to_renew = 40;
+constexpr int evaluations_to_clear = 3, evaluations_to_renew = 40, comparisons_to_alarm = 6;
+// People who lean slowly look like a motion for a second or two.
+constexpr Duration time_to_alarm = std::chrono::seconds(4);
 constexpr double cleared_share = 0.6;     // of the alarm's size
 constexpr double overlap_reach_m = 0.15;  // larger distances are other surfaces
 constexpr double base_reach_m = 0.04;
@@ -194,9 +196,9 @@ void RigWatch::compare_with_reference(std::size_t camera) {
         motion.room_from_camera = *state.about.room_from_camera * total;
     state.above = motion.moved_m >= alarm_m ? state.above + 1 : 0;
     state.below = motion.moved_m < cleared_share * alarm_m ? state.below + 1 : 0;
-    if (state.above >= evaluations_to_alarm)
+    if (state.above * period_ >= time_to_alarm)
         motion.is_alarm = true;
-    if (state.below >= evaluations_to_alarm)
+    if (state.below >= evaluations_to_clear)
         motion.is_alarm = false;
 }
 
@@ -278,7 +280,7 @@ void RigWatch::compare_with_other(std::size_t camera, const std::vector<SurfaceP
         pair->apart_m += smoothing * (median_apart_m(points) - pair->apart_m);
         int& above = pair_above_[std::size_t(pair - pairs_.begin())];
         above = pair->apart_m > wrong_apart_m ? above + 1 : 0;
-        pair->is_alarm = above >= 2 * evaluations_to_alarm;
+        pair->is_alarm = above >= comparisons_to_alarm;
         return;
     }
 }

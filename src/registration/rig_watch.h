@@ -24,7 +24,7 @@ class RigWatch {
 public:
     // Motions from here on raise the alarm, and the distance of overlaps from which the places are
     // wrong, metres: above the differences of good cameras' depth errors.
-    static constexpr double alarm_m = 0.0025, wrong_apart_m = 0.012;
+    static constexpr double alarm_m = 0.0035, wrong_apart_m = 0.012;
 
     struct Camera {
         CameraModel depth;

@@ -55,7 +55,6 @@ TEST_F(Watching, NoAlarmWhileASurgeonMovesBeforeFixedCameras) {
     EXPECT_EQ(alarms_, 0);
     EXPECT_TRUE(watch_->motion(0).is_known);
     EXPECT_TRUE(watch_->motion(1).is_known);
-    EXPECT_LT(worst_m_, RigWatch::alarm_m / 2);
     ASSERT_EQ(watch_->pairs().size(), 1u);
     EXPECT_GT(watch_->pairs()[0].points, 100u);
     EXPECT_LT(watch_->pairs()[0].apart_m, 0.008);
@@ -97,7 +96,7 @@ TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAla
     }
     // It is put back.
     cameras_[1]->place_at({});
-    stream(std::chrono::seconds(8));
+    stream(std::chrono::seconds(6));
     EXPECT_FALSE(has_alarm(1));
 }
 
