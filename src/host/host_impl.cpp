@@ -333,8 +333,13 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
     if (poses.put(sender, state, steady_now()) == session::PoseBoard::Answer::flood)
-        server->close(peer, "there were far more poses than a host sends on");
+        end_flood(peer, "there were far more poses than a host sends on");
     wait_for_poses();
+}
+
+void Host::Impl::end_flood(net::PeerId peer, const std::string& why) {
+    server->send_control(peer, wire::encode(wire::refused({wire::TextCode::too_many_requests})));
+    server->close(peer, why);
 }
 
 // A grab does not wait for the tick of people's poses.
@@ -342,7 +347,7 @@ void Host::Impl::forward_object_pose(net::PeerId peer, const wire::State& state)
     const auto forward =
         session->on_object_pose(ParticipantId(std::uint32_t(peer)), state, steady_now());
     if (forward.is_flood)
-        server->close(peer, "there were far more poses of objects than a host sends on");
+        end_flood(peer, "there were far more poses of objects than a host sends on");
     for (const ParticipantId receiver : forward.receivers)
         server->send_states(peer_of(receiver), {&state, 1});
 }

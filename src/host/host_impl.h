@@ -118,6 +118,8 @@ struct Host::Impl {
     void send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers);
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);
+    // The peer is told why.
+    void end_flood(net::PeerId peer, const std::string& why);
     void forward_object_pose(net::PeerId peer, const wire::State& state);
     void replay_room(const RoomReplay::Change& change);
     void wait_for_poses();

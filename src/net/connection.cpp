@@ -54,7 +54,8 @@ Connection::Connection(WebSocket socket, wire::Unwrapper::Takes takes, Events ev
       now_(events_->now),
       unwrapper_(takes),
       ceiling_timer_(socket_.get_executor()),
-      acknowledgement_timer_(socket_.get_executor()) {}
+      acknowledgement_timer_(socket_.get_executor()),
+      farewell_timer_(socket_.get_executor()) {}
 
 void Connection::start(ByteView first) {
     beast::get_lowest_layer(socket_).expires_never();
@@ -210,9 +211,12 @@ void Connection::read() {
                 if (self->finished_)
                     return;
                 if (error)
-                    return self->finish(describe(error));
+                    return self->finish(self->only_reads_ ? self->closing_ : describe(error));
                 const auto data = self->incoming_.cdata();
-                self->take({static_cast<const std::byte*>(data.data()), data.size()});
+                if (self->only_reads_)
+                    self->discard(data.size());
+                else
+                    self->take({static_cast<const std::byte*>(data.data()), data.size()});
                 self->incoming_.consume(self->incoming_.size());
                 if (!self->finished_)
                     self->read();
@@ -221,12 +225,12 @@ void Connection::read() {
 }
 
 void Connection::write() {
-    if (writing_ || finished_)
+    if (writing_ || finished_ || only_reads_)
         return;
     const std::uint64_t begun_before = outbox_.begun_frames();
     if (!outbox_.next(outgoing_, now_())) {
         if (!closing_.empty() && !outbox_.control_waits())
-            return finish(closing_);
+            return bid_farewell();
         if (const auto again = outbox_.ask_again())
             write_later(*again);
         return;
@@ -258,12 +262,31 @@ void Connection::write_later(TimePoint then) {
     });
 }
 
+void Connection::bid_farewell() {
+    only_reads_ = true;
+    beast::error_code ignored;
+    beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_send,
+                                                       ignored);
+    farewell_timer_.expires_after(max_farewell);
+    farewell_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error)
+            self->end(self->closing_);
+    });
+}
+
+void Connection::discard(std::size_t bytes) {
+    discarded_ += bytes;
+    if (discarded_ > max_discarded_bytes)
+        finish(closing_);
+}
+
 void Connection::finish(const std::string& why) {
     if (finished_)
         return;
     finished_ = true;
     ceiling_timer_.cancel();
     acknowledgement_timer_.cancel();
+    farewell_timer_.cancel();
     // No closing handshakes: they would wait for a peer that may be gone, and
     // every message is complete in itself.
     beast::error_code ignored;

@@ -39,6 +39,10 @@ void configure(WebSocket& socket);
 
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
+    // Waiting for a peer to close, and bytes from it that are discarded meanwhile.
+    static constexpr Duration max_farewell = std::chrono::milliseconds(500);
+    static constexpr std::size_t max_discarded_bytes = std::size_t(4) << 20;
+
     // Called on the io thread. After `closed` nothing is called any more. A call that throws
     // costs the connection. All but `control`, `closed` and `now` may be empty.
     struct Events {
@@ -81,7 +85,10 @@ public:
     // To be called a few times a second: closes the connection if the peer takes nothing.
     void look();
 
-    // Sends the control messages that are queued, then closes. `closed` is called with `why`.
+    // Sends the control messages that are queued, then closes as soon as the peer has closed too,
+    // or after a short time. Meanwhile its messages are discarded: if they stayed unread, the
+    // system would reset the connection and the peer could lose what was sent last. `closed` is
+    // called with `why`.
     void close(const std::string& why);
     void end(const std::string& why);  // at once
     void abandon();                    // at once, without calling `closed`
@@ -94,6 +101,8 @@ private:
     void read();
     void write();
     void write_later(TimePoint then);
+    void bid_farewell();
+    void discard(std::size_t bytes);
     void finish(const std::string& why);
 
     // An exception from `work` ends this connection only.
@@ -112,12 +121,14 @@ private:
     Acknowledger acknowledger_;
     Outbox outbox_;
     std::size_t unsent_limit_ = 0;  // bytes, as set on the socket
-    boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_;
+    boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_, farewell_timer_;
     bool acknowledgement_is_timed_ = false;
     Bytes outgoing_;
     bool writing_ = false;
     bool finished_ = false;
-    std::string closing_;  // not empty: close after the control that is queued
+    std::string closing_;      // not empty: close after the control that is queued
+    bool only_reads_ = false;  // that control has been sent
+    std::size_t discarded_ = 0;
 };
 
 }  // namespace theatron::net

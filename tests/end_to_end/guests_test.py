@@ -75,6 +75,20 @@ class Guests(unittest.TestCase):
         self.assertIsNone(h.process.poll(), "the host has ended")
         return names
 
+    def test_whoever_asks_far_too_often_is_told_why_its_connection_ends(self):
+        with host(self.folder / "state", self.camera) as h:
+            with RawPeer(h.greeting["link"]) as peer:
+                peer.join()
+                request = bytes([CONTROL]) + control_message(peer.says, "ChooseCodecs", depth_codec="raw")
+                # All at once: most are unread when the host ends the connection.
+                peer.send_bytes(peer.frame(request) * 4000)
+                self.assertIn("far more requests", peer.receive_control("Refused")[1]["in_english"])
+                peer.wait_for_end(10)
+            with Process("join", h.greeting["link"]) as viewer:
+                viewer.say("latency 100\n" * 4000)
+                self.assertEqual(viewer.end(), 1)
+                self.assertIn("far more requests", "".join(viewer.errors))
+
     def test_a_name_of_any_bytes_does_no_harm(self):
         with host(self.folder / "state", self.camera) as h:
             with Process("join", h.greeting["link"], "--name", LONG_NAME, "--no-window", "--seconds", "60"):
