@@ -11,6 +11,7 @@ namespace theatron::app {
 inline constexpr int damaged_exit_code = 3;
 
 void add_host_command(CLI::App& app);
+void add_link_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_publish_command(CLI::App& app);
 void add_record_command(CLI::App& app);
@@ -20,6 +21,7 @@ void add_export_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_demo_command(CLI::App& app);
 void add_cameras_command(CLI::App& app);
+void add_lobby_command(CLI::App& app);
 void add_status_command(CLI::App& app);
 void add_background_command(CLI::App& app);
 void add_case_command(CLI::App& app);

@@ -25,11 +25,18 @@
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "input_lines.h"
+#include "people_lines.h"
 #include "region_text.h"
 #include "viewer/renderer_text.h"
 
 namespace theatron::app {
 namespace {
+
+// The roles whose links are printed after that of experts.
+constexpr std::pair<wire::Role, const char*> others[] = {
+    {wire::Role::operator_, "operators admit, mute and remove others, and change their roles"},
+    {wire::Role::observer, "observers only see"},
+    {wire::Role::publisher, "participants can send cameras, too"}};
 
 struct Flags {
     host::HostOptions options;
@@ -39,6 +46,7 @@ struct Flags {
     std::string token_file;
     std::string summary;
     std::string places;
+    std::string audit, admit = "all";
     double seconds = 0;
     double link_hours = 0;
     bool json = false;
@@ -73,6 +81,8 @@ void change_region(host::Host& host, std::istringstream words) {
 
 // Throws Error if it cannot be done.
 void obey(host::Host& host, const std::string& line) {
+    if (obey_people_line(host, line))
+        return;
     std::istringstream words(line);
     std::string what, rest;
     words >> what;
@@ -83,7 +93,8 @@ void obey(host::Host& host, const std::string& line) {
         const viewer::RendererText text = viewer::parse_renderer(rest);
         host.set_renderer(text.who, text.word);
     } else if (!what.empty()) {
-        throw Error("There is no command '" + what + "'; lines begin with region or renderer.");
+        throw Error("There is no command '" + what +
+                    "'; lines begin with region or renderer, or are " + people_help() + ".");
     }
 }
 
@@ -115,6 +126,10 @@ void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     flags.options.places = flags.places;
+    flags.options.is_audited = flags.audit != "none";
+    if (flags.options.is_audited)
+        flags.options.audit = flags.audit;
+    flags.options.asks = flags.admit == "ask";
     flags.options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
@@ -125,16 +140,22 @@ void run(Flags& flags) {
     draw_regions(host, flags.regions);
 
     if (flags.json) {
+        nlohmann::json links;
+        for (const wire::Role role : wire::roles)
+            links[wire::text_of(role)] = host.link(role);
         std::cout << files::json_text({{"link", host.link()},
-                                       {"publish_link", host.publish_link()},
+                                       {"publish_link", host.link(wire::Role::publisher)},
+                                       {"links", links},
                                        {"port", host.port()},
                                        {"cameras", host.camera_names()}})
                   << std::endl;
     } else {
         std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
                   << "for example: theatron join '" << host.link() << "'\n\n"
-                  << "With this one participants can send cameras, too:\n\n  "
-                  << host.publish_link() << "\n\n"
+                  << "With these\n";
+        for (const auto& [role, may] : others)
+            std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
+        std::cout << "Links for one person, with an end, and as QR codes: theatron link --help\n"
                   << "Ctrl-C ends the session.\n"
                   << std::flush;
     }
@@ -150,6 +171,7 @@ void run(Flags& flags) {
         obey(host, input);
         if (steady_now() >= next_look) {
             host.follow_filter_files();
+            host.follow_links();
             next_look = steady_now() + 500ms;
         }
         if (live_line && steady_now() >= next_line) {
@@ -184,6 +206,11 @@ void add_host_command(CLI::App& app) {
         "  renderer 2 blend lock          participant 2, who cannot change it; a name instead of\n"
         "                                 the number also holds when they join again\n"
         "  renderer all free              they choose again\n"
+        "  admit NAME, refuse NAME        someone who waits, with --admit ask\n"
+        "  mute NAME, unmute NAME, role NAME ROLE, remove NAME, revoke NAME\n"
+        "                                 decisions on people, as of an operator; revoke makes\n"
+        "                                 the link of that person invalid\n"
+        "  end session                    for all\n"
         "\nExamples:\n"
         "  theatron host --camera folder:recordings/table,loop=1\n"
         "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
@@ -231,6 +258,15 @@ void add_host_command(CLI::App& app) {
                 return "";
             return "'" + text + "' is not a number of hours from 0 to 1000";
         });
+    command
+        ->add_option("--admit", flags->admit,
+                     "all: everyone with a valid link is let in; ask: experts and observers wait "
+                     "until an operator admits them")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"all", "ask"}));
+    command->add_option("--audit", flags->audit,
+                        "File for the log of people, JSON lines; none: no log (default: "
+                        "audit.jsonl in the state folder)");
     command->add_option(
         "--state", flags->state,
         "Folder for the host's key, certificate and tokens (default: ~/.local/state/theatron)");

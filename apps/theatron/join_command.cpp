@@ -28,6 +28,7 @@
 #include "input_lines.h"
 #include "link_argument.h"
 #include "participant_json.h"
+#include "people_lines.h"
 #include "published_cameras.h"
 #include "room_lines.h"
 #include "session/renderer_choice.h"
@@ -215,7 +216,7 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, const std::string& line) {
-    if (room.obey(line, participant))
+    if (obey_people_line(participant, line) || room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -230,8 +231,8 @@ bool obey(client::Participant& participant, RoomLines& room, const std::string& 
     else if (!what.empty())
         std::fprintf(stderr,
                      "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-                     "MBIT', 'quit', or in the room %s.\n",
-                     RoomLines::help());
+                     "MBIT', 'quit', in the room %s, or as an operator %s.\n",
+                     RoomLines::help(), people_help());
     return true;
 }
 
@@ -299,8 +300,7 @@ void run(const Flags& flags) {
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
     const Duration warmup = seconds_to_duration(flags.warmup);
-    const TimePoint started = steady_now();
-    TimePoint first_frame{}, next_line{};
+    TimePoint started = steady_now(), first_frame{}, next_line{};
     bool warm = flags.warmup <= 0;
     InputLines input;
     RoomLines room;
@@ -321,6 +321,7 @@ void run(const Flags& flags) {
         if (!obey(participant, room, input))
             break;
         room.on_tick(participant);
+        print_managed(participant);
         const TimePoint now = steady_now();
         if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {
             participant.reset_figures();
@@ -328,6 +329,8 @@ void run(const Flags& flags) {
         }
         if (has_end && first_frame != TimePoint{} && now - first_frame >= warmup + length)
             break;
+        if (status.phase == client::Participant::Phase::waiting)
+            started = now;  // a person decides, who may need a while
         constexpr Duration join_patience = std::chrono::seconds(10);
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
@@ -370,7 +373,7 @@ void add_join_command(CLI::App& app) {
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
         "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20', "
         "or act in the shared room\n(docs/room.md):\n" +
-        RoomLines::help() +
+        RoomLines::help() + ".\nOperators decide on people (docs/room.md):\n" + people_help() +
         ".\n"
         "\nExamples:\n"
         "  theatron join LINK\n"

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", THEATRON_VERSION);
     theatron::app::add_host_command(app);
+    theatron::app::add_link_command(app);
     theatron::app::add_join_command(app);
     theatron::app::add_publish_command(app);
     theatron::app::add_record_command(app);
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
     theatron::app::add_bench_command(app);
     theatron::app::add_demo_command(app);
     theatron::app::add_cameras_command(app);
+    theatron::app::add_lobby_command(app);
     theatron::app::add_status_command(app);
     theatron::app::add_background_command(app);
     theatron::app::add_case_command(app);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/hex_text.h"
 #include "base/utc.h"
 #include "client/participant_figures.h"
 #include "wire/condition_text.h"
@@ -68,6 +69,16 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"color_codec", color.codec}};
 }
 
+nlohmann::json visitors_json(const std::vector<wire::Visitor>& visitors) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const wire::Visitor& visitor : visitors)
+        list.push_back({{"id", std::uint32_t(visitor.participant)},
+                        {"name", visitor.name},
+                        {"person", hex_text(visitor.person)},
+                        {"role", wire::text_of(visitor.role)}});
+    return list;
+}
+
 }  // namespace
 
 nlohmann::json participant_json(const client::Participant& participant) {
@@ -94,6 +105,9 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"round_trip_ms", to_ms(status.round_trip)},
             {"clock_error_ms", to_ms(status.clock_error)},
             {"joins", status.joins},
+            {"role", wire::text_of(status.standing.role)},
+            {"muted", status.standing.muted},
+            {"visitors", visitors_json(participant.visitors())},
             {"target_latency_ms", status.goal.target_latency_ms},
             {"max_mbit_per_s", status.goal.max_kbit_per_s / 1000.0},
             {"level", status.delivery.level},

@@ -194,7 +194,9 @@ nlohmann::json room_json(const client::Participant& participant) {
                 people.push_back({{"id", std::uint32_t(object.creator)},
                                   {"name", facts->name},
                                   {"records", facts->records},
-                                  {"recorded", session::is_recorded(id)}});
+                                  {"recorded", session::is_recorded(id)},
+                                  {"role", wire::text_of(facts->role)},
+                                  {"muted", facts->muted}});
             continue;
         }
         const Vec3& p = object.room_from_object.translation;

@@ -50,7 +50,7 @@ private:
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","self","people":[{"id","name","records"}],"objects":[{"id","kind","held_by","position",
+// {"hash","self","people":[{"id","name","records","role","muted"}],"objects":[{"id","kind","held_by","position",
 // "scale"}]}; `position` in metres, `held_by` 0 if no participant holds the object.
 nlohmann::json room_json(const client::Participant& participant);
 

@@ -142,6 +142,9 @@ void Participant::run() {
             shared_->is_telling_room = false;
             shared_->poses.clear();
             shared_->own_pose.reset();
+            shared_->visitors.clear();
+            shared_->has_standing = false;
+            shared_->status.standing = {};
             shared_->camera_wishes.clear();  // numbers of cameras may be others
             shared_->clock = {};
             shared_->status.round_trip = {};
@@ -348,6 +351,18 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::room:
             on_room_message();
+            break;
+        case Change::waiting:
+            on_waiting();
+            break;
+        case Change::standing:
+            on_standing();
+            break;
+        case Change::visitors:
+            on_visitors();
+            break;
+        case Change::managed:
+            on_managed();
             break;
         case Change::refused:
         case Change::goodbye:

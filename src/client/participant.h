@@ -73,7 +73,14 @@ public:
     explicit Participant(Options options);
     ~Participant();
 
-    enum class Phase { connecting, joined, lost, refused, ended };
+    enum class Phase {
+        connecting,
+        waiting,  // until an operator lets this participant in
+        joined,
+        lost,
+        refused,
+        ended,
+    };
     struct Status {
         Phase phase = Phase::connecting;
         std::string problem;  // why lost, refused or ended
@@ -87,6 +94,7 @@ public:
         wire::ChooseDelivery goal;
         std::uint64_t media_dropped = 0;  // frames of send_media() that were too late to be sent
         std::string publish_problem;  // why the host refused the cameras of publish(); else empty
+        wire::Standing standing;      // this participant's role, while joined
         wire::Delivery delivery;      // the part of the requested data that the host sends
     };
     Status status() const;
@@ -170,6 +178,14 @@ public:
     // The oldest refusal of a request not taken yet, with the request's number; if any.
     std::optional<std::pair<std::uint32_t, session::Refusal>> take_room_refusal();
 
+    // For operators, from any thread: the people who wait for admission now.
+    std::vector<wire::Visitor> visitors() const;
+    // Sends a decision on a person. Returns its number; 0 while not joined.
+    std::uint32_t manage(wire::ManageAction action, ParticipantId person = {},
+                         wire::Role role = {});
+    // The oldest answer to a decision that is not taken yet, if any.
+    std::optional<wire::Managed> take_managed();
+
     // Requests another target latency and ceiling.
     void choose_delivery(const wire::ChooseDelivery& goal);
 
@@ -186,6 +202,10 @@ private:
     void tell_pose();
     void on_room_message();
     void tell_room();
+    void on_waiting();
+    void on_standing();
+    void on_visitors();
+    void on_managed();
     void offer_cameras();
     void on_published();
     void refuse_cameras(const wire::Text& why);

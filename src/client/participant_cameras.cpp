@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cameras of the session, as the host describes them.
 #include <algorithm>
+#include <utility>
 
 #include "base/steady_clock.h"
 #include "client/participant_shared.h"
@@ -35,15 +36,20 @@ void Participant::on_welcome() {
     shared_->decoder_generation = generation;
     shared_->newest.clear();
     shared_->settings.clear();
-    shared_->status.phase = Phase::joined;
+    // Otherwise the host says the session's state again on the same connection.
+    const bool is_new = std::exchange(shared_->status.phase, Phase::joined) != Phase::joined;
     shared_->status.problem.clear();
     shared_->status.publish_problem.clear();
     shared_->status.host_name = session_.welcome().host_name;
     shared_->status.delivery = {};
     shared_->renderer_word = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
-    const bool again = ++shared_->status.joins > 1;
+    shared_->status.joins += is_new;
+    const bool again = is_new && shared_->status.joins > 1;
     lock.unlock();
+    if (!session_.may_publish() && !std::exchange(numbers_, {}).empty() &&
+        options_.publishing.published)
+        options_.publishing.published({});
     for (const wire::Text& problem : session_.left_out())
         remark(wire::english(problem));
     ping(steady_now());

@@ -9,6 +9,8 @@ const char* text_of(Participant::Phase phase) {
     switch (phase) {
         case Participant::Phase::connecting:
             return "connecting";
+        case Participant::Phase::waiting:
+            return "waiting";
         case Participant::Phase::joined:
             return "joined";
         case Participant::Phase::lost:

@@ -10,7 +10,7 @@
 
 namespace theatron::client {
 
-// "connecting", "joined", "lost", "refused" or "ended".
+// "connecting", "waiting", "joined", "lost", "refused" or "ended".
 const char* text_of(Participant::Phase phase);
 
 struct CameraFigures {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -41,7 +42,11 @@ struct Participant::Shared {
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
     session::MemberRoom room;
-    bool is_telling_room = false;                          // tell_room() has been posted
+    bool is_telling_room = false;  // tell_room() has been posted
+    bool has_standing = false;     // on this connection
+    std::vector<wire::Visitor> visitors;
+    std::uint32_t decisions = 0;                           // sent, for their numbers
+    std::deque<wire::Managed> managed;                     // answers not yet taken
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
     std::vector<wire::OfferedCamera> offers;
     std::size_t media_waiting = 0;                    // for the participant's thread

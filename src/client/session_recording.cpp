@@ -82,6 +82,8 @@ public:
         wait(status);
         if (status.phase == Participant::Phase::refused && !begun)
             throw Error(status.problem);
+        if (status.phase == Participant::Phase::waiting)
+            created_ = steady_now();  // a person decides, who may need a while
         if (!begun && steady_now() - created_ > patience_.value_or(join_patience))
             throw Error(status.problem.empty() ? "The host sent nothing to record."
                                                : status.problem);
@@ -345,7 +347,7 @@ private:
             participant_->request_key(stream, header.setting);
     }
 
-    const TimePoint created_;
+    TimePoint created_;
     const std::optional<Duration> patience_;
     TimePoint gone_since_;
     bool said_ = false;

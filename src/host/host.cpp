@@ -86,23 +86,25 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         check_background(loaded.back(), depth_sizes.back());
     }
 
-    const auto state = options.state.empty() ? default_state_folder() : options.state;
+    state = options.state.empty() ? default_state_folder() : options.state;
     room_file = std::make_unique<RoomFile>(state / "room");
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
-    const std::string token =
-        options.token.empty() ? load_or_make_token(state, "join.token") : options.token;
-    const std::string publish_token = load_or_make_token(state, "publish.token");
-    std::optional<TimePoint> expires;
+    own_token = options.token;
+    asks = options.asks;
     if (options.link_lifetime > Duration(0))
-        expires = steady_now() + options.link_lifetime;
-    config.admission.tokens = {{token, session::Role::viewer, expires},
-                               {publish_token, session::Role::publisher, expires}};
-    join_tokens = {token, publish_token};
+        roles_expire = steady_now() + options.link_lifetime;
     // Monitoring systems need not be able to join.
-    http_tokens = {token, load_or_make_token(state, "metrics.token")};
+    metrics_token = load_or_make_token(state, "metrics.token");
+    (void)load_links(state);  // makes files
+    link_watch.emplace(state);
+    config.admission.tokens = load_tokens();
+    config.admission.asks = options.asks;
+    if (options.is_audited)
+        audit = std::make_unique<AuditLog>(options.audit.empty() ? state / "audit.jsonl"
+                                                                 : options.audit);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     config.room = room_file->load();
@@ -116,15 +118,15 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     for (const auto& camera : cameras)
         config.cameras.push_back(describe(camera->info()));
 
-    link = {options.link_host, 0, token, certificate.fingerprint};
+    link = {options.link_host, 0, "", certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
     server = std::make_unique<net::Server>(options.listen, certificate, handler());
     link.port = server->port();
     const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
     if (link.host.empty())
         link.host = everywhere ? outside_address() : options.listen.address;
-    publish_link = link;
-    publish_link.token = publish_token;
+    write_address(state, link);
+    audit_beginning();
 
     // The lanes never change once the server's thread runs.
     std::vector<capture::CameraInfo> infos;
@@ -170,7 +172,11 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
                 carry_out();
             });
         };
-        events.frame = [this, i](const FramePtr& frame) { place_watch->offer(i, frame); };
+        events.frame = [this, i](const FramePtr& frame) {
+            place_watch->offer(i, frame);
+            if (i == 0)
+                thumbnail.on_frame(frame, steady_now());
+        };
         send::CameraLane::Options lane;
         lane.cameras = cameras.size();
         lane.open_again = [this, specification = specifications[i]] {
@@ -191,12 +197,11 @@ Host::Host(const HostOptions& options, const capture::Progress& progress)
 
 Host::~Host() = default;
 
-std::string Host::link() const {
-    return net::format_link(impl_->link);
-}
-
-std::string Host::publish_link() const {
-    return net::format_link(impl_->publish_link);
+std::string Host::link(wire::Role role) const {
+    net::Link link = impl_->link;
+    link.token = impl_->token_of(role);
+    link.role = wire::text_of(role);
+    return net::format_link(link);
 }
 
 std::uint16_t Host::port() const {

@@ -24,9 +24,12 @@ struct HostOptions {
     net::Endpoint listen;
     std::string name = "operating room";
     std::string link_host;        // the link's host; empty: this machine's address
-    std::string token;            // empty: from the state folder
-    Duration link_lifetime{};     // the links become invalid after it; 0: never
-    std::filesystem::path state;  // keys and token; empty: the user's state folder
+    std::string token;            // of experts; empty: from the state folder
+    Duration link_lifetime{};     // the roles' links become invalid after it; 0: never
+    bool asks = false;            // experts and observers wait until an operator admits them
+    std::filesystem::path state;  // keys, tokens and links; empty: the user's state folder
+    std::filesystem::path audit;  // empty: audit.jsonl in the state folder
+    bool is_audited = true;
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
@@ -36,9 +39,8 @@ public:
     Host(const HostOptions& options, const capture::Progress& progress);
     ~Host();
 
-    std::string link() const;
-    // The link for participants that may also send cameras.
-    std::string publish_link() const;
+    // The link of a role, which stays valid.
+    std::string link(wire::Role role = wire::Role::expert) const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
     // The cameras without a known place in the room. They are placed side by side, 12 m apart.
@@ -55,6 +57,12 @@ public:
 
     // Loads changed filter files again, and logs it. From one thread.
     void follow_filter_files();
+    // The same for links that were made or revoked (host/link_book.h).
+    void follow_links();
+
+    // Carries out a decision of the person at this machine, as one of an operator. A refusal is
+    // printed.
+    void manage(wire::ManageAction action, ParticipantId person = {}, wire::Role role = {});
 
     // Figures since the start: cameras with stages, participants, drops.
     HostFigures figures() const;

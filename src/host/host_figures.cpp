@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "base/hex_text.h"
 #include "host/filter_choice.h"
 #include "wire/condition_text.h"
 
@@ -139,6 +140,9 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"sent", participant.sent},
                                 {"renderer", participant.renderer},
                                 {"refused_requests", participant.refused},
+                                {"denied_messages", participant.denied},
+                                {"role", wire::text_of(participant.role)},
+                                {"muted", participant.muted},
                                 {"age_ms", age_ms(participant)}});
     nlohmann::json published = nlohmann::json::array();
     for (const auto& camera : figures.published)
@@ -147,6 +151,12 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"publisher", int(camera.publisher)},
                              {"state", wire::text_of(camera.condition)},
                              {"dropped_slow", camera.dropped_slow}});
+    nlohmann::json visitors = nlohmann::json::array();
+    for (const auto& visitor : figures.visitors)
+        visitors.push_back({{"id", std::uint32_t(visitor.participant)},
+                            {"name", visitor.name},
+                            {"person", hex_text(visitor.person)},
+                            {"role", wire::text_of(visitor.role)}});
     return {{"name", figures.name},
             {"utc", utc_text(figures.utc)},
             {"session_us", to_us(figures.session_time)},
@@ -156,6 +166,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"participants", participants},
             {"published", published},
             {"overlaps", overlaps},
+            {"visitors", visitors},
             {"turned_away", figures.turned_away},
             {"faults", figures.faults}};
 }
@@ -240,6 +251,13 @@ std::string to_prometheus(const HostFigures& figures) {
     for (const auto& participant : figures.participants)
         out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
                   double(participant.refused));
+    out.family("messages_denied_total", "counter",
+               "Messages that a participant's role does not allow.");
+    for (const auto& participant : figures.participants)
+        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
+                  double(participant.denied));
+    out.family("visitors", "gauge", "People who wait to be let in.");
+    out.value("", double(figures.visitors.size()));
     out.family("strangers_turned_away_total", "counter",
                "Connections that showed no token in time.");
     out.value("", double(figures.turned_away));
@@ -313,12 +331,24 @@ std::string to_table(const nlohmann::json& figures) {
                       number(participant, "age_ms"), renderer.empty() ? "" : ", drawn with ",
                       renderer.c_str());
         table += line;
+        if (const std::string role = text(participant, "role"); !role.empty())
+            table += ", " + role;
+        if (const auto muted = participant.find("muted");
+            muted != participant.end() && muted->is_boolean() && muted->get<bool>())
+            table += ", muted";
+        if (const double denied = number(participant, "denied_messages"); denied > 0) {
+            std::snprintf(line, sizeof(line), ", %.0f messages not allowed", denied);
+            table += line;
+        }
         if (const double refused = number(participant, "refused_requests"); refused > 0) {
             std::snprintf(line, sizeof(line), ", %.0f requests refused", refused);
             table += line;
         }
         table += "\n";
     }
+    for (const auto& visitor : list(figures, "visitors"))
+        table += "waits to be let in: " + text(visitor, "name") + " (" + text(visitor, "role") +
+                 ", person " + text(visitor, "person") + ")\n";
     return table;
 }
 

@@ -33,6 +33,9 @@ struct HostFigures {
         std::vector<wire::StreamReport> streams;  // its newest report
         std::string renderer;                     // as it reports it; empty: unknown
         std::uint64_t refused = 0;                // requests that came too often
+        std::uint64_t denied = 0;                 // messages that its role does not allow
+        wire::Role role{};
+        bool muted = false;
     };
     std::vector<Participant> participants;
     struct Published {
@@ -42,15 +45,18 @@ struct HostFigures {
         wire::CameraCondition condition{};
         std::uint64_t dropped_slow = 0;  // as above
     };
-    std::vector<Published> published;  // cameras that participants send now
-    PlaceWatch::Figures places;        // whether cameras stay where they were registered
-    std::uint64_t turned_away = 0;     // strangers, since the host began
+    std::vector<Published> published;     // cameras that participants send now
+    PlaceWatch::Figures places;           // whether cameras stay where they were registered
+    bool has_ended = false;               // the session
+    std::vector<wire::Visitor> visitors;  // who wait for admission
+    std::uint64_t turned_away = 0;        // strangers, since the host began
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 };
 
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
 // "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests",…}],"published":[{"id","name","publisher","state",
+// "renderer","refused_requests","denied_messages","role","muted",…}],"visitors":[{"id","name",
+// "person","role"}],"published":[{"id","name","publisher","state",
 // "dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 

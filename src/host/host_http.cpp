@@ -54,7 +54,11 @@ nlohmann::json cleaned(const nlohmann::json& figures) {
 }  // namespace
 
 nlohmann::json status_of_host(const net::Link& link) {
-    const net::HttpsAnswer answer = net::https_get(link, "/status");
+    return json_of_host(link, "/status", "status");
+}
+
+nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what) {
+    const net::HttpsAnswer answer = net::https_get(link, target);
     if (answer.status == 401)
         throw Error("The host does not know the link's token; ask for its current link.");
     bool too_deep = false;
@@ -66,7 +70,8 @@ nlohmann::json status_of_host(const net::Link& link) {
         },
         false);
     if (answer.status != 200 || too_deep || !figures.is_object())
-        throw Error("The host does not tell its status; it may be of an older version.");
+        throw Error(std::string("The host does not tell its ") + what +
+                    "; it may be of an older version.");
     return cleaned(figures);
 }
 

@@ -24,5 +24,7 @@ net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<s
 inline constexpr int max_status_depth = 16;
 inline constexpr std::size_t max_status_text = 1000;  // characters of one text in it
 nlohmann::json status_of_host(const net::Link& link);
+// The same for another page with JSON. `what` of Error's sentence: "status".
+nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what);
 
 }  // namespace theatron::host

@@ -16,6 +16,12 @@
 
 namespace theatron::host {
 
+namespace {
+
+constexpr const char* address_file = "host.address";
+
+}  // namespace
+
 std::filesystem::path default_state_folder() {
     if (auto folder = files::state_folder(); !folder.empty())
         return folder;
@@ -64,6 +70,25 @@ std::string load_or_make_token(const std::filesystem::path& folder, const char* 
     token = net::random_token();
     files::write_private_file(path, token + "\n");
     return token;
+}
+
+void write_address(const std::filesystem::path& folder, const net::Link& link) {
+    net::Link address = link;
+    address.token = "none";
+    files::write_private_file(folder / address_file, net::format_link(address) + "\n");
+}
+
+net::Link read_address(const std::filesystem::path& folder) {
+    const auto text = files::read_private_file(folder / address_file, files::Privacy::readable);
+    if (!text)
+        throw Error("No host has run with the state folder '" + folder.string() +
+                    "', so its address is not known; start 'theatron host' first, or name its "
+                    "folder with --state.");
+    std::string word;
+    std::istringstream(*text) >> word;
+    net::Link link = net::parse_link(word);
+    link.token.clear();
+    return link;
 }
 
 std::string outside_address() {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "net/link.h"
+
 namespace theatron::host {
 
 // The default folder of a host's keys and tokens. Throws Error if the environment names no
@@ -23,6 +25,12 @@ std::string read_token(const std::filesystem::path& path);
 // The token in this file of the folder, made at first use. It outlives the host, so that links stay
 // valid after a restart. Only its owner may read it. Throws Error.
 std::string load_or_make_token(const std::filesystem::path& folder, const char* name);
+
+// Notes the address of the host's links, for 'theatron link'. Throws Error.
+void write_address(const std::filesystem::path& folder, const net::Link& link);
+// Address and fingerprint of the host that last ran with this folder; no token. Throws Error if
+// none has.
+net::Link read_address(const std::filesystem::path& folder);
 
 // The address of a host that listens on all interfaces: its first outside IPv4 address, or
 // 127.0.0.1.

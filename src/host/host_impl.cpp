@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "base/fault.h"
+#include "base/hex_text.h"
 #include "base/log.h"
 #include "host/host_http.h"
+#include "host/lobby.h"
 
 namespace theatron::host {
 namespace {
@@ -14,16 +16,18 @@ namespace {
 // Time for participants to receive the Goodbye.
 constexpr Duration goodbye_patience = std::chrono::seconds(1);
 
-std::string hex_text(ByteView bytes) {
-    std::string text;
-    for (const std::byte b : bytes)
-        for (const int shift : {4, 0})
-            text += "0123456789abcdef"[std::to_integer<int>(b) >> shift & 15];
-    return text;
-}
-
 net::PeerId peer_of(ParticipantId participant) {
     return net::PeerId(std::uint32_t(participant));
+}
+
+// The pose of a person with its hands removed; nullopt if it shows none.
+std::optional<Bytes> without_hands(const wire::State& state) {
+    auto pose = wire::decode_person_pose(state.body);
+    if (!pose || (!pose->left_hand && !pose->right_hand))
+        return std::nullopt;
+    pose->left_hand.reset();
+    pose->right_hand.reset();
+    return wire::encode_person_pose(*pose);
 }
 
 }  // namespace
@@ -60,7 +64,6 @@ net::Server::Handler Host::Impl::handler() {
     };
     h.closed = [this](net::PeerId peer, const std::string& why) {
         const std::string address = addresses[peer];
-        addresses.erase(peer);
         if (const auto left_out = joins.take("left " + address, steady_now()))
             log::info("host", "participant left",
                       {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
@@ -68,6 +71,7 @@ net::Server::Handler Host::Impl::handler() {
         poses.remove(ParticipantId(std::uint32_t(peer)), steady_now());
         wait_for_poses();
         carry_out();
+        addresses.erase(peer);
         note_left(peer);
     };
     h.now = steady_now;
@@ -81,7 +85,9 @@ net::Server::Handler Host::Impl::handler() {
         room_file->on_tick(session->room(), steady_now());
     };
     h.http = [this](const net::HttpRequest& request) {
-        return answer_http(request, http_tokens, [this] { return figures(); });
+        if (is_lobby(request))
+            return answer_lobby(request);
+        return answer_http(request, http_tokens(), [this] { return figures(); });
     };
     return h;
 }
@@ -190,6 +196,7 @@ void Host::Impl::note_left(net::PeerId peer) {
 
 void Host::Impl::say_goodbye() {
     server->post([this] {
+        has_ended = session->has_ended();
         // Nobody at all counts as one who has left; closing may tell of others at once.
         constexpr net::PeerId nobody{};
         leaving.insert(nobody);
@@ -227,15 +234,6 @@ void Host::Impl::hold_lanes() {
 void Host::Impl::release_lanes() {
     for (const std::size_t camera : std::vector(held.begin(), held.end()))
         hold_lane(camera);
-}
-
-bool Host::Impl::is_invited(ByteView first) const {
-    const auto message = wire::decode_to_host(first);
-    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
-    bool shown = false;
-    for (const std::string& token : join_tokens)
-        shown = (join && net::equal_secrets(join->token, token)) || shown;
-    return shown;
 }
 
 void Host::Impl::take_media(send::EncodedMedia encoded) {
@@ -332,7 +330,10 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
-    if (poses.put(sender, state, steady_now()) == session::PoseBoard::Answer::flood)
+    const auto without = without_hands(state);
+    const bool hides = without && !session->allow(sender, session::Right::point);
+    const wire::State shown{state.key, hides ? ByteView(*without) : state.body};
+    if (poses.put(sender, shown, steady_now()) == session::PoseBoard::Answer::flood)
         end_flood(peer, "there were far more poses than a host sends on");
     wait_for_poses();
 }
@@ -442,7 +443,8 @@ void Host::Impl::note_participants() {
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
             list.push_back({id, participant.name, session->step_of(id), participant.report,
-                            participant.renderer, participant.budget.refused()});
+                            participant.renderer, participant.budget.refused(), participant.denied,
+                            participant.role, participant.muted});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
@@ -460,6 +462,8 @@ void Host::Impl::note_participants() {
         }
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
+    visitor_figures = session->visitors();
+    ended_figure = session->has_ended();
     published_figures = std::move(published);
     dropped_slow_figures = dropped_slow;
 }
@@ -481,6 +485,8 @@ HostFigures Host::Impl::figures() const {
     figures.published = published_figures;
     if (place_watch)
         figures.places = place_watch->figures();
+    figures.visitors = visitor_figures;
+    figures.has_ended = ended_figure;
     figures.turned_away = turned_away;
     figures.faults = fault_count();
     return figures;

@@ -10,11 +10,14 @@
 #include "base/line_limit.h"
 #include "base/steady_clock.h"
 #include "capture/camera_places.h"
+#include "host/audit_log.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
+#include "host/link_book.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
+#include "host/thumbnail.h"
 #include "net/certificate.h"
 #include "net/server.h"
 #include "send/color_watch.h"
@@ -27,11 +30,23 @@ namespace theatron::host {
 struct Host::Impl {
     std::atomic<std::size_t>& participants;
     net::Certificate certificate;
-    net::Link link, publish_link;
+    net::Link link;  // without a token
+    std::filesystem::path state;
+    std::optional<LinkWatch> link_watch;    // used by the owner of the host
+    std::optional<TimePoint> roles_expire;  // the links of the roles
+    std::string metrics_token;
+    bool asks = false;
+    bool has_ended = false;  // the session, before the host did
+    mutable std::mutex tokens_mutex;
+    std::string own_token;                          // guarded by tokens_mutex, as is the next
+    std::vector<session::Admission::Token> tokens;  // those of the session
+    std::unique_ptr<AuditLog> audit;                // may be null
+    session::TokenBucket audited{1, 500};           // events; server's thread
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
     capture::CameraPlaces places;  // does not change once lanes run
     send::Workers workers;
+    Thumbnail thumbnail;  // of the first camera
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
     send::ColorWatch color_watch;             // on the thread of the server
@@ -58,9 +73,10 @@ struct Host::Impl {
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
+    std::vector<wire::Visitor> visitor_figures;
+    bool ended_figure = false;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
     std::string name;
-    std::vector<std::string> join_tokens, http_tokens;
     const TimePoint begun = steady_now();
 
     std::atomic<std::uint64_t> turned_away = 0;  // strangers
@@ -84,12 +100,18 @@ struct Host::Impl {
         if (thread.joinable()) {
             thread.join();
             room_file->save(session->room(), steady_now());
+            if (audit && !has_ended)
+                audit->add({session::AuditEvent::What::ended, {}, "", {}, {}, "", "", name}, "");
         }
         lanes.clear();
         place_watch.reset();
     }
 
     void open(const HostOptions& options, const capture::Progress& progress);
+    void audit_beginning();
+    // Reads all links, for the session and for the door.
+    std::vector<session::Admission::Token> load_tokens();
+    std::string token_of(wire::Role role) const;
     net::Server::Handler handler();
     void start_replay(const std::vector<std::string>& specifications);
     void start_lanes(const std::vector<std::string>& specifications,
@@ -108,6 +130,8 @@ struct Host::Impl {
     void carry_out(const session::action::SetCeiling& a);
     void carry_out(const session::action::Stepped& a);
     void carry_out(const session::action::Drawing& a);
+    void carry_out(const session::action::Audit& a);
+    void carry_out(const session::action::RevokeLink& a);
     void hold_lane(std::size_t camera);
     void hold_lanes();
     void release_lanes();
@@ -140,6 +164,12 @@ struct Host::Impl {
     void take_place(CameraId camera, const wire::Text& problem);
     bool pass_on(wire::CameraState state);
     bool is_invited(ByteView first) const;
+    std::vector<std::string> http_tokens() const;
+    // The link whose token this is, if it is valid now. On any thread.
+    std::optional<session::Admission::Token> find_token(const std::string& secret) const;
+    // True if a participant with this role waits for admission.
+    bool must_ask(wire::Role role) const;
+    net::HttpAnswer answer_lobby(const net::HttpRequest& request);
     HostFigures figures() const;
 };
 

@@ -56,7 +56,9 @@ std::string without_secrets(std::string_view text) {
 std::string format_link(const Link& link) {
     const bool ipv6 = link.host.find(':') != std::string::npos;
     return std::string(scheme) + (ipv6 ? "[" + link.host + "]" : link.host) + ":" +
-           std::to_string(link.port) + "/#join=" + link.token + "&cert=" + link.fingerprint;
+           std::to_string(link.port) + "/#join=" + link.token + "&cert=" + link.fingerprint +
+           (link.role.empty() ? "" : "&role=" + link.role) +
+           (link.until.empty() ? "" : "&until=" + link.until);
 }
 
 Link parse_link(std::string_view text) {
@@ -82,6 +84,10 @@ Link parse_link(std::string_view text) {
             link.token = part.substr(5);
         else if (part.starts_with("cert="))
             link.fingerprint = part.substr(5);
+        else if (part.starts_with("role="))
+            link.role = part.substr(5);
+        else if (part.starts_with("until="))
+            link.until = part.substr(6);
         fragment = end == std::string_view::npos ? "" : fragment.substr(end + 1);
     }
     if (link.token.empty())

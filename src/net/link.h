@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The link that a host prints and a participant opens:
-// https://HOST:PORT/#join=TOKEN&cert=FINGERPRINT
+// https://HOST:PORT/#join=TOKEN&cert=FINGERPRINT&role=ROLE&until=TIME
 //
 // A browser never sends the part behind '#' to a server, so the same link can be
 // opened in a browser.
@@ -17,6 +17,8 @@ struct Link {
     std::uint16_t port = 0;
     std::string token;        // the permission to join
     std::string fingerprint;  // SHA-256 of the host's certificate, 64 hex digits
+    // For people who read the link; the host decides. Empty: not in the link.
+    std::string role = {}, until = {};
 };
 
 std::string format_link(const Link& link);

@@ -31,44 +31,65 @@ Admission::Participant* Admission::find(ParticipantId id) {
 Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) const {
     if (hello.protocol_min > wire::protocol_max)
         return {{},
+                "",
                 {TextCode::host_too_old,
                  {std::to_string(wire::protocol_max), std::to_string(hello.protocol_min)}}};
     if (hello.protocol_max < wire::protocol_min)
         return {{},
+                "",
                 {TextCode::program_too_old,
                  {std::to_string(hello.protocol_max), std::to_string(wire::protocol_min)}}};
     // All are compared, so that the time that it takes says nothing about which one is right.
     const Token* shown = nullptr;
-    for (const Token& token : config_.tokens)
-        if (config_.equal_secrets(hello.token, token.secret))
+    for (const Token& token : tokens_)
+        if (equal_secrets_(hello.token, token.secret))
             shown = &token;
     if (!shown)
-        return {{}, {TextCode::wrong_token}};
+        return {{}, "", {TextCode::wrong_token}};
     if (shown->expires && now >= *shown->expires)
-        return {{}, {TextCode::link_expired}};
+        return {{}, "", {TextCode::link_expired}};
     const auto recorders = std::count_if(
         participants_.begin(), participants_.end(),
         [](const auto& entry) { return entry.second.takes_part() && entry.second.records; });
     if (hello.records && recorders >= max_recorders)
-        return {{}, {TextCode::too_many_recordings, {std::to_string(max_recorders)}}};
-    return {shown->role, {}};
+        return {{}, "", {TextCode::too_many_recordings, {std::to_string(max_recorders)}}};
+    return {shown->role, shown->link, {}};
 }
 
-void Admission::admit(Participant& participant, const wire::Join& hello, Role role) {
-    participant.joined = true;
+bool Admission::knows(const Participant& participant) const {
+    return std::any_of(tokens_.begin(), tokens_.end(), [&](const Token& token) {
+        return token.link == participant.link && equal_secrets_(participant.token, token.secret);
+    });
+}
+
+void Admission::note(Participant& participant, const wire::Join& hello, const Verdict& verdict) {
     participant.protocol = std::min(hello.protocol_max, wire::protocol_max);
-    participant.role = role;
+    participant.of_link = participant.role = verdict.role;
+    participant.link = verdict.link;
+    participant.token = hello.token;
     participant.person = hello.person;
-    participant.features.clear();
+    participant.records = hello.records;
+    participant.name = shown_name(hello.name);
+    participant.asks_to_publish =
+        std::count(hello.features.begin(), hello.features.end(), wire::Feature::publish) > 0;
+}
+
+void Admission::admit(Participant& participant, const wire::Join& hello) {
+    participant.joined = true;
+    participant.asked.reset();
+    participant.features = features_of(hello, participant.role);
+}
+
+std::vector<wire::Feature> Admission::features_of(const wire::Join& hello, Role role) {
+    std::vector<wire::Feature> features;
     for (const wire::Feature known :
          {wire::Feature::publish, wire::Feature::sends_only, wire::Feature::room}) {
         const bool is_asked =
             std::find(hello.features.begin(), hello.features.end(), known) != hello.features.end();
-        if (is_asked && (known != wire::Feature::publish || role == Role::publisher))
-            participant.features.push_back(known);
+        if (is_asked && (known != wire::Feature::publish || may(role, Right::publish)))
+            features.push_back(known);
     }
-    participant.records = hello.records;
-    participant.name = shown_name(hello.name);
+    return features;
 }
 
 void Admission::keep_for_later(Participant& participant, wire::ToHost message) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The participants of a session: admission by tokens, which have a role and may expire; their
-// names, features and request budgets.
+// names, roles, features and request budgets.
 //
 // A pure state machine; time is passed in.
 #pragma once
@@ -16,26 +16,25 @@
 
 #include "base/ids.h"
 #include "base/time.h"
+#include "session/permissions.h"
 #include "session/request_budget.h"
 #include "wire/control.h"
 
 namespace theatron::session {
-
-enum class Role : std::uint8_t {
-    viewer,     // receives
-    publisher,  // may send cameras, too
-};
 
 class Admission {
 public:
     // Admits its bearer in this role, until it expires.
     struct Token {
         std::string secret;
-        Role role = Role::viewer;
+        Role role = Role::expert;
         std::optional<TimePoint> expires;
+        std::string link;  // a name for it that is not secret
     };
     struct Config {
         std::vector<Token> tokens;
+        // Experts and observers wait until an operator admits them.
+        bool asks = false;
         // Compares secrets in constant time; given, because this module has no crypto.
         std::function<bool(std::string_view, std::string_view)> equal_secrets;
     };
@@ -52,13 +51,20 @@ public:
         bool joined = false;
         bool closing = false;
         bool takes_part() const { return joined && !closing; }
+        bool waits() const { return asked && !closing; }
+        bool may(Right right) const { return takes_part() && session::may(role, right); }
         bool has(wire::Feature feature) const;
         TimePoint connected;
         std::uint16_t protocol = 0;
         std::string name;
         Bytes person;                         // as in wire::Join
         std::vector<wire::Feature> features;  // those of Join that hold here
-        Role role = Role::viewer;
+        Role of_link = Role::expert, role = Role::expert;
+        bool muted = false;
+        std::string link, token;                 // by which it came
+        std::optional<wire::Join> asked;         // while it waits for admission
+        bool asks_to_publish = false;            // as in wire::Join
+        std::uint64_t denied = 0;                // messages that its role does not allow
         bool records = false;                    // as in wire::Join
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
@@ -71,7 +77,16 @@ public:
         std::optional<wire::ChooseDelivery> late_goal;
     };
 
-    explicit Admission(Config config) : config_(std::move(config)) {}
+    explicit Admission(Config config)
+        : tokens_(std::move(config.tokens)), equal_secrets_(std::move(config.equal_secrets)) {}
+
+    // Other tokens are valid from now on.
+    void set_tokens(std::vector<Token> tokens) { tokens_ = std::move(tokens); }
+    void revoke(const std::string& link) {
+        std::erase_if(tokens_, [&](const Token& token) { return token.link == link; });
+    }
+    // False if the participant's token is no longer valid.
+    bool knows(const Participant& participant) const;
 
     void on_connected(ParticipantId id, std::size_t streams, TimePoint now);
     // Null if there is none of this number.
@@ -82,19 +97,25 @@ public:
 
     // The answer to Join: the role, or why the connection is refused.
     struct Verdict {
-        Role role = Role::viewer;
-        wire::Text refusal;  // empty: welcome
+        Role role = Role::expert;
+        std::string link;
+        wire::Text refusal;  // empty: the token is valid
     };
     Verdict judge(const wire::Join& hello, TimePoint now) const;
-    // Marks the participant as joined, in this role.
-    void admit(Participant& participant, const wire::Join& hello, Role role);
+    // Notes what the participant says of itself.
+    static void note(Participant& participant, const wire::Join& hello, const Verdict& verdict);
+    // Marks the participant as joined, in its role.
+    static void admit(Participant& participant, const wire::Join& hello);
+    // The features of Join that hold for a role.
+    static std::vector<wire::Feature> features_of(const wire::Join& hello, Role role);
 
     // Keeps a request that came too often: the last one of its kind. Requests that participants
     // repeat by themselves are dropped.
     static void keep_for_later(Participant& participant, wire::ToHost message);
 
 private:
-    const Config config_;
+    std::vector<Token> tokens_;
+    const std::function<bool(std::string_view, std::string_view)> equal_secrets_;
     std::map<ParticipantId, Participant> participants_;
 };
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/ids.h"
+#include "session/audit_event.h"
 #include "session/key_requests.h"
 #include "wire/control.h"
 
@@ -67,12 +68,20 @@ struct Drawing {
     ParticipantId participant{};
     std::string renderer;
 };
+// For the audit log.
+struct Audit {
+    AuditEvent event;
+};
+// Make this link invalid for good.
+struct RevokeLink {
+    std::string link;
+};
 
 }  // namespace action
 
-using Action =
-    std::variant<action::Send, action::Close, action::End, action::Joined, action::TakeMedia,
-                 action::RequestKey, action::ChangeSettings, action::KeepEverything,
-                 action::SetCeiling, action::Stepped, action::Drawing>;
+using Action = std::variant<action::Send, action::Close, action::End, action::Joined,
+                            action::TakeMedia, action::RequestKey, action::ChangeSettings,
+                            action::KeepEverything, action::SetCeiling, action::Stepped,
+                            action::Drawing, action::Audit, action::RevokeLink>;
 
 }  // namespace theatron::session

@@ -23,14 +23,38 @@ bool names_recorded(const Request& request) {
 void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now) {
     tell(state_.on_joined(id, encode_person(facts), now));
     members_[id].keeps_room = keeps_room;
+    members_[id].role = facts.role;
     if (keeps_room)
         send_snapshot(id);
+}
+
+void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {
+    const auto member = members_.find(id);
+    if (member == members_.end())
+        return;
+    member->second.role = facts.role;
+    if (!may(facts.role, Right::handle))
+        for (const RoomChange& change : state_.release_all(id))
+            tell(change);
+    for (const RoomChange& change : state_.on_person(id, encode_person(facts)))
+        tell(change);
+}
+
+bool HostRoom::gives_to_observer(const Request& request) const {
+    const auto* gift = std::get_if<request::HandOver>(&request);
+    const auto receiver = gift ? members_.find(gift->to) : members_.end();
+    return receiver != members_.end() && !may(receiver->second.role, Right::handle);
 }
 
 void HostRoom::leave(ParticipantId id) {
     if (members_.erase(id) == 0)
         return;
     for (const RoomChange& change : state_.on_left(id))
+        tell(change);
+}
+
+void HostRoom::clear() {
+    for (const RoomChange& change : state_.clear())
         tell(change);
 }
 
@@ -44,20 +68,23 @@ void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
     RoomState::Decision decision{Refusal::malformed, {}};
     if (request && names_recorded(*request))
         decision.refusal = Refusal::recorded;
+    else if (request && gives_to_observer(*request))
+        decision.refusal = Refusal::role;
     else if (request)
-        decision = state_.on_request(id, message.number, *request, true);
+        decision = state_.on_request(id, message.number, *request,
+                                     may(member->second.role, Right::handle));
     for (const RoomChange& change : decision.changes)
         tell(change);
     member->second.decided = message.number;
     send(id, wire::RoomDecision{message.number, std::uint8_t(decision.refusal)});
 }
 
-void HostRoom::refuse(ParticipantId id, const wire::RoomRequest& message) {
+void HostRoom::refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal) {
     const auto member = members_.find(id);
     if (member == members_.end() || message.number == 0)
         return;
     member->second.decided = message.number;
-    send(id, wire::RoomDecision{message.number, std::uint8_t(Refusal::too_often)});
+    send(id, wire::RoomDecision{message.number, std::uint8_t(refusal)});
 }
 
 void HostRoom::send_snapshot(ParticipantId id) {

@@ -29,10 +29,14 @@ public:
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
     void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {});
+    // Its role or another fact has changed.
+    void set_person(ParticipantId id, const PersonFacts& facts);
     void leave(ParticipantId id);
+    // Removes all objects but people.
+    void clear();
     void on_request(ParticipantId id, const wire::RoomRequest& message);
-    // Refuses a request unread, because there were too many.
-    void refuse(ParticipantId id, const wire::RoomRequest& message);
+    // Refuses a request unread, for this reason.
+    void refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal);
     void send_snapshot(ParticipantId id);
 
     struct Forward {
@@ -58,9 +62,12 @@ public:
 private:
     struct Member {
         bool keeps_room = false;
+        Role role{};
         std::uint32_t decided = 0;  // its newest request
         TokenBucket poses{pose_limit.per_second, pose_limit.at_once};
     };
+    // True if the request gives an object to a participant whose role does not allow to hold it.
+    bool gives_to_observer(const Request& request) const;
     void tell(const RoomChange& change);
     void send(ParticipantId id, wire::ToParticipant message) {
         actions_.push_back(action::Send{id, std::move(message)});

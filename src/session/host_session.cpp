@@ -41,12 +41,16 @@ Kind kind_of(const wire::CameraState&) {
 Kind kind_of(const wire::RoomRequest&) {
     return Kind::room;
 }
+Kind kind_of(const wire::Manage&) {
+    return Kind::manage;
+}
 
 }  // namespace
 
 HostSession::HostSession(Config config)
     : config_(std::move(config)),
       admission_(config_.admission),
+      membership_(config_.admission.asks),
       streams_(config_.streams, actions_),
       room_(config_.room, actions_) {
     std::vector<wire::Camera> cameras = config_.cameras;
@@ -67,7 +71,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     // A newer participant may send messages that this host does not know.
     if (!message && message.error() != Status::unsupported)
         return refuse(id, {TextCode::damaged_message, {std::string(to_text(message.error()))}});
-    if (message && !participant->joined) {
+    if (message && !participant->joined && !participant->waits()) {
         const auto* hello = std::get_if<wire::Join>(&*message);
         return hello ? join(id, *hello, now) : refuse(id, {TextCode::not_joined});
     }
@@ -75,7 +79,10 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         message ? std::visit([](const auto& m) { return kind_of(m); }, *message) : Kind::other;
     switch (participant->budget.ask(kind, now)) {
         case RequestBudget::Answer::granted:
-            if (message)
+            if (message && !participant->may(
+                               std::visit([](const auto& m) { return needed_right(m); }, *message)))
+                deny(id, *message);
+            else if (message)
                 std::visit([&](const auto& m) { carry_out(id, m, now); }, *message);
             break;
         case RequestBudget::Answer::too_often:
@@ -84,7 +91,10 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
             else if (message && std::holds_alternative<wire::Unpublish>(*message))
                 carry_out(id, std::get<wire::Unpublish>(*message), now);
             else if (message && std::holds_alternative<wire::RoomRequest>(*message))
-                room_.refuse(id, std::get<wire::RoomRequest>(*message));
+                room_.refuse(id, std::get<wire::RoomRequest>(*message), Refusal::too_often);
+            else if (message && std::holds_alternative<wire::Manage>(*message))
+                send(id, wire::Managed{std::get<wire::Manage>(*message).number,
+                                       wire::ManageRefusal::too_often});
             else if (message)
                 Admission::keep_for_later(*participant, std::move(*message));
             break;
@@ -104,21 +114,52 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         if (!problem.empty())
             return refuse(id, wire::as_written(problem));
 
+    const Membership::Judged judged = membership_.judge(hello.person, verdict.role);
+    if (judged.entry == Membership::Entry::was_removed)
+        return refuse(id, {TextCode::removed_by_operator});
+    if (has_ended_ && !may(verdict.role, Right::manage))
+        return refuse(id, {TextCode::session_has_ended});
+    if (hello.records && !may(judged.role, Right::record))
+        return refuse(id, {TextCode::observer_records});
+    if (has_ended_)
+        begin_again();
     Participant& participant = *admission_.find(id);
-    admission_.admit(participant, hello, verdict.role);
+    Admission::note(participant, hello, verdict);
+    participant.role = judged.role;
+    participant.muted = judged.muted;
+    if (judged.entry == Membership::Entry::enters)
+        return enter(id, hello);
+    if (visitors().size() >= wire::max_visitors)
+        return refuse(id, {TextCode::too_many_visitors});
+    participant.asked = hello;
+    audit(AuditEvent::What::waits, id);
+    send(id, wire::Waiting{config_.name});
+    tell_operators();
+}
+
+// `hello` was judged; it is a copy where the participant has waited.
+void HostSession::enter(ParticipantId id, const wire::Join& hello) {
+    Participant& participant = *admission_.find(id);
+    Admission::admit(participant, hello);
     actions_.push_back(action::Joined{id, participant.name, participant.person});
+    audit(AuditEvent::What::joined, id, "", hello.records ? "records" : "");
     describe_session(id);
     if (hello.records)
         actions_.push_back(action::KeepEverything{id});
     if (!participant.has(wire::Feature::sends_only)) {
-        streams_.join(id, {depth.codec, color.codec}, hello.records);
+        streams_.join(id,
+                      {config_.check_depth(hello.depth_codec).codec,
+                       config_.check_color(hello.color_codec).codec},
+                      hello.records);
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
     tell_renderer(id);
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
-        room_.join(id, {participant.role, participant.records, participant.name},
+        room_.join(id, {participant.role, participant.records, participant.name, participant.muted},
                    participant.has(wire::Feature::room), participant.connected);
+    if (participant.may(Right::manage))
+        tell_operators();
 }
 
 void HostSession::describe_session(ParticipantId id) {
@@ -127,6 +168,7 @@ void HostSession::describe_session(ParticipantId id) {
     send(id, wire::Welcome{participant.protocol, id, config_.name,
                            sends_only ? std::vector<wire::Camera>() : streams_.seen_by(id),
                            participant.features, config_.session});
+    tell_standing(id);
     if (sends_only)
         return;
     for (const wire::CameraState& state : streams_.states_seen_by(id))
@@ -197,9 +239,16 @@ void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint n
 }
 
 void HostSession::on_closed(ParticipantId id) {
-    admission_.remove(id);
+    if (Participant* participant = admission_.find(id)) {
+        const bool has_waited = participant->waits();
+        if (participant->joined || has_waited)
+            audit(AuditEvent::What::left, id);
+        unshare(id, streams_.of(id));
+        admission_.remove(id);
+        if (has_waited)
+            tell_operators();
+    }
     renderers_.forget(id);
-    streams_.remove(streams_.of(id));
     streams_.leave(id);
     room_.leave(id);
     set_budgets();
@@ -207,7 +256,7 @@ void HostSession::on_closed(ParticipantId id) {
 
 void HostSession::on_tick(TimePoint now) {
     for (auto& [id, participant] : admission_.participants()) {
-        if (!participant.joined && !participant.closing &&
+        if (!participant.joined && !participant.asked && !participant.closing &&
             now - participant.connected > Admission::join_deadline)
             refuse(id, {TextCode::joined_too_late});
         if (participant.takes_part())
@@ -224,15 +273,20 @@ void HostSession::resynchronise(ParticipantId id) {
     tell_renderer(id);
     streams_.tell_again(id);
     room_.send_snapshot(id);
+    if (participant->may(Right::manage))
+        tell_operators();
 }
 
-void HostSession::end() {
+void HostSession::end(wire::TextCode reason) {
     for (auto& [id, participant] : admission_.participants()) {
-        if (!participant.takes_part())
+        if (!participant.takes_part() && !participant.waits())
             continue;
+        unshare(id, streams_.of(id));
         participant.closing = true;
-        actions_.push_back(action::End{id, {{TextCode::session_over}}});
+        room_.leave(id);
+        actions_.push_back(action::End{id, {{reason}}});
     }
+    has_ended_ = true;
 }
 
 // Sends this participant its renderer, if the host has ever set one.
@@ -277,15 +331,20 @@ std::vector<Action> HostSession::take_actions() {
     return std::exchange(actions_, {});
 }
 
-// The participant gets no more messages, and its cameras leave with its connection.
+// The participant gets no more messages and sends nothing that counts.
 void HostSession::refuse(ParticipantId id, wire::Text reason) {
+    Participant& participant = *admission_.find(id);
+    const bool has_waited = participant.waits();
     wire::Refused refusal = wire::refused(std::move(reason));
-    admission_.find(id)->closing = true;
-    streams_.leave(id);
-    room_.leave(id);
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
+    unshare(id, streams_.of(id));
+    participant.closing = true;
+    streams_.leave(id);
+    room_.leave(id);
     actions_.push_back(action::Close{id, std::move(why)});
+    if (has_waited)
+        tell_operators();
 }
 
 void HostSession::send(ParticipantId id, wire::ToParticipant message) {

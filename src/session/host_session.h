@@ -14,6 +14,7 @@
 #include "session/admission.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
+#include "session/membership.h"
 #include "session/renderer_wishes.h"
 #include "session/streams.h"
 #include "wire/control.h"
@@ -56,8 +57,19 @@ public:
     void on_link(ParticipantId participant, const LinkMeasure& link, TimePoint now);
     // Messages to this participant were dropped because it did not read: sends the state again.
     void resynchronise(ParticipantId participant);
-    // Ends the session: all participants get a Goodbye.
-    void end();
+    // Ends the session: all participants get a Goodbye with this reason. Further ones are refused
+    // until an operator comes, with whom a new session begins: its room is empty, and decisions on
+    // people are forgotten.
+    void end(wire::TextCode reason = wire::TextCode::session_over);
+    bool has_ended() const { return has_ended_; }
+
+    // Other tokens are valid from now on. Participants who came by a link that is no longer among
+    // them are removed.
+    void set_tokens(std::vector<Admission::Token> tokens);
+    // Carries out a decision of the person at the host's own machine, as one of an operator.
+    wire::ManageRefusal manage(const wire::Manage& decision);
+    // Everyone who waits for admission.
+    std::vector<wire::Visitor> visitors() const;
 
     // A frame of a camera of the host was encoded, `size` bytes. Returns its receivers.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
@@ -78,6 +90,8 @@ public:
     std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now) {
         return room_.replay(recorded, now);
     }
+    // False, and counted, if its role does not allow this.
+    bool allow(ParticipantId participant, Right right);
 
     // The condition of the host's own cameras, and measurements of encoding them.
     void on_camera(const wire::CameraState& state) { streams_.on_state(state); }
@@ -120,6 +134,10 @@ private:
     using Participant = Admission::Participant;
 
     void join(ParticipantId id, const wire::Join& message, TimePoint now);
+    void enter(ParticipantId id, const wire::Join& message);
+    void begin_again();
+    // Answers a message that the participant's role does not allow.
+    void deny(ParticipantId id, const wire::ToHost& message);
     // One for each kind of message of a participant who has joined.
     void carry_out(ParticipantId id, const wire::Join& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::ChooseCodecs& message, TimePoint now);
@@ -131,10 +149,21 @@ private:
     void carry_out(ParticipantId id, const wire::Unpublish& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::CameraState& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::RoomRequest& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::Manage& message, TimePoint now);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
                           const std::vector<wire::Camera>& cameras) const;
+    // `by`: the operator; 0: the person at the host's machine.
+    wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
+    void set_role(ParticipantId id, Role role);
+    void remove_without_link(const std::string& by);
+    void tell_standing(ParticipantId id);
+    void tell_operators();
+    void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
+               std::string detail = "");
     void describe_session(ParticipantId id);
+    // Removes cameras of this participant from the session.
+    void unshare(ParticipantId id, const std::vector<CameraId>& cameras);
     void take_media(ParticipantId publisher);
     void set_budgets();
     void tell_renderer(ParticipantId id);
@@ -144,9 +173,11 @@ private:
     const Config config_;
     std::vector<Action> actions_;
     Admission admission_;
+    Membership membership_;
     Streams streams_;
     HostRoom room_;
     RendererWishes renderers_;
+    bool has_ended_ = false;
 };
 
 }  // namespace theatron::session

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any control messages (each behind a two-byte length) from participants who come and go, while
-// frames are encoded, links are measured, encoders fall behind and time goes on: the host's state
-// stays sound, its actions can be sent, and who has joined is always given a setting.
+// frames are encoded, links are measured, encoders fall behind, operators decide on people and time
+// goes on: the host's state stays sound, its actions can be sent, each participant who has joined
+// has a setting, and nobody has more than its role allows.
 #include <algorithm>
 #include <cstdlib>
 #include <set>
 
 #include "geometry/calibration.h"
 #include "session/host_session.h"
+#include "session/room_bytes.h"
 #include "session/viewer_session.h"
 
 namespace {
@@ -46,14 +48,27 @@ wire::Camera camera(int number) {
     return camera;
 }
 
-HostSession::Config config() {
+constexpr const char* secrets[] = {"secret", "operator", "observer", "expert"};
+
+// The first ones of them.
+std::vector<session::Admission::Token> tokens(std::size_t count) {
+    using session::Role;
+    constexpr Role roles[] = {Role::publisher, Role::operator_, Role::observer, Role::expert};
+    std::vector<session::Admission::Token> tokens;
+    for (std::size_t i = 0; i < count; ++i)
+        tokens.push_back({secrets[i], roles[i], {}, secrets[i]});
+    return tokens;
+}
+
+HostSession::Config config(bool asks) {
     const auto check = [](const std::string& text) {
         // As with real codecs, an empty text is none.
         const char* problem = text.empty() ? "Empty." : text.size() > 20 ? "Too long." : "";
         return HostSession::CheckedCodec{text.substr(0, 20), problem};
     };
     HostSession::Config config;
-    config.admission.tokens = {{"secret", session::Role::publisher, {}}};
+    config.admission.tokens = tokens(4);
+    config.admission.asks = asks;
     config.admission.equal_secrets = [](std::string_view a, std::string_view b) { return a == b; };
     config.name = "room";
     config.cameras = {camera(0), camera(1)};
@@ -68,12 +83,50 @@ constexpr std::uint32_t participants = 6;
 // The first message of an honest participant.
 Bytes hello(std::uint8_t choice) {
     static const char* const codecs[] = {"strata", "jpeg", "independent", "chain"};
-    session::ViewerSession::Wishes wishes{"secret", "someone", codecs[choice % 4],
+    session::ViewerSession::Wishes wishes{secrets[choice / 6 % 4], "someone", codecs[choice % 4],
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish};
+    wishes.features = {wire::Feature::publish, wire::Feature::room};
+    if (choice % 5 != 0)
+        wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
+}
+
+// Nobody holds an object, publishes or waits whose role or state does not allow it.
+void check_rights(const HostSession& host) {
+    using session::Right;
+    const auto& people = host.participants();
+    const auto may = [&](ParticipantId id, Right right) {
+        const auto found = people.find(id);
+        return found != people.end() && found->second.may(right);
+    };
+    for (const auto& [id, object] : host.room().snapshot().objects) {
+        if (object.grip.holder != ParticipantId{} && !may(object.grip.holder, Right::handle))
+            std::abort();
+        if (object.kind == session::ObjectKind::person && !may(object.creator, Right::see))
+            std::abort();
+    }
+    for (const wire::Camera& camera : host.streams().cameras())
+        if (camera.publisher != session::host_publisher && !may(camera.publisher, Right::publish))
+            std::abort();
+    for (const wire::Visitor& visitor : host.visitors())
+        if (may(visitor.participant, Right::see))
+            std::abort();
+    if (host.visitors().size() > wire::max_visitors)
+        std::abort();
+}
+
+// Who waits for admission gets nothing of the session.
+void check_sent(const HostSession& host, const session::action::Send& send) {
+    const auto found = host.participants().find(send.participant);
+    if (found == host.participants().end() || !found->second.waits())
+        return;
+    using wire::Managed, wire::Published, wire::Waiting, wire::RoomDecision;
+    if (!std::holds_alternative<Waiting>(send.message) &&
+        !std::holds_alternative<Managed>(send.message) &&
+        !std::holds_alternative<Published>(send.message))
+        std::abort();
 }
 
 void check(const HostSession& host) {
@@ -99,7 +152,7 @@ void check(const HostSession& host) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    HostSession host(config());
+    HostSession host(config(size % 2 == 1));
     session::ViewerSession viewer({});
     TimePoint now = from_us(0);
     FrameNumber frame = 0;
@@ -110,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto choice = in.get<std::uint8_t>();
         const ParticipantId id{1 + choice % participants};
         const SettingId setting{std::uint16_t(choice / 8)};
-        switch (what % 15) {
+        switch (what % 18) {
             case 0:
                 if (!host.participants().contains(id))
                     host.on_connected(id, now);
@@ -169,6 +222,34 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 (void)host.on_media_from(id, message, now);
                 break;
             }
+            case 13:
+                host.on_control(
+                    id,
+                    wire::encode(wire::Manage{choice, wire::ManageAction(1 + choice % 8),
+                                              ParticipantId{1 + choice / 8 % participants},
+                                              wire::Role(choice / 64)}),
+                    now);
+                break;
+            case 14:
+                (void)host.manage(
+                    {choice, wire::ManageAction(1 + choice % 8), id, wire::Role(choice / 64)});
+                break;
+            case 15:
+                host.set_tokens(tokens(choice % 5));
+                break;
+            case 16: {
+                const session::Request requests[] = {
+                    session::request::Create{session::ObjectKind::brick, {}, 1, {}},
+                    session::request::Grab{session::ObjectId(choice / 16)},
+                    session::request::HandOver{session::ObjectId(choice / 16), choice / 16u,
+                                               ParticipantId{1 + choice % participants}}};
+                host.on_control(
+                    id,
+                    wire::encode(wire::RoomRequest{1u + choice / 16,
+                                                   session::encode_request(requests[choice % 3])}),
+                    now);
+                break;
+            }
             case 9:
                 host.on_camera({CameraId(choice % 2), wire::CameraCondition(choice % 4), {}, ""});
                 break;
@@ -180,9 +261,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         now += what < 128 ? 10ms : 200ms;
         host.on_tick(now);
         for (const session::Action& action : host.take_actions())
-            if (const auto* send = std::get_if<session::action::Send>(&action))
+            if (const auto* send = std::get_if<session::action::Send>(&action)) {
+                check_sent(host, *send);
                 (void)viewer.on_control(wire::encode(send->message));
+            }
         check(host);
+        check_rights(host);
     }
     return 0;
 }

@@ -40,6 +40,8 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     for (std::size_t i = 0; i < cameras.size(); ++i)
         answer.cameras.push_back(streams_.next_id(i));
     send(id, std::move(answer));
+    for (const wire::Camera& camera : cameras)
+        audit(AuditEvent::What::shared, id, "", camera.name);
     streams_.add(id, std::move(cameras));
     take_media(id);
     set_budgets();
@@ -75,7 +77,13 @@ void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimeP
     std::erase_if(own, [&](CameraId camera) {
         return std::find(left.cameras.begin(), left.cameras.end(), camera) == left.cameras.end();
     });
-    streams_.remove(own);
+    unshare(id, own);
+}
+
+void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras) {
+    for (const CameraId camera : cameras)
+        audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
+    streams_.remove(cameras);
     set_budgets();
 }
 

@@ -54,9 +54,9 @@ protected:
         camera.color_stream = color_stream(CameraId{0});
         camera.has_color = true;
         HostSession::Config config;
-        config.admission.tokens = {{"secret", Role::viewer, {}},
+        config.admission.tokens = {{"secret", Role::expert, {}},
                                    {"publish", Role::publisher, {}},
-                                   {"short", Role::viewer, from_us(5'000'000)}};
+                                   {"short", Role::expert, from_us(5'000'000)}};
         config.admission.equal_secrets = [](std::string_view a, std::string_view b) {
             return a == b;
         };

@@ -41,9 +41,10 @@ public:
         publish,  // cameras that come or leave
         state,    // the condition of a camera
         room,     // a change of the room
+        manage,   // a decision of an operator
         other,    // unknown and unexpected messages
     };
-    static constexpr std::size_t kinds = 9;
+    static constexpr std::size_t kinds = 10;
 
     struct Limit {
         double per_second = 0;
@@ -51,8 +52,16 @@ public:
     };
     // The limit of key requests is for each stream; a viewer repeats one after 700 ms, a recorder
     // sends one every 1.5 s.
-    static constexpr std::array<Limit, kinds> limits{
-        {{2, 5}, {2, 5}, {1, 4}, {20, 40}, {20, 40}, {2, 20}, {20, 80}, {40, 200}, {5, 20}}};
+    static constexpr std::array<Limit, kinds> limits{{{2, 5},
+                                                      {2, 5},
+                                                      {1, 4},
+                                                      {20, 40},
+                                                      {20, 40},
+                                                      {2, 20},
+                                                      {20, 80},
+                                                      {40, 200},
+                                                      {10, 40},
+                                                      {5, 20}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 

@@ -11,6 +11,9 @@
 namespace theatron::session {
 namespace {
 
+// Of a person's second byte.
+constexpr std::uint8_t records_bit = 1, muted_bit = 2;
+
 enum class RequestKind : std::uint8_t {
     create = 1,
     remove,
@@ -207,7 +210,7 @@ Bytes encode_person(const PersonFacts& facts) {
     Bytes bytes;
     ByteWriter out(bytes);
     out.put(std::uint8_t(facts.role));
-    out.put(std::uint8_t(facts.records));
+    out.put(std::uint8_t((facts.records ? records_bit : 0) | (facts.muted ? muted_bit : 0)));
     out.put_bytes(as_bytes(facts.name));
     return bytes;
 }
@@ -216,7 +219,11 @@ Result<PersonFacts> decode_person(ByteView properties) {
     ByteReader in(properties);
     PersonFacts facts;
     facts.role = Role(in.get<std::uint8_t>());
-    facts.records = in.get<std::uint8_t>() != 0;
+    if (!wire::is_known(facts.role))
+        facts.role = Role::observer;
+    const auto flags = in.get<std::uint8_t>();
+    facts.records = (flags & records_bit) != 0;
+    facts.muted = (flags & muted_bit) != 0;
     if (!in.ok())
         return Status::malformed;
     const auto* text = reinterpret_cast<const char*>(in.rest().data());

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/status.h"
-#include "session/admission.h"
+#include "session/permissions.h"
 #include "session/room_object.h"
 
 namespace theatron::session {
@@ -28,13 +28,14 @@ Result<ObjectPose> decode_object_pose(ObjectId object, ByteView bytes);
 
 // The properties of a person object.
 struct PersonFacts {
-    Role role = Role::viewer;
+    Role role = Role::expert;
     bool records = false;
     std::string name;
+    bool muted = false;
     bool operator==(const PersonFacts&) const = default;
 };
 Bytes encode_person(const PersonFacts& facts);
-// The name is clean text (base/outside_text.h).
+// The name is clean text (base/outside_text.h). An unknown role is taken for an observer.
 Result<PersonFacts> decode_person(ByteView properties);
 
 }  // namespace theatron::session

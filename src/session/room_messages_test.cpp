@@ -15,7 +15,7 @@ protected:
     RoomMessages() {
         for (const auto& [id, name] : {std::pair{anna, "Anna"}, std::pair{ben, "Ben"}}) {
             members[id].begin(id);
-            host.join(id, {Role::viewer, false, name}, true);
+            host.join(id, {Role::expert, false, name}, true);
         }
         deliver();
     }
@@ -70,7 +70,7 @@ TEST_F(RoomMessages, EverybodyIsInItByName) {
     ASSERT_EQ(members[anna].objects().size(), 2u);
     const auto facts = decode_person(members[anna].objects().rbegin()->second.properties);
     EXPECT_EQ(facts->name, "Ben");
-    host.join(recorder, {Role::viewer, true, "Rec"}, false);
+    host.join(recorder, {Role::expert, true, "Rec"}, false);
     deliver();
     EXPECT_TRUE(decode_person(members[ben].objects().rbegin()->second.properties)->records);
     EXPECT_EQ(sent[recorder], 0) << "it keeps no room";
@@ -162,7 +162,7 @@ TEST_F(RoomMessages, ALargeRoomComesInParts) {
         brick(i % 2 == 0 ? anna : ben, RoomState::max_property_bytes);
     MemberRoom late;
     late.begin(ParticipantId{9});
-    host.join(ParticipantId{9}, {Role::viewer, false, "Late"}, true);
+    host.join(ParticipantId{9}, {Role::expert, false, "Late"}, true);
     int parts = 0;
     for (const Action& next : actions) {
         const auto& send = std::get<action::Send>(next);
@@ -220,7 +220,7 @@ TEST_F(RoomMessages, PosesOfTheFutureAndFloodsAreRefused) {
 TEST_F(RoomMessages, ARequestThatIsNotLookedAtIsDecidedAllTheSame) {
     const ObjectId object = brick(anna);
     members[anna].ask(request::Grab{object});
-    host.refuse(anna, members[anna].take_requests().at(0));
+    host.refuse(anna, members[anna].take_requests().at(0), Refusal::too_often);
     deliver();
     EXPECT_EQ(members[anna].take_refusal()->second, Refusal::too_often);
     EXPECT_EQ(members[anna].objects().at(object).grip.holder, ParticipantId{});

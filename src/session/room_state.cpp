@@ -51,6 +51,38 @@ bool RoomState::has_room_for(std::size_t bytes, std::size_t before) const {
     return bytes <= max_property_bytes && all - before <= max_property_bytes_of_all;
 }
 
+std::vector<RoomChange> RoomState::on_person(ParticipantId participant, Bytes properties) {
+    for (auto& [id, object] : objects_)
+        if (object.kind == ObjectKind::person && object.creator == participant) {
+            object.properties = std::move(properties);
+            return {changed(id)};
+        }
+    return {};
+}
+
+std::vector<RoomChange> RoomState::release_all(ParticipantId participant) {
+    std::vector<RoomChange> changes;
+    for (auto& [id, object] : objects_)
+        if (object.grip.holder == participant) {
+            object.grip = {};
+            changes.push_back(changed(id));
+        }
+    return changes;
+}
+
+std::vector<RoomChange> RoomState::clear() {
+    std::vector<ObjectId> gone;
+    for (const auto& [id, object] : objects_)
+        if (object.kind != ObjectKind::person)
+            gone.push_back(id);
+    std::vector<RoomChange> changes;
+    for (const ObjectId id : gone) {
+        objects_.erase(id);
+        changes.push_back(changed(id));
+    }
+    return changes;
+}
+
 std::vector<RoomChange> RoomState::on_left(ParticipantId participant) {
     participants_.erase(participant);
     std::vector<RoomChange> changes;

@@ -28,7 +28,13 @@ public:
     // Creates the participant's person object with these properties; `joined`, session time,
     // becomes its moved_at. Only the host changes it.
     RoomChange on_joined(ParticipantId participant, Bytes properties, TimePoint joined = {});
-    // Releases the objects that it held where they are, and removes its person object.
+    // Changes the properties of the participant's person object, if it has one.
+    std::vector<RoomChange> on_person(ParticipantId participant, Bytes properties);
+    // Releases the objects that it holds where they are.
+    std::vector<RoomChange> release_all(ParticipantId participant);
+    // Removes all objects but people.
+    std::vector<RoomChange> clear();
+    // As release_all(), and removes its person object.
     std::vector<RoomChange> on_left(ParticipantId participant);
 
     struct Decision {

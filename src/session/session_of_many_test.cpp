@@ -26,7 +26,7 @@ protected:
     }
     static HostSession::Config config() {
         HostSession::Config config;
-        config.admission.tokens = {{"watch", Role::viewer, {}},
+        config.admission.tokens = {{"watch", Role::expert, {}},
                                    {"publish", Role::publisher, {}},
                                    {"short", Role::publisher, from_us(5'000'000)}};
         config.admission.equal_secrets = [](std::string_view a, std::string_view b) {

@@ -31,6 +31,8 @@ Bytes ViewerSession::begin() {
     delivery_ = {};
     renderer_word_ = {};
     goodbye_ = {};
+    standing_ = {};
+    visitors_.clear();
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -121,6 +123,28 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         std::holds_alternative<wire::RoomDecision>(*message)) {
         room_ = std::move(*message);
         return joined_ ? Change::room : Change::nothing;
+    }
+    return on_people(std::move(*message));
+}
+
+ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
+    if (auto* waiting = std::get_if<wire::Waiting>(&message)) {
+        waiting_ = std::move(*waiting);
+        return joined_ ? Change::nothing : Change::waiting;
+    }
+    if (!joined_)
+        return Change::nothing;
+    if (const auto* standing = std::get_if<wire::Standing>(&message)) {
+        standing_ = *standing;
+        return Change::standing;
+    }
+    if (auto* visitors = std::get_if<wire::Visitors>(&message)) {
+        visitors_ = std::move(visitors->visitors);
+        return Change::visitors;
+    }
+    if (const auto* managed = std::get_if<wire::Managed>(&message)) {
+        managed_ = *managed;
+        return Change::managed;
     }
     return Change::nothing;
 }

@@ -47,6 +47,10 @@ public:
         encode,      // encode(): how to encode the cameras that this participant publishes
         encode_key,  // encode_key(): the host requests a key frame of one of them
         room,        // room(): a message for a SharedRoom
+        waiting,     // an operator decides first; welcomed or refused follows
+        standing,    // standing(): this participant's role
+        visitors,    // visitors(): the people who wait for this operator
+        managed,     // managed(): the host's answer to a decision
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
@@ -86,12 +90,18 @@ public:
     const wire::EncodeKey& encode_key() const { return encode_key_; }
     // RoomSnapshot, RoomChange or RoomDecision.
     const wire::ToParticipant& room() const { return room_; }
+    const wire::Waiting& waiting() const { return waiting_; }
+    const wire::Standing& standing() const { return standing_; }
+    const std::vector<wire::Visitor>& visitors() const { return visitors_; }
+    const wire::Managed& managed() const { return managed_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
     void take_settings(std::vector<wire::StreamSetting> settings);
     void add_cameras(std::vector<wire::Camera> cameras);
     void remove_cameras(const std::vector<CameraId>& cameras);
+
+    Change on_people(wire::ToParticipant message);
 
     Wishes wishes_;
     bool joined_ = false;
@@ -109,6 +119,10 @@ private:
     wire::Encode encode_;
     wire::EncodeKey encode_key_;
     wire::ToParticipant room_;
+    wire::Waiting waiting_;
+    wire::Standing standing_;
+    std::vector<wire::Visitor> visitors_;
+    wire::Managed managed_;
 };
 
 }  // namespace theatron::session

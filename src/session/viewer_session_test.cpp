@@ -19,7 +19,7 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     };
     deliver();
     using Change = ViewerSession::Change;
-    EXPECT_EQ(changes, (std::vector{Change::welcomed, Change::settings}));
+    EXPECT_EQ(changes, (std::vector{Change::welcomed, Change::standing, Change::settings}));
     EXPECT_EQ(viewer.cameras().size(), 1u);
     EXPECT_EQ(viewer.settings().size(), 2u);
 

@@ -99,6 +99,14 @@ bool drawing_is_slow(const Facts& facts) {
            facts.drawn_per_second < facts.received.live_frames_per_second() / 2;
 }
 
+// The one that the keys decide on, and the number of the others.
+std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
+    const std::string others =
+        visitors.size() > 1 ? " and " + std::to_string(visitors.size() - 1) + " more" : "";
+    return visitors.front().name + " (" + wire::text_of(visitors.front().role) + ")" + others +
+           ": Y lets in, U refuses";
+}
+
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
@@ -107,10 +115,15 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     line.push_back({"Host", status.host_name.empty() ? address : status.host_name});
     const xr::Fact age{"Age of picture", facts.age_ms ? age_text(*facts.age_ms) : "unknown",
                        facts.age_ms && *facts.age_ms > old_ms};
+    if (!facts.visitors.empty())
+        line.push_back({"At the door", visitors_text(facts.visitors), true});
     if (status.phase == Phase::joined) {
         // Visible to everybody, first of all.
         if (!recordings.empty())
             line.push_back({"Recording", client::recorded_text(facts.received), true});
+        if (status.standing.muted || status.standing.role != wire::Role::expert)
+            line.push_back({"You", wire::text_of(status.standing.role) +
+                                       std::string(status.standing.muted ? ", muted" : "")});
         line.push_back(cameras_fact(cameras));
         add_problems(cameras, line);
         if (facts.has_picture)
@@ -128,8 +141,13 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
             common(cameras, [](const auto& c) { return c.camera.state.filter; });
         line.push_back({"Filter", filter_name(filter == "none" ? std::string() : filter)});
     } else {
-        line.push_back({"Connection", status.phase == Phase::connecting ? "connecting" : "none",
-                        status.phase != Phase::connecting});
+        const bool is_waiting = status.phase == Phase::waiting;
+        const bool is_connecting = status.phase == Phase::connecting;
+        line.push_back({"Connection",
+                        is_waiting      ? "waiting"
+                        : is_connecting ? "connecting"
+                                        : "none",
+                        !is_waiting && !is_connecting});
         if (facts.has_picture)
             line.push_back(age);
     }
@@ -169,6 +187,8 @@ Message message_of(const Facts& facts, const std::string& address) {
             return {};
         case client::Participant::Phase::connecting:
             return {"Connecting…", address};
+        case client::Participant::Phase::waiting:
+            return {"Waiting to be let in…", "The operating room decides. Esc: leave."};
         case client::Participant::Phase::lost:
             return {status.joins > 0 ? "Connection lost, trying again…"
                                      : "No connection yet, trying again…",

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/participant_figures.h"
 #include "xr/drawing_pace.h"
@@ -14,6 +15,7 @@ namespace theatron::viewer {
 
 struct Facts {
     client::ParticipantFigures received;
+    std::vector<wire::Visitor> visitors;  // who wait for this operator
     bool has_picture = false;
     std::optional<double> age_ms;  // current age of the presented picture
     double drawn_per_second = 0;

@@ -116,5 +116,27 @@ TEST(Overlay, TellsWhyThereIsNoConnection) {
     EXPECT_EQ(content.warning, "");
 }
 
+TEST(Facts, AnOperatorSeesWhoWaitsAndWithWhichKeysToDecide) {
+    Facts facts = healthy();
+    EXPECT_EQ(fact(overlay(facts), "You").value, "") << "an expert";
+    EXPECT_EQ(fact(overlay(facts), "At the door").value, "");
+    facts.received.status.standing = {wire::Role::operator_, false};
+    facts.visitors = {{ParticipantId{4}, "Ada", {}, wire::Role::observer},
+                      {ParticipantId{5}, "Ben", {}, wire::Role::expert}};
+    EXPECT_EQ(fact(overlay(facts), "You").value, "operator");
+    const xr::Fact door = fact(overlay(facts), "At the door");
+    EXPECT_EQ(door.value, "Ada (observer) and 1 more: Y lets in, U refuses");
+    EXPECT_TRUE(door.warning) << "shown also where the line is hidden";
+    facts.received.status.standing = {wire::Role::expert, true};
+    EXPECT_EQ(fact(overlay(facts), "You").value, "expert, muted");
+}
+
+TEST(Facts, SomeoneWhoWaitsIsToldSo) {
+    Facts facts = healthy();
+    facts.received.status.phase = Phase::waiting;
+    EXPECT_THAT(overlay(facts).message, HasSubstr("Waiting to be let in"));
+    EXPECT_EQ(fact(overlay(facts), "Connection").value, "waiting");
+}
+
 }  // namespace
 }  // namespace theatron::viewer

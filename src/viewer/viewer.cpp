@@ -115,6 +115,12 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             }
             break;
         }
+        case xr::Action::admit:
+            decide_on_visitor(wire::ManageAction::admit, now);
+            break;
+        case xr::Action::turn_away:
+            decide_on_visitor(wire::ManageAction::turn_away, now);
+            break;
         case xr::Action::new_brick:
         case xr::Action::give:
         case xr::Action::remove:
@@ -188,6 +194,18 @@ void Viewer::look_through_followed(TimePoint now) {
     }
     // The eye's frame has y down and z forward.
     eye_.go_to(*person->head * Pose{Quat{0, 1, 0, 0}, {}});
+}
+
+// The numbers of participants grow, so the first one has waited longest.
+void Viewer::decide_on_visitor(wire::ManageAction action, TimePoint now) {
+    const auto visitors = participant_.visitors();
+    if (visitors.empty())
+        return note("Nobody waits to be let in.", now);
+    const wire::Visitor& first = visitors.front();
+    participant_.manage(action, first.participant);
+    note((action == wire::ManageAction::admit ? "You have let in " : "You have not let in ") +
+             first.name + ".",
+         now);
 }
 
 void Viewer::choose_depth_codec() {
@@ -317,6 +335,7 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
 Facts Viewer::facts(TimePoint now) {
     Facts facts;
     facts.received = client::figures_of(participant_);
+    facts.visitors = participant_.visitors();
     facts.has_picture = eye_.is_placed();
     if (age_at_presentation_ms_) {
         const double since_ms = to_ms(now - presented_at_);

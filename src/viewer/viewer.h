@@ -76,6 +76,7 @@ private:
     void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
     void choose_next_renderer(TimePoint now);
     void choose_depth_codec();
+    void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
     void choose_pace();
     void send_pose(Size picture, TimePoint now);

@@ -160,6 +160,19 @@ bool is_sound(const OfferedCamera& camera) {
 bool is_sound(const Camera& camera) {
     return camera.frame <= CameraFrame::person;
 }
+bool is_sound(const Manage& decision) {
+    return decision.action >= ManageAction::admit && decision.action <= ManageAction::end_session &&
+           is_known(decision.role);
+}
+bool is_sound(const Standing& standing) {
+    return is_known(standing.role);
+}
+bool is_sound(const Visitor& visitor) {
+    return is_known(visitor.role);
+}
+bool is_sound(const Managed& answer) {
+    return answer.refusal <= ManageRefusal::too_often;
+}
 
 // False if the table has a value that its kind does not allow.
 template <class Message>

@@ -16,6 +16,7 @@
 #include "base/ids.h"
 #include "base/status.h"
 #include "base/time.h"
+#include "wire/role.h"
 #include "wire/text.h"
 
 namespace theatron::wire {
@@ -50,6 +51,7 @@ enum class Feature : std::uint16_t {
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
+inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
 
 // A run of a host; random. Numbers of cameras and participants are of one session.
 enum class SessionId : std::uint32_t {};
@@ -209,6 +211,32 @@ struct RoomRequest {
     static void fields(auto& m, auto&& field) {
         field(m.number);
         field(m.request, max_room_request_size);
+    }
+};
+
+enum class ManageAction : std::uint8_t {
+    admit = 1,      // a visitor
+    turn_away = 2,  // a visitor
+    mute = 3,
+    unmute = 4,
+    set_role = 5,     // to Manage::role
+    remove = 6,       // until the session ends
+    revoke_link = 7,  // the link of this participant: all who came by it are removed
+    end_session = 8,  // for all; without a participant
+};
+
+// A decision of an operator on a participant. The host answers with Managed.
+struct Manage {
+    std::uint32_t number = 0;  // counts this participant's decisions from 1
+    ManageAction action{};
+    ParticipantId participant{};
+    Role role{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.action);
+        field(m.participant);
+        field(m.role);
     }
 };
 
@@ -442,6 +470,70 @@ struct RoomDecision {
     }
 };
 
+// The answer to Join where an operator decides on the participant first. Welcome or Refused
+// follows.
+struct Waiting {
+    std::string host_name;
+
+    static void fields(auto& m, auto&& field) { field(m.host_name, max_name); }
+};
+
+// The receiver's role from now on. A muted participant is not heard.
+struct Standing {
+    Role role{};
+    bool muted = false;
+    bool operator==(const Standing&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.role);
+        field(m.muted);
+    }
+};
+
+// Someone who waits for admission.
+struct Visitor {
+    ParticipantId participant{};
+    std::string name;
+    Bytes person;  // the first bytes of Join::person, by which a person is told from another
+    Role role{};   // of its link
+    bool operator==(const Visitor&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.participant);
+        field(m.name, max_name);
+        field(m.person, person_id_size);
+        field(m.role);
+    }
+};
+
+// To operators: all who wait now.
+struct Visitors {
+    std::vector<Visitor> visitors;
+
+    static void fields(auto& m, auto&& field) { field(m.visitors, max_visitors); }
+};
+
+enum class ManageRefusal : std::uint8_t {
+    none = 0,
+    role = 1,                 // the sender is no operator
+    no_such_participant = 2,  // it has left
+    not_waiting = 3,
+    still_waiting = 4,  // it must be admitted first
+    yourself = 5,
+    too_often = 6,
+};
+
+// The host has decided on the operator's Manage of this number.
+struct Managed {
+    std::uint32_t number = 0;
+    ManageRefusal refusal{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.refusal);
+    }
+};
+
 // The session is over. The host closes the connection, and coming back is of no use.
 struct Goodbye {
     Text reason;
@@ -451,10 +543,11 @@ struct Goodbye {
 
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
-                            Unpublish, CameraState, RoomRequest>;
-using ToParticipant = std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer,
-                                   Refused, Goodbye, CamerasAdded, CamerasRemoved, Published,
-                                   Encode, EncodeKey, RoomSnapshot, RoomChange, RoomDecision>;
+                            Unpublish, CameraState, RoomRequest, Manage>;
+using ToParticipant =
+    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
+                 CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
+                 RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

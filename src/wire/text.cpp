@@ -35,6 +35,13 @@ constexpr Row rows[] = {
     {TextCode::foreign_picture, "A picture belongs to no camera of this participant."},
     {TextCode::session_over, "The host has ended the session."},
     {TextCode::no_reason, "The host gave no reason."},
+    {TextCode::removed_by_operator, "An operator has removed you from this session."},
+    {TextCode::link_revoked, "The link by which you came is no longer valid; ask for a new one."},
+    {TextCode::not_let_in, "An operator has not let you in."},
+    {TextCode::ended_by_operator, "An operator has ended the session."},
+    {TextCode::session_has_ended, "The session has ended; an operator must begin another one."},
+    {TextCode::observer_records, "An observer cannot record; ask for a link of an expert."},
+    {TextCode::too_many_visitors, "Too many people wait to be let in; try again later."},
 
     {TextCode::camera_silent, "It sends no pictures."},
     {TextCode::camera_repeating, "It sends the same picture again and again."},
@@ -100,6 +107,13 @@ constexpr Row rows[] = {
     {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
     {TextCode::room_too_often, "That was too much at once; try again"},
     {TextCode::part_of_recording, "Only the recording moves this"},
+
+    {TextCode::operators_decide, "Only operators decide on others."},
+    {TextCode::decided_person_gone, "That person has left."},
+    {TextCode::person_is_in, "That person is in the session already."},
+    {TextCode::person_waits, "That person must be let in first."},
+    {TextCode::not_on_yourself, "Another operator must do this for you."},
+    {TextCode::decided_too_often, "Those were too many decisions at once; try again."},
 };
 
 constexpr bool is_in_order() {
@@ -131,6 +145,8 @@ std::string_view subject_of(TextCode code) {
             return "The host does not take the cameras for a reason";
         case 5:
             return "The host does not allow this change of the room for a reason";
+        case 6:
+            return "The host does not carry out this decision for a reason";
         default:
             return "The other program says something";
     }

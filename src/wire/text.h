@@ -28,6 +28,13 @@ enum class TextCode : std::uint16_t {
     foreign_picture = 110,
     session_over = 111,
     no_reason = 112,
+    removed_by_operator = 113,
+    link_revoked = 114,
+    not_let_in = 115,
+    ended_by_operator = 116,
+    session_has_ended = 117,
+    observer_records = 118,
+    too_many_visitors = 119,
 
     // Cameras. With a name in {0}: the camera is left out.
     camera_silent = 200,
@@ -80,6 +87,14 @@ enum class TextCode : std::uint16_t {
     beyond_room_limits = 506,
     room_too_often = 507,
     part_of_recording = 508,
+
+    // Decisions on people.
+    operators_decide = 600,
+    decided_person_gone = 601,
+    person_is_in = 602,
+    person_waits = 603,
+    not_on_yourself = 604,
+    decided_too_often = 605,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;

@@ -349,6 +349,21 @@ TEST(Control, EveryMessageRoundTrips) {
     const Refused no = round_trip(refused({TextCode::host_too_old, {"3", "4"}}));
     EXPECT_EQ(no.reason, (Text{TextCode::host_too_old, {"3", "4"}}));
     EXPECT_EQ(no.in_english, english(no.reason));
+    const Manage decision =
+        round_trip(Manage{9, ManageAction::set_role, ParticipantId{4}, Role::observer});
+    EXPECT_EQ(decision.number, 9u);
+    EXPECT_EQ(decision.action, ManageAction::set_role);
+    EXPECT_EQ(decision.participant, ParticipantId{4});
+    EXPECT_EQ(decision.role, Role::observer);
+    EXPECT_EQ(round_trip(Waiting{"OR 3"}).host_name, "OR 3");
+    EXPECT_EQ(round_trip(Standing{Role::operator_, true}), (Standing{Role::operator_, true}));
+    const std::vector<Visitor> visitors{{ParticipantId{5}, "Ada", numbered(4), Role::expert}};
+    EXPECT_EQ(round_trip(Visitors{visitors}).visitors, visitors);
+    EXPECT_EQ(round_trip(Managed{9, ManageRefusal::yourself}).refusal, ManageRefusal::yourself);
+    for (const ToHost& wrong :
+         {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{9}, {}, {}}),
+          ToHost(Manage{1, ManageAction::mute, {}, Role{4}})})
+        EXPECT_FALSE(decoded_again(wrong));
     const Settings settings =
         round_trip(Settings{{{StreamId{1}, SettingId{2}, "rvl"}}, as_written("busy")});
     ASSERT_EQ(settings.settings.size(), 1u);
@@ -363,7 +378,7 @@ TEST(Control, EveryMessageRoundTrips) {
 
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
-    const Bytes known = encode(RoomDecision{1, 1});
+    const Bytes known = encode(Managed{1, ManageRefusal::role});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {

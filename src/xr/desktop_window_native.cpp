@@ -80,6 +80,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::new_brick};
         case SDLK_g:
             return KeyPress{Action::give};
+        case SDLK_y:
+            return KeyPress{Action::admit};
+        case SDLK_u:
+            return KeyPress{Action::turn_away};
         case SDLK_DELETE:
             return KeyPress{Action::remove};
         case SDLK_x:

@@ -15,6 +15,7 @@ const std::vector<KeyHelp>& key_help() {
         {"T, held", "Aim at a place on the floor with the mouse; release to stand there"},
         {"X", "Sit or stand"},
         {"P", "People and places: go to somebody, see through their eyes"},
+        {"Y, U", "Operators: let in the person at the door, or refuse"},
         {"R or Home", "Back to the camera's own view"},
         {"1 to 9", "View of the first camera (0) to the ninth (8)"},
         {"M or Tab", "Next way of drawing"},

@@ -24,6 +24,8 @@ enum class Action {
     remove,     // removes the held object
     sit_or_stand,
     people,       // shows or hides the panel of people and places
+    admit,        // for operators: lets in the person who has waited longest
+    turn_away,    // the opposite
     own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };

@@ -48,7 +48,7 @@ class Link(typing.NamedTuple):
     @classmethod
     def parse(cls, text):
         host, port, token, fingerprint = re.fullmatch(
-            r"https://\[?(.*?)\]?:(\d+)/#join=(.*)&cert=([0-9a-f]{64})", text).groups()
+            r"https://\[?(.*?)\]?:(\d+)/#join=(.*)&cert=([0-9a-f]{64})(?:&.*)?", text).groups()
         return cls(host, int(port), token, fingerprint)
 
     def __str__(self):

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron link
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "base/error.h"
+#include "commands.h"
+#include "files/json_text.h"
+#include "host/host_identity.h"
+#include "host/link_book.h"
+#include "qr_text.h"
+
+namespace theatron::app {
+namespace {
+
+struct Flags {
+    std::string role = "expert", label, show, revoke, state;
+    double hours = 0;
+    bool list = false, qr = false, json = false;
+};
+
+std::string text_of(const host::KnownLink& link, const net::Link& address) {
+    net::Link text = address;
+    text.token = link.token;
+    text.role = wire::text_of(link.role);
+    text.until = link.expires ? files::utc_text(*link.expires) : "";
+    return net::format_link(text);
+}
+
+nlohmann::json facts_of(const host::KnownLink& link) {
+    return {{"name", link.name},
+            {"role", wire::text_of(link.role)},
+            {"until", link.expires ? files::utc_text(*link.expires) : ""},
+            {"expired", link.has_expired(files::utc_now())},
+            {"for", link.label}};
+}
+
+void print(const host::KnownLink& link, const net::Link& address, const Flags& flags) {
+    const std::string text = text_of(link, address);
+    if (flags.json) {
+        nlohmann::json json = facts_of(link);
+        json["link"] = text;
+        std::cout << files::json_text(json) << "\n";
+        return;
+    }
+    std::cout << text << "\n";
+    if (flags.qr)
+        std::cout << "\n" << qr_text(text, isatty(STDOUT_FILENO));
+    // Not on standard output, which may be a file for 'theatron join @FILE'.
+    std::fprintf(stderr, "Link %s: %s%s%s. 'theatron link --revoke %s' ends it at once.\n",
+                 link.name.c_str(), wire::text_of(link.role),
+                 link.label.empty() ? "" : (", for " + link.label).c_str(),
+                 link.expires ? (", until " + files::utc_text(*link.expires)).c_str() : "",
+                 link.name.c_str());
+}
+
+void print_list(const std::vector<host::KnownLink>& links, bool json) {
+    if (json) {
+        nlohmann::json all = nlohmann::json::array();
+        for (const host::KnownLink& link : links)
+            all.push_back(facts_of(link));
+        std::cout << files::json_text(all) << "\n";
+        return;
+    }
+    std::printf("%-10s %-10s %-26s %s\n", "link", "role", "until", "for");
+    for (const host::KnownLink& link : links) {
+        const std::string until = !link.expires ? "revoked by hand"
+                                  : link.has_expired(files::utc_now())
+                                      ? "expired"
+                                      : files::utc_text(*link.expires);
+        std::printf("%-10s %-10s %-26s %s\n", link.name.c_str(), wire::text_of(link.role),
+                    until.c_str(), link.label.c_str());
+    }
+}
+
+void run(const Flags& flags) {
+    const std::filesystem::path state =
+        flags.state.empty() ? host::default_state_folder() : std::filesystem::path(flags.state);
+    const net::Link address = host::read_address(state);
+    if (!flags.revoke.empty()) {
+        if (!host::revoke_link(state, flags.revoke))
+            throw Error("There is no link '" + flags.revoke +
+                        "'; 'theatron link --list' lists "
+                        "them.");
+        return;
+    }
+    if (flags.list)
+        return print_list(host::load_links(state), flags.json);
+    if (!flags.show.empty()) {
+        for (const host::KnownLink& link : host::load_links(state))
+            if (link.name == flags.show)
+                return print(link, address, flags);
+        throw Error("There is no link '" + flags.show + "'; 'theatron link --list' lists them.");
+    }
+    std::optional<files::UtcSeconds> expires;
+    if (flags.hours > 0)
+        expires = files::utc_now() + files::UtcSeconds(std::llround(flags.hours * 3600));
+    print(host::make_link(state, *wire::parse_role(flags.role), expires, flags.label), address,
+          flags);
+}
+
+}  // namespace
+
+void add_link_command(CLI::App& app) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command =
+        app.add_subcommand("link", "Make a link of this machine's host for somebody, or revoke it");
+    command->footer(
+        "A running host follows at once; who came by a revoked link is removed.\n"
+        "\nExamples:\n"
+        "  theatron link --role expert --hours 2 --for 'Dr. Ada' --qr\n"
+        "  theatron link --list\n"
+        "  theatron link --show observer --qr\n"
+        "  theatron link --revoke 5f0c2a91");
+    CLI::Option* role =
+        command->add_option("--role", flags->role, "operator, expert, observer or publisher")
+            ->capture_default_str()
+            ->check(CLI::IsMember({"operator", "expert", "observer", "publisher"}));
+    CLI::Option* hours =
+        command
+            ->add_option("--hours", flags->hours,
+                         "It lets nobody in after so many hours; those who are in stay. Without "
+                         "it: until it is revoked")
+            ->check([](const std::string& text) -> std::string {
+                double value = 0;
+                // A comparison with nan is false.
+                if (CLI::detail::lexical_cast(text, value) && value > 0 && value <= 10'000)
+                    return "";
+                return "'" + text + "' is not a number of hours greater than 0 and up to 10000";
+            });
+    CLI::Option* label = command->add_option("--for", flags->label, "For whom it is, for --list");
+    CLI::Option* list = command->add_flag("--list", flags->list, "List all links");
+    CLI::Option* show = command->add_option("--show", flags->show,
+                                            "Print the link of this name, or of a role, again");
+    CLI::Option* revoke = command->add_option(
+        "--revoke", flags->revoke,
+        "Make the link of this name invalid; that of a role gets another token");
+    for (CLI::Option* other : {list, show, revoke})
+        for (CLI::Option* made : {role, hours, label})
+            other->excludes(made);
+    list->excludes(show)->excludes(revoke);
+    show->excludes(revoke);
+    command->add_flag("--qr", flags->qr, "Print it as a QR code, too");
+    command->add_flag("--json", flags->json, "Print one JSON line");
+    command->add_option("--state", flags->state,
+                        "The host's state folder (default: ~/.local/state/theatron)");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// theatron lobby
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "commands.h"
+#include "files/file_bytes.h"
+#include "files/json_text.h"
+#include "files/png_file.h"
+#include "host/lobby.h"
+#include "link_argument.h"
+
+namespace theatron::app {
+namespace {
+
+std::string text(const nlohmann::json& from, const char* field) {
+    return from.contains(field) && from[field].is_string() ? from[field].get<std::string>()
+                                                           : std::string();
+}
+bool is_set(const nlohmann::json& from, const char* field) {
+    return from.contains(field) && from[field].is_boolean() && from[field].get<bool>();
+}
+// The names of a list, each with another field behind it.
+std::string names(const nlohmann::json& session, const char* list, const char* field) {
+    std::string all;
+    if (session.contains(list) && session[list].is_array())
+        for (const auto& entry : session[list])
+            all +=
+                (all.empty() ? "" : ", ") + text(entry, "name") + " (" + text(entry, field) + ")";
+    return all;
+}
+
+void print(const nlohmann::json& lobby) {
+    std::printf("Your link is of the role %s.\n", text(lobby, "role").c_str());
+    if (!lobby.contains("sessions") || !lobby["sessions"].is_array())
+        return;
+    for (const auto& session : lobby["sessions"]) {
+        const double people =
+            session.contains("people_count") && session["people_count"].is_number()
+                ? session["people_count"].get<double>()
+                : 0;
+        std::printf("%s: %.0f participant(s)%s%s\n", text(session, "name").c_str(), people,
+                    is_set(session, "asks") ? ", an operator lets people in" : "",
+                    is_set(session, "ended") ? ", ended" : "");
+        if (const std::string in = names(session, "people", "role"); !in.empty())
+            std::printf("  people: %s\n", in.c_str());
+        if (const std::string seen = names(session, "cameras", "state"); !seen.empty())
+            std::printf("  cameras: %s\n", seen.c_str());
+    }
+}
+
+// Only a picture is written, whatever a host gives.
+void write_picture(const net::Link& link, const std::string& file) {
+    const auto png = host::thumbnail_of_host(link);
+    ColorImage picture;
+    if (!png || !files::decode_png(as_bytes(*png), picture).empty())
+        throw Error("The host gives no picture for this link.");
+    files::write_png(file, picture.view());
+}
+
+}  // namespace
+
+void add_lobby_command(CLI::App& app) {
+    struct Flags {
+        std::string link, picture;
+        bool json = false;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = app.add_subcommand("lobby", "The session of a host, before joining it");
+    command->footer("Example: theatron lobby LINK --picture session.png");
+    command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
+        ->required();
+    command->add_option("--picture", flags->picture,
+                        "Write a small picture of its first camera into this PNG file");
+    command->add_flag("--json", flags->json, "Print everything as one JSON line");
+    command->callback([flags] {
+        const net::Link link = parse_link_argument(flags->link);
+        const nlohmann::json lobby = host::lobby_of_host(link);
+        if (flags->json)
+            std::printf("%s\n", files::json_text(lobby).c_str());
+        else
+            print(lobby);
+        if (!flags->picture.empty())
+            write_picture(link, flags->picture);
+    });
+}
+
+}  // namespace theatron::app

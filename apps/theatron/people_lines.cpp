@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "people_lines.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "session/room_bytes.h"
+#include "wire/manage_text.h"
+
+namespace theatron::app {
+namespace {
+
+using wire::ManageAction;
+
+constexpr struct {
+    const char* word;
+    ManageAction action;
+} commands[] = {{"admit", ManageAction::admit},       {"refuse", ManageAction::turn_away},
+                {"mute", ManageAction::mute},         {"unmute", ManageAction::unmute},
+                {"role", ManageAction::set_role},     {"remove", ManageAction::remove},
+                {"revoke", ManageAction::revoke_link}};
+
+std::string trimmed(const std::string& text) {
+    const auto begin = text.find_first_not_of(' ');
+    return begin == std::string::npos
+               ? ""
+               : text.substr(begin, text.find_last_not_of(" \r") - begin + 1);
+}
+
+ParticipantId find_person(const std::string& who, const std::vector<SomePerson>& people,
+                          bool waits) {
+    std::vector<const SomePerson*> found;
+    std::string present;
+    for (const SomePerson& person : people) {
+        const std::string number = "#" + std::to_string(std::uint32_t(person.id));
+        if (who == number)
+            return person.id;
+        if (person.name == who)
+            found.push_back(&person);
+        present += (present.empty() ? "" : ", ") + number + " " + person.name;
+    }
+    // The same name inside and at the door is no doubt.
+    if (found.size() > 1)
+        std::erase_if(found, [&](const SomePerson* person) { return person->waits != waits; });
+    if (found.size() > 1)
+        throw Error("There is more than one '" + who + "'; say the number, one of " + present +
+                    ".");
+    if (found.empty())
+        throw Error("There is no '" + who + "' here; " +
+                    (present.empty() ? "nobody is." : "there are " + present + "."));
+    return found.front()->id;
+}
+
+template <class Carry>
+bool obey(const std::string& line, const std::vector<SomePerson>& people, const Carry& carry_out) {
+    try {
+        const auto decision = parse_people_line(line, people);
+        if (decision)
+            carry_out(*decision);
+        return decision.has_value();
+    } catch (const Error& error) {
+        log::say(error.what());
+        return true;
+    }
+}
+
+}  // namespace
+
+const char* people_help() {
+    return "'admit NAME', 'refuse NAME', 'mute NAME', 'unmute NAME', 'role NAME ROLE',\n"
+           "'remove NAME', 'revoke NAME' (the link by which that person came), 'end session'";
+}
+
+std::optional<PersonDecision> parse_people_line(const std::string& line,
+                                                const std::vector<SomePerson>& people) {
+    if (trimmed(line) == "end session")
+        return PersonDecision{ManageAction::end_session, {}, {}};
+    std::istringstream words(line);
+    std::string word, who;
+    words >> word;
+    std::getline(words, who);
+    who = trimmed(who);
+    const auto command =
+        std::ranges::find_if(commands, [&](const auto& c) { return c.word == word; });
+    // A lone "remove" is the held object's.
+    if (command == std::end(commands) || (command->action == ManageAction::remove && who.empty()))
+        return std::nullopt;
+    PersonDecision decision{command->action, {}, {}};
+    if (decision.action == ManageAction::set_role) {
+        const auto space = who.find_last_of(' ');
+        const auto role = wire::parse_role(space == std::string::npos ? "" : who.substr(space + 1));
+        if (!role)
+            throw Error("Say 'role NAME ROLE' with operator, expert, observer or publisher.");
+        decision.role = *role;
+        who = trimmed(who.substr(0, space));
+    }
+    if (who.empty())
+        throw Error("Say '" + word + " NAME'.");
+    const bool at_the_door =
+        decision.action == ManageAction::admit || decision.action == ManageAction::turn_away;
+    decision.person = find_person(who, people, at_the_door);
+    return decision;
+}
+
+bool obey_people_line(client::Participant& participant, const std::string& line) {
+    std::vector<SomePerson> people;
+    for (const wire::Visitor& visitor : participant.visitors())
+        people.push_back({visitor.participant, visitor.name, true});
+    for (const auto& [id, object] : participant.room().objects)
+        if (object.kind == session::ObjectKind::person && !session::is_recorded(id))
+            if (const auto facts = session::decode_person(object.properties))
+                people.push_back({object.creator, facts->name, false});
+    return obey(line, people, [&](const PersonDecision& decision) {
+        if (participant.manage(decision.action, decision.person, decision.role) == 0)
+            throw Error("You have not joined yet.");
+    });
+}
+
+bool obey_people_line(host::Host& host, const std::string& line) {
+    const host::HostFigures figures = host.figures();
+    std::vector<SomePerson> people;
+    for (const wire::Visitor& visitor : figures.visitors)
+        people.push_back({visitor.participant, visitor.name, true});
+    for (const auto& participant : figures.participants)
+        people.push_back({participant.id, participant.name, false});
+    return obey(line, people, [&](const PersonDecision& decision) {
+        host.manage(decision.action, decision.person, decision.role);
+    });
+}
+
+void print_managed(client::Participant& participant) {
+    while (const auto answer = participant.take_managed())
+        if (answer->refusal != wire::ManageRefusal::none)
+            log::say(wire::text_of(answer->refusal));
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A participant's role, and an operator's decisions on others.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "client/participant_shared.h"
+
+namespace theatron::client {
+namespace {
+
+// Answers that wait to be taken; the oldest is dropped.
+constexpr std::size_t max_waiting_answers = 64;
+
+std::string with_article(wire::Role role) {
+    const std::string text = wire::text_of(role);
+    return (role == wire::Role::publisher ? "a " : "an ") + text;
+}
+
+}  // namespace
+
+void Participant::on_waiting() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->status.phase = Phase::waiting;
+        shared_->status.problem.clear();
+        shared_->status.host_name = session_.waiting().host_name;
+    }
+    announce();
+    remark("You wait until an operator lets you in.");
+}
+
+void Participant::on_standing() {
+    const wire::Standing& now = session_.standing();
+    wire::Standing before;
+    bool is_first = false;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        is_first = !std::exchange(shared_->has_standing, true);
+        before = std::exchange(shared_->status.standing, now);
+        if (now.role != wire::Role::operator_)
+            shared_->visitors.clear();
+    }
+    announce();
+    if (!is_first && now.role != before.role)
+        remark("You are " + with_article(now.role) + " now.");
+    if (now.muted != before.muted && (now.muted || !is_first))
+        remark(now.muted ? "You are muted; nobody hears you." : "You are no longer muted.");
+}
+
+void Participant::on_visitors() {
+    std::vector<wire::Visitor> before;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        before = std::exchange(shared_->visitors, session_.visitors());
+    }
+    announce();
+    for (const wire::Visitor& visitor : session_.visitors())
+        if (std::find(before.begin(), before.end(), visitor) == before.end())
+            remark(visitor.name + " asks to come in as " + with_article(visitor.role) +
+                   ". Say 'admit " + visitor.name + "' or 'refuse " + visitor.name +
+                   "'; in the window press Y or U.");
+}
+
+void Participant::on_managed() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->managed.size() >= max_waiting_answers)
+        shared_->managed.pop_front();
+    shared_->managed.push_back(session_.managed());
+}
+
+std::vector<wire::Visitor> Participant::visitors() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->visitors;
+}
+
+std::uint32_t Participant::manage(wire::ManageAction action, ParticipantId person,
+                                  wire::Role role) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client || shared_->status.phase != Phase::joined)
+        return 0;
+    const wire::Manage decision{++shared_->decisions, action, person, role};
+    shared_->client->post(
+        [this, decision] { shared_->client->send_control(wire::encode(decision)); });
+    return decision.number;
+}
+
+std::optional<wire::Managed> Participant::take_managed() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->managed.empty())
+        return std::nullopt;
+    const wire::Managed oldest = shared_->managed.front();
+    shared_->managed.pop_front();
+    return oldest;
+}
+
+}  // namespace theatron::client

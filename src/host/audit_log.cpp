@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/audit_log.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/hex_text.h"
+#include "base/log.h"
+#include "base/thread_name.h"
+#include "files/json_text.h"
+#include "files/utc_text.h"
+
+namespace theatron::host {
+namespace {
+
+int open_to_append(const std::filesystem::path& path) {
+    return open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0600);
+}
+
+std::size_t size_of(int file) {
+    struct stat info {};
+    return fstat(file, &info) == 0 ? std::size_t(info.st_size) : 0;
+}
+
+}  // namespace
+
+std::string audit_line(const session::AuditEvent& event, const std::string& time,
+                       const std::string& address) {
+    nlohmann::ordered_json line{{"time", time}, {"event", session::text_of(event.what)}};
+    if (event.participant != ParticipantId{}) {
+        line["participant"] = std::uint32_t(event.participant);
+        line["name"] = event.name;
+        line["person"] = hex_text(event.person);
+        line["role"] = wire::text_of(event.role);
+        line["link"] = event.link;
+        line["address"] = address;
+    }
+    if (!event.by.empty())
+        line["by"] = event.by;
+    if (!event.detail.empty())
+        line["detail"] = event.detail;
+    return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)
+    : path_(std::move(path)), max_bytes_(max_bytes), file_(open_to_append(path_)) {
+    struct stat info {};
+    if (file_ < 0 || fstat(file_, &info) != 0 || !S_ISREG(info.st_mode)) {
+        const std::string why = file_ < 0 ? std::strerror(errno) : "it is no file";
+        if (file_ >= 0)
+            close(file_);
+        throw Error("Cannot write the audit log '" + path_.string() + "': " + why +
+                    "; name another file with --audit.");
+    }
+    written_ = size_of(file_);
+    thread_ = std::thread([this] {
+        name_this_thread("audit");
+        (void)contain("audit", [this] { run(); });
+    });
+}
+
+AuditLog::~AuditLog() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+    if (file_ >= 0)
+        close(file_);
+}
+
+void AuditLog::add(const session::AuditEvent& event, const std::string& address) {
+    std::string line = audit_line(event, files::utc_now_text(), address);
+    {
+        const std::lock_guard lock(mutex_);
+        if (waiting_.size() >= max_waiting_lines)
+            ++left_out_;
+        else
+            waiting_.push_back(std::move(line));
+    }
+    changed_.notify_all();
+}
+
+void AuditLog::leave_out() {
+    const std::lock_guard lock(mutex_);
+    ++left_out_;
+}
+
+void AuditLog::run() {
+    bool is_failing = false;
+    std::string lines;  // not written yet
+    while (true) {
+        std::unique_lock lock(mutex_);
+        if (is_failing)
+            changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_; });
+        else
+            changed_.wait(lock, [this] { return !waiting_.empty() || stopping_; });
+        // Lines that could not be written are tried again before more are taken.
+        if (lines.empty())
+            for (const std::string& line : std::exchange(waiting_, {}))
+                lines += line + "\n";
+        if (const std::size_t count = lines.empty() ? 0 : std::exchange(left_out_, 0))
+            lines +=
+                nlohmann::json{{"time", files::utc_now_text()}, {"left_out", count}}.dump() + "\n";
+        const bool is_last = stopping_ && waiting_.empty();
+        lock.unlock();
+        const bool was_failing = std::exchange(is_failing, !lines.empty() && !write(lines));
+        if (is_failing && !was_failing)
+            log::error("host", "the audit log cannot be written",
+                       {{"file", path_.string()}, {"why", std::strerror(errno)}});
+        if (!is_failing)
+            lines.clear();
+        if (is_last || (stopping_ && is_failing))
+            return;
+    }
+}
+
+// All lines or none: what a full disk took of them is cut off again.
+bool AuditLog::write(const std::string& lines) {
+    if (written_ > 0 && written_ + lines.size() > max_bytes_)
+        rotate();
+    if (file_ < 0)
+        file_ = open_to_append(path_);
+    if (file_ < 0)
+        return false;
+    const std::size_t before = size_of(file_);
+    std::size_t done = 0;
+    while (done < lines.size()) {
+        const ssize_t count = ::write(file_, lines.data() + done, lines.size() - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            break;
+        done += std::size_t(count);
+    }
+    if (done < lines.size() || fdatasync(file_) != 0) {
+        const int why = errno;
+        // If this fails, too, a line may be in the file twice.
+        if (ftruncate(file_, off_t(before)) == 0)
+            written_ = before;
+        errno = why;
+        return false;
+    }
+    written_ = before + lines.size();
+    return true;
+}
+
+void AuditLog::rotate() {
+    const auto numbered = [&](int number) {
+        return number == 0 ? path_
+                           : std::filesystem::path(path_.string() + "." + std::to_string(number));
+    };
+    close(std::exchange(file_, -1));
+    std::error_code ignored;
+    for (int number = max_old_audits - 1; number >= 0; --number)
+        std::filesystem::rename(numbered(number), numbered(number + 1), ignored);
+    written_ = 0;
+}
+
+}  // namespace theatron::host

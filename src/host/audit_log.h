@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The audit log of a host: a file of JSON lines (docs/formats/audit.md) on who came, left, was
+// admitted, removed or given another role, and on which cameras were shared.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "session/audit_event.h"
+
+namespace theatron::host {
+
+// One line without its end. `time` as in files/utc_text.h; `address` may be empty.
+std::string audit_line(const session::AuditEvent& event, const std::string& time,
+                       const std::string& address);
+
+// An own thread writes each line to the disk before it takes the next ones. A slow or full disk
+// delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many.
+class AuditLog {
+public:
+    // A file that has become larger is renamed to NAME.1, that one to NAME.2 and so on; the
+    // oldest is deleted.
+    static constexpr std::size_t max_audit_bytes = 4 << 20;
+    static constexpr int max_old_audits = 9;
+    static constexpr std::size_t max_waiting_lines = 4096;
+
+    // Opens the file to append, readable by its owner alone, and starts the thread. Throws Error
+    // with one sentence if that cannot be done.
+    explicit AuditLog(std::filesystem::path path, std::size_t max_bytes = max_audit_bytes);
+    // Writes the lines that wait.
+    ~AuditLog();
+
+    // From any thread; never waits for the disk.
+    void add(const session::AuditEvent& event, const std::string& address);
+    // Counts an event that was not added, for the line about those left out.
+    void leave_out();
+
+private:
+    void run();
+    bool write(const std::string& lines);
+    void rotate();
+
+    const std::filesystem::path path_;
+    const std::size_t max_bytes_;
+    int file_ = -1;            // the thread's
+    std::size_t written_ = 0;  // bytes of the file; likewise
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::string> waiting_;  // guarded by mutex_, as are the next two
+    std::size_t left_out_ = 0;
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::host

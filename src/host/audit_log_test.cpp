@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/audit_log.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::host {
+namespace {
+
+using What = session::AuditEvent::What;
+
+session::AuditEvent event(What what = What::joined) {
+    return {what,
+            ParticipantId{7},
+            "Dr. \"Ada\"\xff",
+            Bytes(2, std::byte(0xab)),
+            wire::Role::observer,
+            "5f0c2a91",
+            "Ben",
+            ""};
+}
+
+std::vector<nlohmann::json> lines_of(const std::filesystem::path& path) {
+    std::vector<nlohmann::json> lines;
+    std::ifstream in(path);
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(nlohmann::json::parse(line));
+    return lines;
+}
+
+TEST(Audit, ALineNamesWhoWhatWhenAndByWhom) {
+    const auto line =
+        nlohmann::json::parse(audit_line(event(), "2026-11-22T20:15:00.250Z", "10.0.0.7"));
+    EXPECT_EQ(line["time"], "2026-11-22T20:15:00.250Z");
+    EXPECT_EQ(line["event"], "joined");
+    EXPECT_EQ(line["participant"], 7);
+    EXPECT_EQ(line["name"], "Dr. \"Ada\"\xef\xbf\xbd");
+    EXPECT_EQ(line["person"], "abab");
+    EXPECT_EQ(line["role"], "observer");
+    EXPECT_EQ(line["link"], "5f0c2a91");
+    EXPECT_EQ(line["address"], "10.0.0.7");
+    EXPECT_EQ(line["by"], "Ben");
+    const auto ended = nlohmann::json::parse(
+        audit_line({What::ended, {}, "", {}, {}, "", "", ""}, "2026-11-22T20:15:00.250Z", ""));
+    EXPECT_EQ(ended.size(), 2u) << ended;
+}
+
+TEST(Audit, LinesAreAppendedInOrderToAPrivateFile) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    for (const What what : {What::joined, What::left}) {
+        AuditLog log(path);
+        log.add(event(what), "");
+    }
+    const auto lines = lines_of(path);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0]["event"], "joined");
+    EXPECT_EQ(lines[1]["event"], "left");
+    struct stat info {};
+    ASSERT_EQ(stat(path.c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777, 0600u);
+}
+
+TEST(Audit, FilesAreNumberedWhenTheyAreFullAndTheirNumberIsBounded) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    for (int i = 0; i < 30; ++i) {
+        AuditLog log(path, 400);  // two lines
+        log.add(event(), "");
+    }
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        ++files;
+        EXPECT_LE(lines_of(entry.path()).size(), 2u);
+    }
+    EXPECT_EQ(files, 1 + AuditLog::max_old_audits);
+}
+
+TEST(Audit, WhatWasLeftOutIsCounted) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    {
+        AuditLog log(path);
+        log.leave_out();
+        log.leave_out();
+        log.add(event(), "");
+    }
+    EXPECT_EQ(lines_of(path).back()["left_out"], 2);
+}
+
+TEST(Audit, AFileThatCannotBeWrittenIsNamed) {
+    const testing::TemporaryFolder folder;
+    EXPECT_THROW(AuditLog(folder.path() / "none" / "audit.jsonl"), Error);
+    EXPECT_THROW(AuditLog{folder.path()}, Error);
+    EXPECT_THROW(AuditLog("/dev/null"), Error);
+}
+
+}  // namespace
+}  // namespace theatron::host

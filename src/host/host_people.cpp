@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host's links, the decisions on people, and the audit log.
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/log.h"
+#include "host/host_identity.h"
+#include "host/host_impl.h"
+#include "wire/manage_text.h"
+
+namespace theatron::host {
+
+using What = session::AuditEvent::What;
+
+std::vector<session::Admission::Token> Host::Impl::load_tokens() {
+    const std::vector<KnownLink> links = load_links(state);
+    const TimePoint now = steady_now();
+    const files::UtcSeconds utc = files::utc_now();
+    std::vector<session::Admission::Token> loaded;
+    const std::lock_guard lock(tokens_mutex);
+    for (const KnownLink& link : links) {
+        const bool is_of_role = wire::parse_role(link.name).has_value();
+        std::optional<TimePoint> expires = is_of_role ? roles_expire : std::nullopt;
+        if (link.expires)
+            expires = now + std::chrono::seconds(*link.expires - utc);
+        const bool is_own = link.name == wire::text_of(wire::Role::expert) && !own_token.empty();
+        loaded.push_back({is_own ? own_token : link.token, link.role, expires, link.name});
+    }
+    return tokens = std::move(loaded);
+}
+
+std::string Host::Impl::token_of(wire::Role role) const {
+    const std::lock_guard lock(tokens_mutex);
+    for (const auto& token : tokens)
+        if (token.link == wire::text_of(role))
+            return token.secret;
+    return "";
+}
+
+// On the door's thread.
+bool Host::Impl::is_invited(ByteView first) const {
+    const auto message = wire::decode_to_host(first);
+    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
+    bool shown = false;
+    const std::lock_guard lock(tokens_mutex);
+    for (const auto& token : tokens)
+        shown = (join && net::equal_secrets(join->token, token.secret)) || shown;
+    return shown;
+}
+
+bool Host::Impl::must_ask(wire::Role role) const {
+    return asks && (role == wire::Role::expert || role == wire::Role::observer);
+}
+
+// Likewise. Those who must ask to come in see nothing before.
+std::vector<std::string> Host::Impl::http_tokens() const {
+    std::vector<std::string> secrets{metrics_token};
+    const TimePoint now = steady_now();
+    const std::lock_guard lock(tokens_mutex);
+    for (const auto& token : tokens) {
+        if (!must_ask(token.role) && (!token.expires || now < *token.expires))
+            secrets.push_back(token.secret);
+    }
+    return secrets;
+}
+
+void Host::follow_links() {
+    if (!impl_->link_watch->changed())
+        return;
+    try {
+        impl_->server->post([impl = impl_.get(), tokens = impl_->load_tokens()] {
+            impl->session->set_tokens(tokens);
+            impl->carry_out();
+        });
+        log::info("host", "links changed");
+    } catch (const Error& error) {
+        log::warning("host", "links stay as they were", {{"problem", error.what()}});
+    }
+}
+
+void Host::manage(wire::ManageAction action, ParticipantId person, wire::Role role) {
+    impl_->server->post([impl = impl_.get(), action, person, role] {
+        const auto refusal = impl->session->manage({0, action, person, role});
+        if (refusal != wire::ManageRefusal::none)
+            log::say(wire::text_of(refusal));
+        impl->carry_out();
+    });
+}
+
+void Host::Impl::audit_beginning() {
+    if (!audit)
+        return;
+    audit->add({What::began, {}, "", {}, {}, "", "", name}, "");
+    for (const wire::Camera& camera : session->streams().cameras())
+        audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
+}
+
+// A guest that comes and goes all the time must not push everything else out of the log.
+void Host::Impl::carry_out(const session::action::Audit& a) {
+    const session::AuditEvent& event = a.event;
+    const auto found = addresses.find(net::PeerId(std::uint32_t(event.participant)));
+    const std::string address = found == addresses.end() ? "" : found->second;
+    const bool is_decision = !event.by.empty();
+    if (audit && (is_decision || audited.take(steady_now())))
+        audit->add(event, address);
+    else if (audit)
+        audit->leave_out();
+    if (!is_decision && event.what != What::waits)
+        return;
+    if (const auto left_out = joins.take(session::text_of(event.what) + address, steady_now()))
+        log::info("host", session::text_of(event.what),
+                  {{"id", int(event.participant)},
+                   log::outside("name", event.name),
+                   {"role", wire::text_of(event.role)},
+                   log::outside("by", event.by),
+                   {"left_out", *left_out}});
+}
+
+// The session has already removed those who came by it.
+void Host::Impl::carry_out(const session::action::RevokeLink& a) {
+    {
+        const std::lock_guard lock(tokens_mutex);
+        std::erase_if(tokens, [&](const auto& token) { return token.link == a.link; });
+        if (a.link == wire::text_of(wire::Role::expert))
+            own_token.clear();
+    }
+    try {
+        (void)revoke_link(state, a.link);
+    } catch (const Error& error) {
+        log::error("host", "a revoked link will be valid again after a restart",
+                   {{"link", a.link}, {"problem", error.what()}});
+    }
+}
+
+}  // namespace theatron::host

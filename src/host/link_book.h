@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The links of a host, in its state folder (docs/keys.md): one of each role that stays valid, and
+// any number that were made for somebody and expire. A running host follows the files.
+//
+// All functions throw Error, one sentence that names the file and says what to do.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/utc_text.h"
+#include "wire/role.h"
+
+namespace theatron::host {
+
+// Links at once; one more is not made.
+inline constexpr std::size_t max_made_links = 256;
+inline constexpr std::size_t max_label = 64;  // characters
+
+struct KnownLink {
+    std::string name;  // not secret: 8 hex digits, or the role of a link that stays valid
+    wire::Role role{};
+    std::string token;
+    std::optional<files::UtcSeconds> expires;
+    std::string label;  // for whom it is
+    bool has_expired(files::UtcSeconds now) const { return expires && now >= *expires; }
+};
+
+// All links. The one of each role is made where there is none yet.
+std::vector<KnownLink> load_links(const std::filesystem::path& folder);
+
+// Makes a link. Deletes expired ones first where there are too many.
+KnownLink make_link(const std::filesystem::path& folder, wire::Role role,
+                    std::optional<files::UtcSeconds> expires, const std::string& label);
+
+// Makes a link invalid for good; the one of a role gets another token. False if there is none of
+// this name.
+bool revoke_link(const std::filesystem::path& folder, const std::string& name);
+
+// Notices changes of the files, also by other programs.
+class LinkWatch {
+public:
+    explicit LinkWatch(std::filesystem::path folder);
+    // True if a file has changed since the last call.
+    bool changed();
+
+private:
+    std::vector<std::filesystem::file_time_type> times() const;
+    const std::filesystem::path folder_;
+    std::vector<std::filesystem::file_time_type> seen_;
+};
+
+}  // namespace theatron::host

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/link_book.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "files/private_file.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::host {
+namespace {
+
+using ::testing::HasSubstr;
+using wire::Role;
+
+class LinkBook : public ::testing::Test {
+protected:
+    std::optional<KnownLink> find(const std::string& name) const {
+        for (const KnownLink& link : load_links(folder.path()))
+            if (link.name == name)
+                return link;
+        return std::nullopt;
+    }
+    testing::TemporaryFolder folder;
+};
+
+TEST_F(LinkBook, HasOneLinkOfEachRoleThatStays) {
+    const auto first = load_links(folder.path()), again = load_links(folder.path());
+    ASSERT_EQ(first.size(), 4u);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(first[i].name, wire::text_of(wire::roles[i]));
+        EXPECT_EQ(first[i].token, again[i].token);
+        EXPECT_FALSE(first[i].expires);
+    }
+}
+
+TEST_F(LinkBook, KeepsWhatALinkAllowsAndForWhomItIs) {
+    const KnownLink made = make_link(folder.path(), Role::observer, 1'795'378'500, "Dr. Ada\n x");
+    const auto read = find(made.name);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->role, Role::observer);
+    EXPECT_EQ(read->token, made.token);
+    EXPECT_EQ(read->expires, 1'795'378'500);
+    EXPECT_EQ(read->label, "Dr. Ada  x");
+    EXPECT_FALSE(read->has_expired(1'795'378'499));
+    EXPECT_TRUE(read->has_expired(1'795'378'500));
+    struct stat info {};
+    ASSERT_EQ(stat((folder.path() / "links" / made.name).c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777, 0600u);
+}
+
+TEST_F(LinkBook, RevokesALinkForGoodAndGivesARoleAnotherToken) {
+    const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
+    const std::string before = find("operator")->token;
+    EXPECT_TRUE(revoke_link(folder.path(), made.name));
+    EXPECT_FALSE(find(made.name));
+    EXPECT_FALSE(revoke_link(folder.path(), made.name));
+    EXPECT_FALSE(revoke_link(folder.path(), "../join.token"));
+    EXPECT_TRUE(revoke_link(folder.path(), "operator"));
+    EXPECT_NE(find("operator")->token, before);
+}
+
+TEST_F(LinkBook, NoticesLinksThatOtherProgramsMakeAndRevoke) {
+    (void)load_links(folder.path());
+    LinkWatch watch(folder.path());
+    EXPECT_FALSE(watch.changed());
+    const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
+    EXPECT_TRUE(watch.changed());
+    EXPECT_FALSE(watch.changed());
+    (void)revoke_link(folder.path(), made.name);
+    EXPECT_TRUE(watch.changed());
+}
+
+TEST_F(LinkBook, NamesAFileThatIsNoLinkAndDoesNotTakeDrafts) {
+    const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
+    const auto links = folder.path() / "links";
+    files::write_private_file(links / "0badcafe", "expert tomorrow 0123456789abcdef0123\n");
+    try {
+        (void)load_links(folder.path());
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("0badcafe"));
+    }
+    std::filesystem::rename(links / "0badcafe", links / "0badcafe.part");
+    EXPECT_TRUE(find(made.name));
+}
+
+TEST_F(LinkBook, MakesRoomForNewLinksByDeletingExpiredOnes) {
+    for (std::size_t i = 0; i < max_made_links; ++i)
+        (void)make_link(folder.path(), Role::expert,
+                        i < 2 ? std::optional(files::UtcSeconds(1)) : std::nullopt, "");
+    (void)make_link(folder.path(), Role::expert, std::nullopt, "");
+    (void)make_link(folder.path(), Role::expert, std::nullopt, "");
+    EXPECT_THROW((void)make_link(folder.path(), Role::expert, std::nullopt, ""), Error);
+}
+
+}  // namespace
+}  // namespace theatron::host

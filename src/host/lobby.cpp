@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/lobby.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "files/json_text.h"
+#include "host/host_http.h"
+#include "host/host_impl.h"
+#include "net/https_get.h"
+#include "wire/condition_text.h"
+
+namespace theatron::host {
+namespace {
+
+constexpr std::string_view lobby_path = "/lobby", thumbnail_path = "/thumbnail";
+
+}  // namespace
+
+bool is_lobby(const net::HttpRequest& request) {
+    const std::string_view path = net::path_of(request.target);
+    return path == lobby_path || path == thumbnail_path;
+}
+
+nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask) {
+    nlohmann::json session{{"name", figures.name},
+                           {"asks", must_ask},
+                           {"ended", figures.has_ended},
+                           {"people_count", figures.participants.size()}};
+    if (!must_ask) {
+        nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();
+        for (const auto& person : figures.participants)
+            people.push_back({{"name", person.name},
+                              {"role", wire::text_of(person.role)},
+                              {"muted", person.muted}});
+        for (const auto& camera : figures.cameras)
+            cameras.push_back({{"name", camera.lane.name},
+                               {"state", wire::text_of(camera.lane.camera.condition)}});
+        for (const auto& camera : figures.published)
+            cameras.push_back({{"name", camera.name}, {"state", wire::text_of(camera.condition)}});
+        session["people"] = people;
+        session["cameras"] = cameras;
+        session["thumbnail"] = thumbnail_path;
+    }
+    return {{"role", wire::text_of(role)}, {"sessions", nlohmann::json::array({session})}};
+}
+
+std::optional<session::Admission::Token> Host::Impl::find_token(const std::string& secret) const {
+    std::optional<session::Admission::Token> found;
+    const TimePoint now = steady_now();
+    const std::lock_guard lock(tokens_mutex);
+    for (const auto& token : tokens)
+        if (net::equal_secrets(secret, token.secret) && (!token.expires || now < *token.expires))
+            found = token;
+    return found;
+}
+
+// On the door's thread.
+net::HttpAnswer Host::Impl::answer_lobby(const net::HttpRequest& request) {
+    const auto token = find_token(net::shown_token(request));
+    if (!token)
+        return {.status = 401, .body = "Show the token of a link: docs/room.md\n"};
+    if (net::path_of(request.target) == lobby_path)
+        return {
+            .type = "application/json",
+            .body =
+                files::json_text(lobby_json(figures(), token->role, must_ask(token->role))) + "\n"};
+    std::string picture = must_ask(token->role) ? std::string() : thumbnail.png();
+    if (picture.empty())
+        return {.status = 404, .body = "There is no picture.\n"};
+    return {.type = "image/png", .body = std::move(picture)};
+}
+
+nlohmann::json lobby_of_host(const net::Link& link) {
+    return json_of_host(link, std::string(lobby_path), "lobby");
+}
+
+std::optional<std::string> thumbnail_of_host(const net::Link& link) {
+    net::HttpsAnswer answer = net::https_get(link, std::string(thumbnail_path));
+    if (answer.status == 401)
+        throw Error("The host does not know the link's token; ask for its current link.");
+    if (answer.status != 200)
+        return std::nullopt;
+    return std::move(answer.body);
+}
+
+}  // namespace theatron::host

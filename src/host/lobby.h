@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lobby of a host: what a link lets its bearer see of the session before joining it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "host/host_figures.h"
+#include "net/http.h"
+#include "net/link.h"
+#include "wire/role.h"
+
+namespace theatron::host {
+
+// True for the pages /lobby and /thumbnail.
+bool is_lobby(const net::HttpRequest& request);
+
+// {"role","sessions":[{"name","asks","ended","people_count","people":[{"name","role","muted"}],
+// "cameras":[{"name","state"}],"thumbnail"}]}. For a link by which one has to wait for admission:
+// without names, cameras and picture.
+nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask);
+
+// The same from a host, perhaps on another machine; its texts are clean. Throws Error.
+nlohmann::json lobby_of_host(const net::Link& link);
+// Its picture as PNG; nullopt if the host gives none. Throws Error.
+std::optional<std::string> thumbnail_of_host(const net::Link& link);
+
+}  // namespace theatron::host

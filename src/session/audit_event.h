@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happened to the people of a session, for its audit log (docs/formats/audit.md).
+#pragma once
+
+#include <string>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "wire/role.h"
+
+namespace theatron::session {
+
+struct AuditEvent {
+    enum class What : std::uint8_t {
+        began,  // the session
+        ended,
+        waits,  // asks to be admitted
+        admitted,
+        turned_away,
+        joined,
+        left,
+        removed,
+        muted,
+        unmuted,
+        role_changed,  // to `role`
+        link_revoked,  // by which the participant came; the connection ends
+        shared,        // a camera, named by `detail`
+        unshared,
+    };
+    What what{};
+    ParticipantId participant{};  // 0: none; the host itself
+    std::string name;
+    Bytes person;  // as in wire::Join
+    wire::Role role{};
+    std::string link;    // the number of the link by which it came
+    std::string by;      // the name of the operator who decided; "host": at the host's machine
+    std::string detail;  // a camera's name; "records" of one who joined to record
+};
+
+constexpr const char* text_of(AuditEvent::What what) {
+    constexpr const char* texts[] = {
+        "began",   "ended", "waits",   "admitted",     "turned_away",  "joined", "left",
+        "removed", "muted", "unmuted", "role_changed", "link_revoked", "shared", "unshared"};
+    return texts[std::size_t(what)];
+}
+
+}  // namespace theatron::session

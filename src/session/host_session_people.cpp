@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decisions of operators on participants, and what roles allow.
+#include <algorithm>
+#include <utility>
+
+#include "session/host_session.h"
+
+namespace theatron::session {
+namespace {
+
+using wire::ManageAction;
+using wire::ManageRefusal;
+using wire::TextCode;
+using What = AuditEvent::What;
+
+// The bytes of a person's id that operators see: enough to tell people apart, too few to pass for
+// one of them.
+constexpr std::size_t shown_person_bytes = 4;
+constexpr const char* at_the_host = "host";
+constexpr ParticipantId the_host{};
+
+}  // namespace
+
+bool HostSession::allow(ParticipantId id, Right right) {
+    Participant* participant = admission_.find(id);
+    if (!participant || !participant->takes_part())
+        return false;
+    const bool allowed = participant->may(right);
+    if (!allowed)
+        ++participant->denied;
+    return allowed;
+}
+
+void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
+    ++admission_.find(id)->denied;
+    if (std::holds_alternative<wire::Publish>(message))
+        send(id, wire::Published{{}, {TextCode::link_without_cameras}});
+    else if (const auto* request = std::get_if<wire::RoomRequest>(&message))
+        room_.refuse(id, *request, Refusal::role);
+    else if (const auto* decision = std::get_if<wire::Manage>(&message))
+        send(id, wire::Managed{decision->number, ManageRefusal::role});
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint) {
+    const ManageRefusal refusal = manage(decision, id);
+    // Perhaps the decision has ended the sender's own connection.
+    if (const Participant* sender = admission_.find(id); sender && sender->takes_part())
+        send(id, wire::Managed{decision.number, refusal});
+}
+
+ManageRefusal HostSession::manage(const wire::Manage& decision) {
+    return manage(decision, the_host);
+}
+
+ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by) {
+    const std::string by_name = by == the_host ? at_the_host : admission_.find(by)->name;
+    if (decision.action == ManageAction::end_session) {
+        actions_.push_back(action::Audit{{What::ended, {}, "", {}, {}, "", by_name, ""}});
+        end(TextCode::ended_by_operator);
+        return ManageRefusal::none;
+    }
+    const ParticipantId id = decision.participant;
+    Participant* found = admission_.find(id);
+    if (!found || (!found->takes_part() && !found->waits()))
+        return ManageRefusal::no_such_participant;
+    if (id == by)
+        return ManageRefusal::yourself;
+    Participant& person = *found;
+    const bool for_visitors =
+        decision.action == ManageAction::admit || decision.action == ManageAction::turn_away;
+    if (for_visitors && !person.waits())
+        return ManageRefusal::not_waiting;
+    if (!for_visitors && person.waits() && decision.action != ManageAction::remove &&
+        decision.action != ManageAction::revoke_link)
+        return ManageRefusal::still_waiting;
+
+    switch (decision.action) {
+        case ManageAction::admit: {
+            membership_.admit(person.person);
+            audit(What::admitted, id, by_name);
+            const wire::Join hello = std::move(*person.asked);
+            enter(id, hello);
+            tell_operators();
+            break;
+        }
+        case ManageAction::turn_away:
+            audit(What::turned_away, id, by_name);
+            refuse(id, {TextCode::not_let_in});
+            break;
+        case ManageAction::mute:
+        case ManageAction::unmute:
+            person.muted = decision.action == ManageAction::mute;
+            membership_.set_muted(person.person, person.muted);
+            audit(person.muted ? What::muted : What::unmuted, id, by_name);
+            tell_standing(id);
+            break;
+        case ManageAction::set_role:
+            set_role(id, decision.role);
+            audit(What::role_changed, id, by_name);
+            break;
+        case ManageAction::remove:
+            membership_.remove(person.person);
+            audit(What::removed, id, by_name);
+            refuse(id, {TextCode::removed_by_operator});
+            break;
+        case ManageAction::revoke_link:
+            actions_.push_back(action::RevokeLink{person.link});
+            admission_.revoke(std::string(person.link));
+            remove_without_link(by_name);
+            break;
+        case ManageAction::end_session:
+            break;
+    }
+    return ManageRefusal::none;
+}
+
+void HostSession::begin_again() {
+    has_ended_ = false;
+    membership_.forget_all();
+    room_.clear();
+    actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", at_the_host, config_.name}});
+}
+
+void HostSession::set_role(ParticipantId id, Role role) {
+    Participant& person = *admission_.find(id);
+    const bool could_publish = person.may(Right::publish);
+    const bool could_manage = person.may(Right::manage);
+    person.role = role;
+    membership_.set_role(person.person, person.of_link, role);
+    if (!person.may(Right::publish)) {
+        std::erase(person.features, wire::Feature::publish);
+        unshare(id, streams_.of(id));
+    } else if (person.asks_to_publish && !could_publish) {
+        person.features.push_back(wire::Feature::publish);
+    }
+    // The features of Welcome are others.
+    if (could_publish != person.may(Right::publish))
+        resynchronise(id);
+    else
+        tell_standing(id);
+    if (could_manage != person.may(Right::manage))
+        tell_operators();
+}
+
+void HostSession::set_tokens(std::vector<Admission::Token> tokens) {
+    admission_.set_tokens(std::move(tokens));
+    remove_without_link(at_the_host);
+}
+
+void HostSession::remove_without_link(const std::string& by) {
+    for (auto& [id, participant] : admission_.participants())
+        if ((participant.takes_part() || participant.waits()) && !admission_.knows(participant)) {
+            audit(What::link_revoked, id, by);
+            refuse(id, {TextCode::link_revoked});
+        }
+}
+
+// To the participant, and to all as a fact about its person in the room.
+void HostSession::tell_standing(ParticipantId id) {
+    const Participant& person = *admission_.find(id);
+    send(id, wire::Standing{person.role, person.muted});
+    room_.set_person(id, {person.role, person.records, person.name, person.muted});
+}
+
+std::vector<wire::Visitor> HostSession::visitors() const {
+    std::vector<wire::Visitor> visitors;
+    for (const auto& [id, participant] : admission_.participants())
+        if (participant.waits()) {
+            const auto shown = std::min(participant.person.size(), shown_person_bytes);
+            visitors.push_back({id, participant.name,
+                                Bytes(participant.person.begin(),
+                                      participant.person.begin() + std::ptrdiff_t(shown)),
+                                participant.role});
+        }
+    return visitors;
+}
+
+void HostSession::tell_operators() {
+    const wire::Visitors now{visitors()};
+    for (const auto& [id, participant] : admission_.participants())
+        if (participant.may(Right::manage))
+            send(id, now);
+}
+
+void HostSession::audit(What what, ParticipantId id, std::string by, std::string detail) {
+    const Participant& person = *admission_.find(id);
+    actions_.push_back(action::Audit{{what, id, person.name, person.person, person.role,
+                                      person.link, std::move(by), std::move(detail)}});
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/membership.h"
+
+#include <algorithm>
+
+namespace theatron::session {
+
+const Membership::Known* Membership::find(const Bytes& person) const {
+    const auto found = std::find_if(known_.begin(), known_.end(),
+                                    [&](const Known& known) { return known.person == person; });
+    return found == known_.end() ? nullptr : &*found;
+}
+
+Membership::Known* Membership::note(const Bytes& person) {
+    if (person.empty())
+        return nullptr;
+    if (const Known* known = find(person))
+        return const_cast<Known*>(known);
+    if (known_.size() >= max_known_people)
+        known_.pop_front();
+    known_.emplace_back().person = person;
+    return &known_.back();
+}
+
+Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
+    const bool must_ask = asks_ && (of_link == Role::expert || of_link == Role::observer);
+    Judged judged{must_ask ? Entry::waits : Entry::enters, of_link, false};
+    const Known* known = person.empty() ? nullptr : find(person);
+    if (!known)
+        return judged;
+    if (known->admitted)
+        judged.entry = Entry::enters;
+    if (known->removed)
+        judged.entry = Entry::was_removed;
+    if (known->has_role && known->of_link == of_link)
+        judged.role = known->role;
+    judged.muted = known->muted;
+    return judged;
+}
+
+void Membership::admit(const Bytes& person) {
+    if (Known* known = note(person)) {
+        known->admitted = true;
+        known->removed = false;
+    }
+}
+
+void Membership::remove(const Bytes& person) {
+    if (Known* known = note(person))
+        known->removed = true;
+}
+
+void Membership::set_muted(const Bytes& person, bool muted) {
+    if (Known* known = note(person))
+        known->muted = muted;
+}
+
+void Membership::set_role(const Bytes& person, Role of_link, Role role) {
+    if (Known* known = note(person)) {
+        known->of_link = of_link;
+        known->role = role;
+        known->has_role = true;
+    }
+}
+
+}  // namespace theatron::session

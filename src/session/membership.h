@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decisions of operators on people, for one session: who was admitted or removed, who is
+// muted, who has another role than that of the link. They hold when a person comes again.
+//
+// A pure state machine. A person is told from others by the id of its program (wire::Join::person);
+// nothing is remembered of a person without one.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+#include "base/bytes.h"
+#include "session/permissions.h"
+
+namespace theatron::session {
+
+class Membership {
+public:
+    // People that are remembered; beyond that the oldest is forgotten.
+    static constexpr std::size_t max_known_people = 1024;
+
+    // `asks`: experts and observers wait until an operator admits them.
+    explicit Membership(bool asks) : asks_(asks) {}
+
+    enum class Entry : std::uint8_t { enters, waits, was_removed };
+    struct Judged {
+        Entry entry{};
+        Role role{};
+        bool muted = false;
+    };
+    // Someone comes by a link of the role `of_link`.
+    Judged judge(const Bytes& person, Role of_link) const;
+
+    void admit(const Bytes& person);
+    void remove(const Bytes& person);
+    void set_muted(const Bytes& person, bool muted);
+    // Holds only if the person comes by a link of the same role again.
+    void set_role(const Bytes& person, Role of_link, Role role);
+    void forget_all() { known_.clear(); }
+
+private:
+    struct Known {
+        Bytes person;
+        bool admitted = false, removed = false, muted = false;
+        Role of_link{}, role{};
+        bool has_role = false;
+    };
+    const Known* find(const Bytes& person) const;
+    // Null for a person without an id.
+    Known* note(const Bytes& person);
+
+    bool asks_;
+    std::deque<Known> known_;
+};
+
+}  // namespace theatron::session

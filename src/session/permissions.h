@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rights of roles, and the right that each message of a participant needs. The host checks
+// every message against these two tables.
+#pragma once
+
+#include "wire/control.h"
+#include "wire/role.h"
+
+namespace theatron::session {
+
+using wire::Role;
+
+enum class Right : std::uint8_t {
+    see,      // receive cameras and the room, and choose how
+    speak,    // taken away by muting
+    point,    // show hands
+    handle,   // create, hold, change and remove objects
+    record,   // join as a recorder
+    publish,  // send cameras
+    manage,   // admit, mute and remove others, change their roles, end the session
+};
+
+constexpr bool may(Role role, Right right) {
+    switch (role) {
+        case Role::observer:
+            return right == Right::see;
+        case Role::expert:
+            return right != Right::publish && right != Right::manage;
+        case Role::publisher:
+            return right != Right::manage;
+        case Role::operator_:
+            return true;
+    }
+    return false;
+}
+
+constexpr Right needed_right(const auto&) {
+    return Right::see;
+}
+constexpr Right needed_right(const wire::Publish&) {
+    return Right::publish;
+}
+constexpr Right needed_right(const wire::Unpublish&) {
+    return Right::publish;
+}
+constexpr Right needed_right(const wire::CameraState&) {
+    return Right::publish;
+}
+// Number 0 asks for a snapshot.
+constexpr Right needed_right(const wire::RoomRequest& message) {
+    return message.number == 0 ? Right::see : Right::handle;
+}
+constexpr Right needed_right(const wire::Manage&) {
+    return Right::manage;
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reasons why the host refused a decision on a person, for the operator.
+#pragma once
+
+#include <string>
+
+#include "wire/control.h"
+#include "wire/text.h"
+
+namespace theatron::wire {
+
+// The text of each reason has its number, counted from the first one.
+constexpr TextCode code_of(ManageRefusal refusal) {
+    return refusal == ManageRefusal::none
+               ? TextCode::none
+               : TextCode(int(TextCode::operators_decide) - 1 + int(refusal));
+}
+static_assert(code_of(ManageRefusal::role) == TextCode::operators_decide);
+static_assert(code_of(ManageRefusal::no_such_participant) == TextCode::decided_person_gone);
+static_assert(code_of(ManageRefusal::not_waiting) == TextCode::person_is_in);
+static_assert(code_of(ManageRefusal::still_waiting) == TextCode::person_waits);
+static_assert(code_of(ManageRefusal::yourself) == TextCode::not_on_yourself);
+static_assert(code_of(ManageRefusal::too_often) == TextCode::decided_too_often);
+
+// A sentence; empty for `none`.
+inline std::string text_of(ManageRefusal refusal) {
+    return english({code_of(refusal)});
+}
+
+}  // namespace theatron::wire
