@@ -99,7 +99,7 @@ TEST_F(RoomMessages, WhatOneDoesTheOtherSees) {
 TEST_F(RoomMessages, AReplayedRoomIsShownToAllAndChangedByNobody) {
     const ObjectId own = brick(anna);
     RoomObject person{
-        ObjectKind::person, ben, {}, {}, {}, 1, encode_person({Role::viewer, false, "Eve"})};
+        ObjectKind::person, ben, {}, {}, {}, 1, encode_person({Role::expert, false, "Eve"})};
     RoomObject organ{ObjectKind::organ, ben, {}, {}, {{}, {1, 1, 1}}, 1, {}};
     RoomObjects recorded{{ObjectId{1}, person}, {own, organ}};
     const auto show = [&] {
@@ -142,7 +142,7 @@ TEST_F(RoomMessages, AReplayedRoomIsShownToAllAndChangedByNobody) {
         expect_shown();
     }
     members[ParticipantId{9}].begin(ParticipantId{9});
-    host.join(ParticipantId{9}, {Role::viewer, false, "Late"}, true);
+    host.join(ParticipantId{9}, {Role::expert, false, "Late"}, true);
     deliver();
     expect_shown();
 

@@ -6,58 +6,91 @@
 namespace theatron::viewer {
 namespace {
 
-// "observer, records, holds 2 objects".
-std::string doing(const client::Participant::Room& room, ParticipantId id) {
+void add(std::string& text, const std::string& part) {
+    text += (text.empty() ? "" : ", ") + part;
+}
+
+std::optional<session::PersonFacts> facts_of(const client::Participant::Room& room,
+                                             ParticipantId id) {
+    for (const auto& [number, object] : room.objects)
+        if (object.kind == session::ObjectKind::person && object.creator == id)
+            if (const auto facts = session::decode_person(object.properties))
+                return *facts;
+    return std::nullopt;
+}
+
+// "observer, muted, records, holds 2 objects".
+std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
     std::string text;
-    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    int held = 0;
-    for (const auto& [number, object] : room.objects) {
-        if (object.kind != session::ObjectKind::person) {
-            held += object.grip.holder == id;
-            continue;
-        }
-        const auto facts = session::decode_person(object.properties);
-        if (object.creator == id && facts && facts->records)
-            add("records");
+    if (const auto known = facts_of(facts.room, person.id)) {
+        if (known->role != wire::Role::expert)
+            add(text, wire::text_of(known->role));
+        if (known->muted)
+            add(text, "muted");
+        if (known->records)
+            add(text, "records");
     }
+    int held = 0;
+    for (const auto& [number, object] : facts.room.objects)
+        held += object.kind != session::ObjectKind::person && object.grip.holder == person.id;
     if (held > 0)
-        add(held == 1 ? "holds an object" : "holds " + std::to_string(held) + " objects");
+        add(text, held == 1 ? "holds an object" : "holds " + std::to_string(held) + " objects");
+    if (!person.head)
+        add(text, "not in the room");
+    else if (person.is_stale)
+        add(text, "view is old");
+    if (facts.followed == person.id)
+        add(text, "you see through their eyes");
     return text;
 }
 
 }  // namespace
 
-RoomPanel room_panel(const client::Participant::Room& room,
-                     const std::vector<room::RoomPerson>& people, const std::vector<Place>& places,
-                     std::optional<ParticipantId> followed) {
+RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
     const auto button = [&](const char* label, RoomCommand command) {
         panel.commands.push_back(std::move(command));
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
+    using Action = wire::ManageAction;
+    if (facts.is_operator && !facts.visitors.empty()) {
+        xr::Panel door{"At the door", {}};
+        for (const wire::Visitor& visitor : facts.visitors)
+            door.rows.push_back(
+                {visitor.name,
+                 wire::text_of(visitor.role),
+                 {button("Let in", Decide{Action::admit, visitor.participant, {}}),
+                  button("Refuse", Decide{Action::turn_away, visitor.participant, {}})}});
+        panel.panels.push_back(std::move(door));
+    }
     xr::Panel who{"People", {}};
-    for (const room::RoomPerson& person : people) {
-        xr::PanelRow row{person.name, doing(room, person.id), {}};
-        if (!person.head)
-            row.detail += row.detail.empty() ? "not in the room" : ", not in the room";
-        else if (person.is_stale)
-            row.detail += row.detail.empty() ? "view is old" : ", view is old";
-        if (followed == person.id)
-            row.detail +=
-                row.detail.empty() ? "you see through their eyes" : ", you see through their eyes";
+    for (const room::RoomPerson& person : facts.people) {
+        xr::PanelRow row{person.name, doing(facts, person), {}};
         if (person.head) {
             row.buttons.push_back(button("Go to", GoToPerson{person.id}));
             row.buttons.push_back(button("See through", LookThrough{person.id}));
         }
         who.rows.push_back(std::move(row));
+        const auto known = facts_of(facts.room, person.id);
+        if (!facts.is_operator || !known || session::is_recorded(person.id))
+            continue;
+        const bool observes = known->role == wire::Role::observer;
+        who.rows.push_back({"",
+                            "",
+                            {known->muted ? button("Unmute", Decide{Action::unmute, person.id, {}})
+                                          : button("Mute", Decide{Action::mute, person.id, {}}),
+                             button(observes ? "Make expert" : "Make observer",
+                                    Decide{Action::set_role, person.id,
+                                           observes ? wire::Role::expert : wire::Role::observer}),
+                             button("Remove", Decide{Action::remove, person.id, {}})}});
     }
     if (who.rows.empty())
         who.rows.push_back({"Nobody else is here", "", {}});
     panel.panels.push_back(std::move(who));
-    if (places.empty())
+    if (facts.places.empty())
         return panel;
     xr::Panel where{"Places", {}};
-    for (const Place& place : places)
+    for (const Place& place : facts.places)
         where.rows.push_back({place.name, "", {button("Go", GoToPlace{place})}});
     panel.panels.push_back(std::move(where));
     return panel;

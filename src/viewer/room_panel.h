@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel of people and places: who is here, what they hold, and buttons to go to them.
+// The panel of people and places: who is here, what they hold, and buttons to go to them; for
+// operators also buttons that decide on people.
 #pragma once
 
 #include <variant>
@@ -21,16 +22,26 @@ struct LookThrough {
 struct GoToPlace {
     Place place;
 };
-using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace>;
+struct Decide {  // an operator's decision on a person
+    wire::ManageAction action{};
+    ParticipantId person{};
+    wire::Role role{};
+};
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
     std::vector<RoomCommand> commands;  // by the number in xr::PanelButton
 };
 
-// `followed` is the person through whose eyes the user sees, if any.
-RoomPanel room_panel(const client::Participant::Room& room,
-                     const std::vector<room::RoomPerson>& people, const std::vector<Place>& places,
-                     std::optional<ParticipantId> followed);
+struct RoomPanelFacts {
+    client::Participant::Room room;
+    std::vector<room::RoomPerson> people;
+    std::vector<Place> places;
+    std::optional<ParticipantId> followed;  // the person through whose eyes the user sees
+    bool is_operator = false;               // the user decides on people
+    std::vector<wire::Visitor> visitors;    // who wait for that
+};
+RoomPanel room_panel(const RoomPanelFacts& facts);
 
 }  // namespace theatron::viewer

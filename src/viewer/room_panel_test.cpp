@@ -32,8 +32,9 @@ TEST(RoomPanel, ListsPeopleWithWhatTheyDoAndPlaces) {
     room::RoomPerson absent;
     absent.id = ParticipantId{3};
     absent.name = "Ben";
-    const RoomPanel panel =
-        room_panel(room, {person, absent}, {{"Overview", {}}}, ParticipantId{2});
+    RoomPanelFacts facts_now{room, {person, absent}, {{"Overview", {}}}, ParticipantId{2}, false,
+                             {}};
+    const RoomPanel panel = room_panel(facts_now);
     ASSERT_EQ(panel.panels.size(), 2u);
     const auto& rows = panel.panels[0].rows;
     ASSERT_EQ(rows.size(), 2u);
@@ -48,8 +49,45 @@ TEST(RoomPanel, ListsPeopleWithWhatTheyDoAndPlaces) {
     EXPECT_TRUE(std::holds_alternative<GoToPlace>(panel.commands.at(place.command)));
 }
 
+TEST(RoomPanel, OperatorsDecideOnPeople) {
+    RoomPanelFacts facts;
+    facts.room.self = ParticipantId{1};
+    session::RoomObject anna;
+    anna.kind = session::ObjectKind::person;
+    anna.creator = ParticipantId{2};
+    session::PersonFacts person_facts;
+    person_facts.role = wire::Role::observer;
+    person_facts.name = "Anna";
+    anna.properties = session::encode_person(person_facts);
+    facts.room.objects[session::ObjectId{1}] = anna;
+    room::RoomPerson person;
+    person.id = ParticipantId{2};
+    person.name = "Anna";
+    facts.people = {person};
+    wire::Visitor visitor;
+    visitor.participant = ParticipantId{7};
+    visitor.name = "Ben";
+    facts.visitors = {visitor};
+    EXPECT_TRUE(room_panel(facts).commands.empty()) << "not an operator";
+    facts.is_operator = true;
+    const RoomPanel panel = room_panel(facts);
+    ASSERT_EQ(panel.panels.size(), 2u);
+    const auto& door = panel.panels[0].rows.at(0);
+    EXPECT_EQ(door.text, "Ben");
+    const auto& admit = std::get<Decide>(panel.commands.at(door.buttons.at(0).command));
+    EXPECT_EQ(admit.action, wire::ManageAction::admit);
+    EXPECT_EQ(admit.person, ParticipantId{7});
+    const auto& buttons = panel.panels[1].rows.at(1).buttons;
+    ASSERT_EQ(buttons.size(), 3u);
+    const auto& role = std::get<Decide>(panel.commands.at(buttons[1].command));
+    EXPECT_EQ(role.action, wire::ManageAction::set_role);
+    EXPECT_EQ(role.role, wire::Role::expert);
+    EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[2].command)).action,
+              wire::ManageAction::remove);
+}
+
 TEST(RoomPanel, SaysThatNobodyIsHere) {
-    const RoomPanel panel = room_panel({}, {}, {}, std::nullopt);
+    const RoomPanel panel = room_panel({});
     ASSERT_EQ(panel.panels.size(), 1u);
     EXPECT_EQ(panel.panels[0].rows.at(0).text, "Nobody else is here");
 }

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
+#include "wire/manage_text.h"
 
 namespace theatron::viewer {
 namespace {
@@ -160,6 +161,10 @@ void Viewer::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
         return;
     const RoomCommand chosen = commands_[std::size_t(command)];
+    if (const auto* decision = std::get_if<Decide>(&chosen)) {
+        participant_.manage(decision->action, decision->person, decision->role);
+        return;
+    }
     stop_following();
     scene_changed_ = true;
     if (const auto* place = std::get_if<GoToPlace>(&chosen)) {
@@ -264,6 +269,9 @@ bool Viewer::step(Size picture, TimePoint now) {
         scene_changed_ = true;
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
+    while (const auto answer = participant_.take_managed())
+        if (answer->refusal != wire::ManageRefusal::none)
+            note(wire::text_of(answer->refusal), now);
     eye_.set_walls(scene_.walls());
     look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
@@ -352,8 +360,9 @@ Facts Viewer::facts(TimePoint now) {
     facts.help = help_;
     commands_.clear();
     if (shows_panels_) {
-        RoomPanel panel = room_panel(scene_.meeting().room(), scene_.meeting().people(),
-                                     places_of(cameras()), followed_);
+        RoomPanel panel = room_panel(
+            {scene_.meeting().room(), scene_.meeting().people(), places_of(cameras()), followed_,
+             facts.received.status.standing.role == wire::Role::operator_, facts.visitors});
         facts.panels = std::move(panel.panels);
         commands_ = std::move(panel.commands);
     }

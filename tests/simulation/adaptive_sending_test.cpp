@@ -125,7 +125,7 @@ private:
             return HostSession::CheckedCodec{text, ""};
         };
         HostSession::Config config;
-        config.admission.tokens = {{"secret", session::Role::viewer, {}}};
+        config.admission.tokens = {{"secret", session::Role::expert, {}}};
         config.admission.equal_secrets = [](std::string_view a, std::string_view b) {
             return a == b;
         };

@@ -35,7 +35,7 @@ Bytes calibration() {
 
 HostSession::Config config() {
     HostSession::Config config;
-    config.admission.tokens = {{"watch", session::Role::viewer, {}},
+    config.admission.tokens = {{"watch", session::Role::expert, {}},
                                {"publish", session::Role::publisher, {}}};
     config.admission.equal_secrets = [](std::string_view a, std::string_view b) { return a == b; };
     config.check_depth = config.check_color = [](const std::string& text) {
