@@ -169,9 +169,9 @@ void run(Flags& flags) {
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         obey(host, input);
+        host.follow_links();
         if (steady_now() >= next_look) {
             host.follow_filter_files();
-            host.follow_links();
             next_look = steady_now() + 500ms;
         }
         if (live_line && steady_now() >= next_line) {

@@ -344,7 +344,7 @@ def camera(number, name=None, calibration_bytes=None, **fields):
     """A camera of a Welcome."""
     usual = {"id": number, "name": name or f"camera {number}", "depth_stream": 2 * number,
              "color_stream": 2 * number + 1, "has_color": True, "frames_per_second": 30.0,
-             "calibration": list(calibration() if calibration_bytes is None else calibration_bytes)}
+             "may_record": True, "calibration": list(calibration() if calibration_bytes is None else calibration_bytes)}
     return usual | fields
 
 

@@ -82,7 +82,7 @@ class Register(unittest.TestCase):
         self.assertEqual(events[-1]["event"], "saved")
         self.assertLess(events[-2]["pairs"][0]["apart_mm"], 5)
         places = json.loads(file.read_text())
-        self.assertRegex(places["made"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        self.assertRegex(places["made"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
         self.assertEqual([camera["camera"] for camera in places["cameras"]], ["left", "right"])
         at = [camera["room_from_camera"]["translation"] for camera in places["cameras"]]
         self.assertAlmostEqual(math.dist(*at), math.dist(position(-30), position(30)), delta=0.01)
