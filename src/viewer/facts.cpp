@@ -217,7 +217,8 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
     if (message.text.empty())
         content.notice = facts.notice;
     content.help = facts.help;
-    if (message.text.empty())
+    // The help covers them.
+    if (message.text.empty() && !facts.help)
         content.panels = facts.panels;
     return content;
 }
