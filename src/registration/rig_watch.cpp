@@ -264,7 +264,7 @@ void RigWatch::compare_with_other(std::size_t camera, const std::vector<SurfaceP
             continue;
         const auto points = overlap(grid, states_[other].surface, states_[other].newest.view(),
                                     between(other, camera), overlap_reach_m);
-        const auto [a, b] = std::minmax(camera, other);
+        const std::size_t a = std::min(camera, other), b = std::max(camera, other);
         auto pair = std::find_if(pairs_.begin(), pairs_.end(),
                                  [&](const Pair& p) { return p.a == a && p.b == b; });
         if (pair == pairs_.end()) {

@@ -86,7 +86,7 @@ void PersonClouds::set_depth_step(int step) {
 void PersonClouds::place(const std::vector<room::RoomPerson>& people) {
     for (const auto& [id, person] : people_) {
         const auto known = std::find_if(people.begin(), people.end(),
-                                        [&](const auto& other) { return other.id == id; });
+                                        [wanted = id](const auto& p) { return p.id == wanted; });
         const auto head = known == people.end() ? std::nullopt : known->head;
         if (head == person->room_from_head)
             continue;
