@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "room_lines.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "room/bricks.h"
+#include "session/room_text.h"
 #include "viewer/meeting.h"
 #include "viewer/refusal_text.h"
 
@@ -36,29 +36,6 @@ Pose towards(Vec3 place, Vec3 at) {
     const bool is_vertical = length(cross(at - place, {0, 1, 0})) < same_place_m;
     return look_at(place, at, is_vertical ? Vec3{0, 0, -1} : Vec3{0, 1, 0}) *
            Pose{Quat{0, 1, 0, 0}, {}};
-}
-
-const char* text_of(session::ObjectKind kind) {
-    switch (kind) {
-        case session::ObjectKind::person:
-            return "person";
-        case session::ObjectKind::brick:
-            return "brick";
-        case session::ObjectKind::organ:
-            return "organ";
-        case session::ObjectKind::screen:
-            return "screen";
-        case session::ObjectKind::mark:
-            return "mark";
-    }
-    return "unknown";
-}
-
-std::string hash_text(const session::RoomObjects& objects) {
-    char hash[17];
-    std::snprintf(hash, sizeof(hash), "%016llx",
-                  static_cast<unsigned long long>(session::hash_of(objects)));
-    return hash;
 }
 
 }  // namespace
@@ -201,14 +178,14 @@ nlohmann::json room_json(const client::Participant& participant) {
         }
         const Vec3& p = object.room_from_object.translation;
         objects.push_back({{"id", std::uint32_t(id)},
-                           {"kind", text_of(object.kind)},
+                           {"kind", session::text_of(object.kind)},
                            {"recorded", session::is_recorded(id)},
                            {"held_by", std::uint32_t(object.grip.holder)},
                            {"position", {p.x, p.y, p.z}},
                            {"scale", object.scale}});
     }
-    return {{"hash", hash_text(room.objects)},
-            {"recorded_hash", hash_text(session::as_recorded(room.objects))},
+    return {{"hash", session::hash_text(room.objects)},
+            {"recorded_hash", session::hash_text(session::as_recorded(room.objects))},
             {"self", std::uint32_t(room.self)},
             {"people", people},
             {"objects", objects}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export/room_of_recording.h"
 
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "base/error.h"
 #include "files/json_text.h"
 #include "session/room_bytes.h"
+#include "session/room_text.h"
 
 namespace theatron::exporting {
 namespace {
@@ -25,28 +25,6 @@ void for_each_moment(capture::RecordedRoom& room, Visit visit) {
             visit(*time);
 }
 
-const char* text_of(session::ObjectKind kind) {
-    switch (kind) {
-        case session::ObjectKind::person:
-            return "person";
-        case session::ObjectKind::brick:
-            return "brick";
-        case session::ObjectKind::organ:
-            return "organ";
-        case session::ObjectKind::screen:
-            return "screen";
-        case session::ObjectKind::mark:
-            return "mark";
-    }
-    return "unknown";
-}
-
-std::string hex_text(std::uint64_t hash) {
-    char text[17];
-    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
-    return text;
-}
-
 Json describe(const std::optional<wire::PartPose>& part) {
     return part ? Json{{"position", part->position}, {"rotation", part->rotation}} : Json();
 }
@@ -54,7 +32,7 @@ Json describe(const std::optional<wire::PartPose>& part) {
 Json describe(session::ObjectId id, const session::RoomObject& object) {
     const auto& [q, p] = object.room_from_object;
     return {{"id", std::uint32_t(id)},
-            {"kind", text_of(object.kind)},
+            {"kind", session::text_of(object.kind)},
             {"held_by", std::uint32_t(object.grip.holder)},
             {"position", {p.x, p.y, p.z}},
             {"rotation", {q.w, q.x, q.y, q.z}},
@@ -110,7 +88,7 @@ std::size_t export_room(const Recording& recording, const std::filesystem::path&
             else
                 objects.push_back(describe(id, object));
         out << files::json_text({{"seconds", to_seconds(time)},
-                                 {"hash", hex_text(session::hash_of(room.objects()))},
+                                 {"hash", session::hash_text(room.objects())},
                                  {"people", people},
                                  {"objects", objects}})
             << "\n";

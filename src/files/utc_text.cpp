@@ -4,30 +4,13 @@
 #include <chrono>
 #include <cstdio>
 
+#include "base/utc.h"
+
 namespace theatron::files {
-namespace {
-
-using std::chrono::system_clock;
-
-std::int64_t milliseconds_now() {
-    return std::chrono::duration_cast<std::chrono::milliseconds>(
-               system_clock::now().time_since_epoch())
-        .count();
-}
-
-}  // namespace
 
 UtcSeconds utc_now() {
-    return milliseconds_now() / 1000;
-}
-
-std::string utc_now_text() {
-    const std::int64_t now = milliseconds_now();
-    std::string text = utc_text(now / 1000);
-    char fraction[8];
-    std::snprintf(fraction, sizeof(fraction), ".%03dZ", int(now % 1000));
-    text.pop_back();
-    return text + fraction;
+    const auto now = std::chrono::floor<std::chrono::seconds>(theatron::utc_now());
+    return now.time_since_epoch().count();
 }
 
 std::string utc_text(UtcSeconds time) {

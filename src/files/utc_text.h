@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of day in files and figures, as RFC 3339 in UTC: "2026-11-22T20:15:00Z".
+// Times of day in whole seconds, as RFC 3339 in UTC: "2026-11-22T20:15:00Z". base/utc.h has those
+// with milliseconds.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,6 @@ namespace theatron::files {
 using UtcSeconds = std::int64_t;
 
 UtcSeconds utc_now();
-// With milliseconds: "2026-11-22T20:15:00.250Z".
-std::string utc_now_text();
 // Empty for a time that has no text, beyond the year 9999.
 std::string utc_text(UtcSeconds time);
 // The time of such a text without a fraction; nullopt for any other text.

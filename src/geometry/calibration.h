@@ -26,10 +26,11 @@ struct Calibration {
     Pose room_from_camera{Quat{0, 1, 0, 0}, Vec3{0, 1.5, 0}};
     bool registered = false;
 
-    // Of one registration; cameras with the same number were placed together. 0: unknown.
+    // The number of one registration; cameras with the same number were placed together. 0:
+    // unknown.
     std::uint64_t registration = 0;
-    // Of rotation about the camera's axes (radians), then translation along them (metres), row by
-    // row; symmetric.
+    // Covariance of rotation about the camera's axes (radians), then translation along them
+    // (metres), row by row; symmetric.
     std::optional<std::array<double, 36>> covariance;
 
     // Corrections that were measured once. Without them a viewer estimates its own.
@@ -56,7 +57,7 @@ inline double depth_m(const Calibration& calibration, std::uint16_t units) {
 // In version 2 of the format.
 Bytes encode_calibration(const Calibration& calibration);
 
-// Of version 1 or 2. Safe for untrusted input. Refuses sizes out of range (Status::too_large),
+// Reads version 1 and 2. Safe for untrusted input. Refuses sizes out of range (Status::too_large),
 // focal lengths that are not positive, cameras without any lens, and anything that is not finite.
 // Fields of a newer program are skipped.
 Result<Calibration> decode_calibration(ByteView bytes);

@@ -15,8 +15,8 @@
 #include "base/hex_text.h"
 #include "base/log.h"
 #include "base/thread_name.h"
+#include "base/utc.h"
 #include "files/json_text.h"
-#include "files/utc_text.h"
 
 namespace theatron::host {
 namespace {
@@ -79,7 +79,7 @@ AuditLog::~AuditLog() {
 }
 
 void AuditLog::add(const session::AuditEvent& event, const std::string& address) {
-    std::string line = audit_line(event, files::utc_now_text(), address);
+    std::string line = audit_line(event, utc_text(utc_now()), address);
     {
         const std::lock_guard lock(mutex_);
         if (waiting_.size() >= max_waiting_lines)
@@ -110,7 +110,7 @@ void AuditLog::run() {
                 lines += line + "\n";
         if (const std::size_t count = lines.empty() ? 0 : std::exchange(left_out_, 0))
             lines +=
-                nlohmann::json{{"time", files::utc_now_text()}, {"left_out", count}}.dump() + "\n";
+                nlohmann::json{{"time", utc_text(utc_now())}, {"left_out", count}}.dump() + "\n";
         const bool is_last = stopping_ && waiting_.empty();
         lock.unlock();
         const bool was_failing = std::exchange(is_failing, !lines.empty() && !write(lines));

@@ -14,7 +14,7 @@
 
 namespace theatron::host {
 
-// One line without its end. `time` as in files/utc_text.h; `address` may be empty.
+// One line without its end. `time` as in base/utc.h; `address` may be empty.
 std::string audit_line(const session::AuditEvent& event, const std::string& time,
                        const std::string& address);
 

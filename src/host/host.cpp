@@ -144,7 +144,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     start_replay(options.cameras);
 }
 
-// Of several recordings, the room of the first one that has a room.
+// Takes the room of the first recording that has one.
 void Host::Impl::start_replay(const std::vector<std::string>& specifications) {
     for (std::size_t i = 0; i < specifications.size() && !replay; ++i)
         if (auto room = replayed_room(specifications[i]))

@@ -23,7 +23,7 @@
 
 namespace theatron::publish {
 
-// What is the same for all cameras of a publisher.
+// The part that is the same for all cameras of a publisher.
 struct Sharing {
     bool may_record = false;  // others may record them
     wire::CameraFrame frame = wire::CameraFrame::room;

@@ -49,7 +49,7 @@ public:
     std::uint64_t bytes() const { return end_; }
     // Bytes that another program has cut off the file meanwhile, as of the last write.
     std::uint64_t cut_bytes() const { return cut_bytes_; }
-    // What becomes of the file when writing ends: "what came before is kept", unless it was
+    // The fate of the file when writing ends: "what came before is kept", unless it was
     // deleted.
     std::string fate() const;
 

@@ -232,6 +232,17 @@ TEST(Recording, ThatWasNeverClosedKnowsWhatWasOnTheDisk) {
     EXPECT_EQ(cut->segments()[0].missing_end, killed->duration() - cut->duration() + 1s);
 }
 
+// A copy in which the byte `at` is "removed" or "changed", or another one "inserted" before it.
+Bytes with_one_byte(std::string_view change, std::ptrdiff_t at, Bytes bytes) {
+    if (change == "removed")
+        bytes.erase(bytes.begin() + at);
+    else if (change == "inserted")
+        bytes.insert(bytes.begin() + at, std::byte{0x55});
+    else
+        bytes[std::size_t(at)] ^= std::byte{0x55};
+    return bytes;
+}
+
 // One byte removed, inserted or changed near the end of a closed file.
 TEST(Recording, WithAWrongByteNearItsEndNeverHidesALostPicture) {
     const testing::TemporaryFolder folder;
@@ -250,13 +261,7 @@ TEST(Recording, WithAWrongByteNearItsEndNeverHidesALostPicture) {
         for (const char* const change : {"removed", "inserted", "changed"}) {
             SCOPED_TRACE(std::string(change) + " at " + std::to_string(at) + ", index at " +
                          std::to_string(index_at));
-            Bytes bytes = whole;
-            if (change == std::string_view("removed"))
-                bytes.erase(bytes.begin() + at);
-            else if (change == std::string_view("inserted"))
-                bytes.insert(bytes.begin() + at, std::byte{0x55});
-            else
-                bytes[std::size_t(at)] ^= std::byte{0x55};
+            const Bytes bytes = with_one_byte(change, at, whole);
             const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
             ASSERT_TRUE(recording);
             const Segment& segment = (*recording)->segments()[0];
@@ -290,13 +295,7 @@ TEST(Recording, WithADamagedHeadSaysThatNoPictureIsLost) {
     for (std::ptrdiff_t at = 0; at < head_end; ++at)
         for (const char* const change : {"removed", "inserted", "changed"}) {
             SCOPED_TRACE(std::string(change) + " at " + std::to_string(at));
-            Bytes bytes = whole;
-            if (change == std::string_view("removed"))
-                bytes.erase(bytes.begin() + at);
-            else if (change == std::string_view("inserted"))
-                bytes.insert(bytes.begin() + at, std::byte{0x55});
-            else
-                bytes[std::size_t(at)] ^= std::byte{0x55};
+            const Bytes bytes = with_one_byte(change, at, whole);
             const auto recording = RecordingFile::read(std::make_unique<MemorySource>(bytes));
             ASSERT_TRUE(recording);
             EXPECT_EQ(frames_in(**recording), messages.size());

@@ -11,7 +11,7 @@ namespace theatron::registration {
 namespace {
 
 constexpr double nearest_m = 0.4, farthest_m = 4;
-// Of a head with hair or a cap, and how much people differ.
+// A head with hair or a cap, and how much people differ.
 constexpr double usual_radius_m = 0.098, radius_deviation_m = 0.008;
 // From the middle to between the eyes.
 constexpr double eyes_ahead_m = 0.09, eyes_below_m = 0.02;

@@ -35,7 +35,7 @@ public:
 
     // The time from one image of a camera to the next: half a second, or more for many cameras.
     Duration period() const { return period_; }
-    // Whether an image captured at this time is wanted; the others are better not added.
+    // True if an image captured at this time is wanted; the others are better not added.
     bool is_due(std::size_t camera, TimePoint captured) const;
     // `depth` as measured, of the camera's size, before any correction. Times of a camera grow.
     void add(std::size_t camera, DepthView depth, TimePoint captured);
@@ -55,7 +55,7 @@ public:
         std::size_t points = 0;  // of the last comparison; few: they share no view
         bool is_alarm = false;
     };
-    // Of the cameras with known places that share a view.
+    // The pairs of cameras with known places that share a view.
     const std::vector<Pair>& pairs() const { return pairs_; }
 
     // One of them with the alarm that this camera belongs to; null if there is none.

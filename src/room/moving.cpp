@@ -54,7 +54,7 @@ TeleportArc teleport_arc(const RoomExtent& extent, Vec3 from, Vec3 ahead) {
 
 Pose standing_at(Vec3 landing, const Pose& room_from_eye, double eyes_m) {
     Vec3 ahead = rotate(room_from_eye.rotation, {0, 0, 1});
-    // Who looks straight down looks on in the direction of the picture's upper border.
+    // A person who looks straight down looks on in the direction of the picture's upper border.
     if (std::hypot(ahead.x, ahead.z) < 0.05)
         ahead = rotate(room_from_eye.rotation, {0, -1, 0});
     const Vec3 eye{landing.x, landing.y + eyes_m, landing.z};

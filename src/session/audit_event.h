@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happened to the people of a session, for its audit log (docs/formats/audit.md).
+// Events of the people of a session, for its audit log (docs/formats/audit.md).
 #pragma once
 
 #include <string>

@@ -117,7 +117,7 @@ void check_rights(const HostSession& host) {
         std::abort();
 }
 
-// Who waits for admission gets nothing of the session.
+// A participant who waits for admission gets nothing of the session.
 void check_sent(const HostSession& host, const session::action::Send& send) {
     const auto found = host.participants().find(send.participant);
     if (found == host.participants().end() || !found->second.waits())

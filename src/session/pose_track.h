@@ -40,7 +40,7 @@ public:
         bool operator==(const Teleport&) const = default;
     };
     const std::optional<Teleport>& teleport() const { return teleport_; }
-    // What is subtracted from the present for display.
+    // The time that is subtracted from the present for display.
     Duration delay() const { return delay_; }
 
 private:

@@ -11,7 +11,7 @@
 namespace theatron::session {
 namespace {
 
-// Of a person's second byte.
+// Bits of a person's second byte.
 constexpr std::uint8_t records_bit = 1, muted_bit = 2;
 
 enum class RequestKind : std::uint8_t {

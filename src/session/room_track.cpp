@@ -237,7 +237,7 @@ std::optional<TimePoint> RoomTrackReader::next() const {
     return next_;
 }
 
-// Of the entry at at_; empty at the end. A damaged time is found by step().
+// The time of the entry at at_; empty at the end. A damaged time is found by step().
 void RoomTrackReader::read_time() {
     next_.reset();
     if (at_ >= part_.size())

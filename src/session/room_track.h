@@ -39,8 +39,8 @@ public:
         bool key = false;
         Bytes bytes;
     };
-    // What was noted since the last call; nothing if nothing has changed. A key part begins with a
-    // snapshot and needs no part before it.
+    // The changes noted since the last call; nothing if nothing has changed. A key part begins with
+    // a snapshot and needs no part before it.
     std::optional<Part> take(TimePoint now);
     // The next part must be a key part: parts before it were not recorded. Drops what was noted.
     void want_key();

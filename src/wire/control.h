@@ -108,8 +108,9 @@ struct ChooseCodecs {
 // The frame that a camera's calibration calls the room.
 enum class CameraFrame : std::uint8_t {
     room = 0,
-    // Of the person who publishes the camera: the origin is between the eyes, y is up, -z points
-    // where the person looks, without its slope. The person's pose moves it through the room.
+    // The head of the person who publishes the camera: the origin is between the eyes, y is up, -z
+    // points where the person looks, without its slope. The person's pose moves it through the
+    // room.
     person = 1,
 };
 

@@ -54,7 +54,7 @@ enum class TextCode : std::uint16_t {
     cameras_apart = 214,            // {0}: another camera's name, {1}: mm
     camera_without_depth = 215,     // {0}: name
 
-    // What a participant is sent.
+    // Notes to a participant.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for
     encoding_is_slow = 301,     // {0}: codec, {1}: ms a picture
     frames_were_late = 302,     // {0}: ms

@@ -21,7 +21,7 @@ public:
     // Draws into the window's framebuffer. `text_pixels` is the height of a normal text.
     void draw(const OverlayContent& content, Size window, double text_pixels);
 
-    // What was drawn last at this place, in shares of the window's width and height.
+    // The last picture at this place, in shares of the window's width and height.
     bool covers(Vec2 place) const;                    // a panel
     std::optional<int> command_at(Vec2 place) const;  // of a panel's button
 
