@@ -30,7 +30,8 @@ RigWatch make_watch(const std::vector<capture::CameraInfo>& cameras,
     std::vector<RigWatch::Camera> about;
     for (const std::size_t i : watched) {
         const Calibration& c = cameras[i].calibration;
-        about.push_back({c.depth, c.depth_unit_mm, c.room_from_camera});
+        about.push_back(
+            {c.depth, c.depth_unit_mm, c.room_from_camera, c.depth_offset_mm.value_or(0) / 1000});
     }
     return RigWatch(about);
 }

@@ -88,6 +88,7 @@ RigWatch::RigWatch(const std::vector<Camera>& cameras)
                            0,
                            0,
                            {}});
+        states_.back().surface.bias.offset_m = camera.depth_offset_m;
         states_.back().motion.room_from_camera = camera.room_from_camera;
         begin_reference(states_.back());
     }

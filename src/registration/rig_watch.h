@@ -30,6 +30,7 @@ public:
         CameraModel depth;
         double depth_unit_mm = 1;
         std::optional<Pose> room_from_camera;  // empty: unknown; then only its motion is watched
+        double depth_offset_m = 0;             // saved with the place: by which depth is too large
     };
     explicit RigWatch(const std::vector<Camera>& cameras);
 

@@ -100,6 +100,26 @@ TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAla
     EXPECT_FALSE(has_alarm(1));
 }
 
+// A place was found together with the offset of its camera's depth; only both together fit.
+TEST_F(Watching, TheSavedOffsetOfACamerasDepthBelongsToItsPlace) {
+    constexpr std::uint16_t offset_mm = 25;
+    for (const bool is_known : {false, true}) {
+        std::vector<RigWatch::Camera> cameras = about();
+        cameras[0].depth_offset_m = is_known ? offset_mm / 1000.0 : 0;
+        RigWatch watch(cameras);
+        for (const TimePoint end = now_ + std::chrono::seconds(10); now_ < end;
+             now_ += watch.period())
+            for (std::size_t c = 0; c < cameras_.size(); ++c) {
+                DepthImage depth = cameras_[c]->image(now_.time_since_epoch());
+                if (c == 0)
+                    for (std::uint16_t& pixel : depth.pixels)
+                        pixel = std::uint16_t(pixel == 0 ? 0 : pixel + offset_mm);
+                watch.add(c, depth.view(), now_);
+            }
+        EXPECT_EQ(watch.wrong_pair(0) == nullptr, is_known);
+    }
+}
+
 // A bed with raised sides that fills most of both pictures, above a floor; through the sensor.
 DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, double raised_m,
                synthetic::DepthSensor& sensor, std::uint32_t frame) {
