@@ -4,6 +4,7 @@ import json
 import pathlib
 import shutil
 import tempfile
+import time
 import unittest
 
 from theatron_process import Process, host, read_png, run, wait_until, write_png
@@ -114,11 +115,18 @@ class Person(unittest.TestCase):
                 # The body's colour in the middle tells that the picture is there.
                 return screen.pixels(180, 200, 1, 1)[0][2] > 180
 
+            def next_pixels():
+                time.sleep(0.2)
+                return screen.pixels(10, 20, 60, 60)
+
             def shown(*options):
                 with Process("join", h.greeting["link"], "--size", "480x360", "--renderer", "mesh", "--room", "off",
                              *options, env=screen.environment):
                     wait_until(body_is_seen)
+                    # The screen is read while the window is drawn: twice the same is a whole picture.
                     pixels = screen.pixels(10, 20, 60, 60)
+                    while (again := next_pixels()) != pixels:
+                        pixels = again
                 wait_until(lambda: not body_is_seen())  # the window is gone
                 return pixels
 

@@ -155,6 +155,17 @@ def share_outside(windows, begin, end, step=0.05):
     return free / count
 
 
+def growing(rows, allowed_mib):
+    """Of the rows of one role's processes, those that grow. The process that lived longest shows the growth over time, and the
+    level that a role needs. One that was killed early may have grown in steps up to this level: a codec was chosen, a backlog
+    came."""
+    if not rows:
+        return []
+    longest = max(rows, key=lambda row: row["seconds"])
+    return [row for row in rows if row["growth_mib"] > allowed_mib
+            and (row is longest or row["max_mib"] > longest["max_mib"] + allowed_mib)]
+
+
 def linear_fit(points):
     """(slope, value at the last point) of a straight line through (x, y) points."""
     n = len(points)

@@ -7,7 +7,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end"))
 
-from accounting import Accountant, Entry, Window, linear_fit, longest_recovery, share_outside
+from accounting import Accountant, Entry, Window, growing, linear_fit, longest_recovery, share_outside
 from cameras import fault_of_stretch
 from explanations import EXPLANATIONS, Happened, cost_of, kept_bytes, windows_of
 from recordings import HEADER, Picture, decodable, read_pictures
@@ -100,6 +100,15 @@ class Account(unittest.TestCase):
         slope, last = linear_fit([(0, 10), (1, 11), (2, 12)])
         self.assertAlmostEqual(slope, 1)
         self.assertAlmostEqual(last, 12)
+
+
+    def test_a_process_that_was_killed_early_grows_only_beyond_the_level_of_the_longest_lived(self):
+        def row(name, seconds, growth, most):
+            return {"process": name, "seconds": seconds, "growth_mib": growth, "max_mib": most}
+        short, tall, longest = row("short", 96, 40, 129), row("tall", 96, 40, 190), row("longest", 3600, 6, 131)
+        self.assertEqual(growing([short, tall, longest], 32), [tall])
+        self.assertEqual(growing([short], 32), [short])
+        self.assertEqual(growing([longest, row("leaking", 3601, 40, 150)], 32)[0]["process"], "leaking")
 
 
 class Chain(unittest.TestCase):

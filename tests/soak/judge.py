@@ -3,7 +3,7 @@
 import collections
 
 import cameras
-from accounting import Accountant, Entry, linear_fit, longest_recovery, share_outside
+from accounting import Accountant, Entry, growing, linear_fit, longest_recovery, share_outside
 from explanations import cost_of, windows_of
 from stage import possible_kinds
 
@@ -120,9 +120,10 @@ def judge(run, stage, examiner, seed):
         findings.append(f"only {outside:.0%} of the time had no fault that could lose pictures: this run says little")
     frames, left_out = delivered(stage.polls)
     processes = memory(stage.roles)
-    for row in processes:
-        if row["growth_mib"] > GROWTH_MIB:
-            findings.append(f"{row['process']} grows by {row['mib_per_minute']:.2f} MiB a minute")
+    for role in stage.roles:
+        rows = [row for row in processes if row["process"].rpartition("-")[0] == role.name]
+        findings += [f"{row['process']} grows by {row['mib_per_minute']:.2f} MiB a minute"
+                     for row in growing(rows, GROWTH_MIB)]
 
     return {"seed": seed, "seconds": run.end - run.begin, "patience": run.patience, "share_outside": outside,
             "left_out_kinds": possible_kinds([])[1], "expected": account.expected, "recorded": account.recorded,
