@@ -22,11 +22,22 @@ fuzz_one() {
     [ -d "tests/corpus/$target" ] && seeds=("tests/corpus/$target")
     if ! "$binary" -max_total_time="$time" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
         -artifact_prefix="build/dev/$target-" "$found" "${seeds[@]}" > "$log" 2>&1; then
-        printf '%-28s FAILED\n%s\n' "$target" "$(tail -n 40 "$log")"
+        printf '%-28s FAILED\n' "$target"
+        grep -E 'ERROR|SUMMARY|runtime error|^ +#[0-9]+ .*theatron|Test unit' "$log" | head -n 12 > "$log.failed"
+        tail -n 3 "$log" >> "$log.failed"
         return 1
     fi
     printf '%-28s ok, %s runs\n' "$target" \
         "$(grep -oE 'stat::number_of_executed_units: [0-9]+' "$log" | grep -oE '[0-9]+$')"
 }
 export -f fuzz_one
-printf '%s\n' "${targets[@]}" | xargs -I{} -P "$(nproc)" bash -c 'fuzz_one "$@"' fuzz "$time" {}
+rm -f build/dev/*.log.failed
+code=0
+printf '%s\n' "${targets[@]}" | xargs -I{} -P "$(nproc)" bash -c 'fuzz_one "$@"' fuzz "$time" {} || code=$?
+# Last, so that the end of a long output tells the reason.
+for failed in build/dev/*.log.failed; do
+    [ -e "$failed" ] || continue
+    printf '== %s\n' "$(basename "$failed" .log.failed)"
+    cat "$failed"
+done
+exit "$code"
