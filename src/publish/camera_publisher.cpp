@@ -14,6 +14,9 @@
 namespace theatron::publish {
 namespace {
 
+// Depth images that are searched for a head before the guess is taken.
+constexpr int images_with_a_head = 15;
+
 // Why this build cannot encode with this codec setting; empty: it can.
 std::string problem_of(bool depth, const std::string& codec) {
     if (depth) {
@@ -32,17 +35,27 @@ void shift(TimePoint& time, Duration offset) {
         time += offset;
 }
 
-// The eyes of the person in the first depth image of this camera.
+// The eyes of the person in the first depth images of this camera: of the first head in them, or
+// else what the last one of them suggests.
 std::optional<Vec3> eyes_before(capture::Camera& camera) {
+    std::optional<Vec3> eyes;
     const TimePoint end = steady_now() + CameraPublisher::person_patience;
-    for (TimePoint now = steady_now(); now < end; now = steady_now()) {
+    int images = 0;
+    for (TimePoint now = steady_now(); now < end && images < images_with_a_head;
+         now = steady_now()) {
         const capture::Capture capture = camera.next(end - now);
-        if (capture.kind == capture::Capture::Kind::frame)
-            return find_eyes(capture.frame->depth.view(), camera.info().calibration);
-        if (capture.kind != capture::Capture::Kind::nothing)
+        if (capture.kind == capture::Capture::Kind::nothing)
+            continue;
+        if (capture.kind != capture::Capture::Kind::frame)
+            break;
+        ++images;
+        const auto found = find_eyes(capture.frame->depth.view(), camera.info().calibration);
+        if (found)
+            eyes = found->middle;
+        if (found && found->of_head)
             break;
     }
-    return std::nullopt;
+    return eyes;
 }
 
 // Turns the cameras' places in the room into places before the person.

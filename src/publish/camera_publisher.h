@@ -34,7 +34,7 @@ public:
     // Opens the cameras; throws Error with one sentence if one cannot be opened. `places`: a file
     // with their poses in the room (docs/formats/places.md); empty: the cameras have none. With
     // CameraFrame::person the cameras see the participant, whom the first one finds in its first
-    // depth image (own_camera.h); this takes up to `person_patience` longer.
+    // depth images (own_camera.h); this takes up to `person_patience` longer.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
                     const capture::Progress& progress, const Sharing& sharing = {});
     static constexpr Duration person_patience = std::chrono::seconds(3);

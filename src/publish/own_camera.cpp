@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "registration/head_finder.h"
+
 namespace theatron::publish {
 namespace {
 
@@ -84,9 +86,8 @@ double across(Vec3 a, Vec3 b) {
     return std::hypot(a.x - b.x, a.z - b.z);
 }
 
-}  // namespace
-
-std::optional<Vec3> find_eyes(DepthView depth, const Calibration& calibration) {
+// The eyes of a person who is the nearest large surface; camera frame.
+std::optional<Vec3> eyes_of_nearest_surface(DepthView depth, const Calibration& calibration) {
     const Points all = points_of(depth, calibration);
     const auto front = nearest_surface(all);
     if (!front)
@@ -119,6 +120,19 @@ std::optional<Vec3> find_eyes(DepthView depth, const Calibration& calibration) {
     const Vec3 middle = middle_of(head);
     return inverse(upright_from_camera(calibration)) *
            Vec3{middle.x, top - eyes_below_top_m, middle.z};
+}
+
+}  // namespace
+
+std::optional<Eyes> find_eyes(DepthView depth, const Calibration& calibration) {
+    const registration::SurfaceCamera camera(calibration.depth, calibration.depth_unit_mm);
+    const Quat camera_from_upright = inverse(upright_from_camera(calibration)).rotation;
+    const auto head =
+        registration::find_head(camera, depth, rotate(camera_from_upright, {0, 1, 0}));
+    if (head && head->middle.z < farthest_m)
+        return Eyes{head->camera_from_head.translation, true};
+    const auto guess = eyes_of_nearest_surface(depth, calibration);
+    return guess ? std::optional(Eyes{*guess}) : std::nullopt;
 }
 
 Pose person_from_camera(const Calibration& calibration, std::optional<Vec3> eyes_in_camera) {

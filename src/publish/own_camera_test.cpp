@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/camera.h"
 #include "image/image.h"
+#include "testing/shared_data.h"
 
 namespace theatron::publish {
 namespace {
@@ -42,8 +44,61 @@ TEST(OwnCamera, FindsTheEyesOfAPersonBeforeAWall) {
         const DepthImage depth = person_picture(calibration.depth, eyes);
         const auto found = find_eyes(depth.view(), calibration);
         ASSERT_TRUE(found);
-        EXPECT_LT(length(*found - eyes), 0.05) << found->x << " " << found->y << " " << found->z;
+        EXPECT_TRUE(found->of_head);
+        const Vec3 at = found->middle;
+        EXPECT_LT(length(at - eyes), 0.05) << at.x << " " << at.y << " " << at.z;
     }
+}
+
+TEST(OwnCamera, ADeskBetweenTheCameraAndThePersonIsNotTakenForThePerson) {
+    const Calibration calibration = desk_camera();
+    const Vec3 eyes{0.05, -0.05, 0.9};
+    DepthImage depth = person_picture(calibration.depth, eyes);
+    // A screen and its stand fill the lower right part of the picture, 40 cm away.
+    for (int y = 150; y < 240; ++y)
+        for (int x = 170; x < 320; ++x)
+            depth.view().row(y)[x] = 400;
+    const auto found = find_eyes(depth.view(), calibration);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->of_head);
+    EXPECT_LT(length(found->middle - eyes), 0.05);
+}
+
+// Where the face is in the first picture was read by eye.
+TEST(OwnCamera, FindsTheFacesOfRealPeople) {
+    struct Case {
+        const char* sequence;
+        double left, top, right, bottom;
+    };
+    for (const Case& c : {Case{"turning-person_640x480", 280, 90, 370, 190},
+                          Case{"azure-nfov-2x2-pair-person_320x288", 105, 15, 140, 55}}) {
+        SCOPED_TRACE(c.sequence);
+        THEATRON_REQUIRE_DATA(c.sequence);
+        const auto camera =
+            capture::open_camera("folder:" + (testing::shared_data() / c.sequence).string());
+        const capture::Capture first = camera->next(1s);
+        ASSERT_EQ(first.kind, capture::Capture::Kind::frame);
+        const CameraModel& lens = camera->info().calibration.depth;
+        const auto eyes = find_eyes(first.frame->depth.view(), camera->info().calibration);
+        ASSERT_TRUE(eyes);
+        EXPECT_TRUE(eyes->of_head);
+        const Vec2 pixel = project(lens, eyes->middle).value();
+        EXPECT_TRUE(pixel.x > c.left && pixel.x < c.right) << pixel.x;
+        EXPECT_TRUE(pixel.y > c.top && pixel.y < c.bottom) << pixel.y;
+    }
+}
+
+// A person who bends over so that no head stands free.
+TEST(OwnCamera, WithoutAHeadTheNearestSurfaceIsThePerson) {
+    const Calibration calibration = desk_camera();
+    DepthImage depth(calibration.depth.size);
+    for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 320; ++x)
+            depth.view().row(y)[x] = x > 100 && x < 220 && y > 60 ? 1000 : 3000;
+    const auto found = find_eyes(depth.view(), calibration);
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->of_head);
+    EXPECT_NEAR(found->middle.z, 1, 0.1);
 }
 
 TEST(OwnCamera, APictureWithoutAPersonHasNoEyes) {
