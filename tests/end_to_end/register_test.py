@@ -59,6 +59,52 @@ def make_camera(folder, degrees, size=1.0, board=True):
     return f"folder:{folder}"
 
 
+def turned(quaternion, place):
+    w, x, y, z = quaternion
+    cross = [y * place[2] - z * place[1], z * place[0] - x * place[2], x * place[1] - y * place[0]]
+    again = [y * cross[2] - z * cross[1], z * cross[0] - x * cross[2], x * cross[1] - y * cross[0]]
+    return [p + 2 * (w * c + a) for p, c, a in zip(place, cross, again)]
+
+
+def to_first(first, second, place):
+    """A place in the second camera's frame, in the first one's."""
+    room = [a + b for a, b in zip(turned(second["quaternion"], place), second["translation"])]
+    w, *xyz = first["quaternion"]
+    return turned([w, *(-c for c in xyz)], [a - b for a, b in zip(room, first["translation"])])
+
+
+def make_room_camera(folder, degrees):
+    """Exact depth of two walls, a floor and a table, seen by a level camera 1.2 m high."""
+    (folder / "depth").mkdir(parents=True)
+    (folder / "calibration.json").write_text(json.dumps({"depth": {
+        "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
+    a = math.radians(degrees)
+    forward, right = (-math.sin(a), -math.cos(a)), (math.cos(a), -math.sin(a))
+    px, py, pz = position(degrees, 2.2)
+    rows = []
+    for y in range(HEIGHT):
+        row = []
+        for x in range(WIDTH):
+            rx, ry = (x - 159.5) / FOCAL, (y - 143.5) / FOCAL
+            dx, dy, dz = right[0] * rx + forward[0], -ry, right[1] * rx + forward[1]
+            hits = [3.9]
+            if dy < 0:
+                hits.append(-py / dy)  # the floor
+                table = (0.7 - py) / dy
+                if abs(px + dx * table) < 0.5 and abs(pz + dz * table) < 0.4:
+                    hits.append(table)
+            for slope in (-0.5, 0.5):  # two walls with an edge between them: z = -0.9 - |x| / 2
+                wall = (-0.9 - pz - slope * px) / (dz + slope * dx)
+                if wall > 0 and slope * (px + dx * wall) >= 0:
+                    hits.append(wall)
+            row.append(round(1000 * min(hits)))
+        rows.append(struct.pack(f">{WIDTH}H", *row))
+    write_png(folder / "depth" / "00000.png", WIDTH, HEIGHT, 16, 1, rows)
+    for n in range(1, FRAMES):
+        shutil.copy(folder / "depth" / "00000.png", folder / "depth" / f"{n:05}.png")
+    return f"folder:{folder}"
+
+
 class Register(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -174,6 +220,29 @@ class Register(unittest.TestCase):
         self.assertIn("Registration of 2 cameras", html)
         self.assertIn("Fixed errors of depth", html)
         self.assertNotIn("http", html)
+
+    def test_a_camera_that_was_moved_a_little_is_found_again_without_a_board(self):
+        cameras = [make_room_camera(self.folder / name, degrees) for name, degrees in (("west", -30), ("east", 30))]
+        old, new = self.folder / "old.json", self.folder / "new.json"
+        moved = (0.012, -0.006, 0.008)
+        # Rotations of cameras that are level: about x by 180 degrees, then about y.
+        entries = [{"camera": name, "depth_offset_mm": 0, "room_from_camera": {
+            "quaternion": [0, math.cos(math.radians(degrees) / 2), 0, -math.sin(math.radians(degrees) / 2)],
+            "translation": [p + m for p, m in zip(position(degrees, 2.2), shift)]}}
+            for name, degrees, shift in (("west", -30, (0, 0, 0)), ("east", 30, moved))]
+        old.write_text(json.dumps({"theatron_places": 1, "made": "", "method": "by hand", "cameras": entries}))
+        code, out, errors = self.register(*cameras, output=new, options=("--refine", old))
+        self.assertEqual(code, 0, errors)
+        saved = json.loads(new.read_text())
+        self.assertIn("surfaces; before: by hand", saved["method"])
+        # Places that the second camera sees, by its new pose relative to the first camera's.
+        poses = [camera["room_from_camera"] for camera in saved["cameras"]]
+        true = [entry["room_from_camera"] for entry in entries]
+        true[1] = true[1] | {"translation": position(30, 2.2)}
+        for place in ((0, 0, 2.2), (-0.5, 0, 2.2), (0.5, 0, 2.2), (0, 0.5, 2), (0, -0.4, 2.5)):
+            found, expected = (to_first(*pair, place) for pair in (poses, true))
+            self.assertLess(math.dist(found, expected), 0.005)
+            self.assertGreater(math.dist(to_first(*(e["room_from_camera"] for e in entries), place), expected), 0.008)
 
     def test_places_of_other_cameras_are_refused(self):
         file = self.folder / "others.json"
