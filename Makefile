@@ -28,6 +28,7 @@ build: setup
 	@cmake --build --preset release --target theatron theatron_bench
 
 demo: build
+	@test -e demo/case || build/release/apps/theatron/theatron case synth demo/case --dicom demo/ct
 	@build/release/apps/theatron/theatron demo $(SECONDS_OF_DEMO)
 
 test: setup

@@ -4,14 +4,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "cases/case_folder.h"
 #include "cases/case_pictures.h"
 #include "cases/import_case.h"
+#include "cases/synth_case.h"
 #include "cli/progress.h"
 #include "commands.h"
 #include "files/png_file.h"
+#include "medical/mesh_measures.h"
 
 namespace theatron::app {
 namespace {
@@ -128,8 +131,15 @@ void add_import(CLI::App& group) {
     command->callback([arguments] { import(*arguments); });
 }
 
+constexpr std::pair<const char*, cases::PartsView> views[] = {
+    {"corner", cases::PartsView::corner}, {"front", cases::PartsView::front},
+    {"back", cases::PartsView::back},     {"left", cases::PartsView::left},
+    {"right", cases::PartsView::right},   {"above", cases::PartsView::above},
+    {"below", cases::PartsView::below}};
+
 struct ShowArguments {
     std::string folder, png, plane = "parts", window;
+    cases::PartsView from = cases::PartsView::corner;
     double at_mm = std::nan("");
     int series = 1;
 };
@@ -155,7 +165,8 @@ medical::Window window_of(const std::string& text) {
 void show(const ShowArguments& arguments) {
     const cases::LoadedCase loaded = cases::read_case(arguments.folder);
     if (arguments.plane == "parts") {
-        files::write_png(arguments.png, cases::picture_of_parts(loaded, {1000, 800}).view());
+        files::write_png(arguments.png,
+                         cases::picture_of_parts(loaded, {1000, 800}, arguments.from).view());
         return;
     }
     const auto series = std::size_t(arguments.series - 1);
@@ -189,6 +200,18 @@ void add_show(CLI::App& group) {
         ->add_option("--plane", arguments->plane, "The parts, or a slice: axial, coronal, sagittal")
         ->check(CLI::IsMember({"parts", "axial", "coronal", "sagittal"}))
         ->capture_default_str();
+    command
+        ->add_option_function<std::string>(
+            "--from",
+            [arguments](const std::string& text) {
+                for (const auto& [name, view] : views)
+                    if (text == name)
+                        arguments->from = view;
+            },
+            "The side from which the parts are seen: corner, front, back, left, right, above, "
+            "below")
+        ->check(CLI::IsMember({"corner", "front", "back", "left", "right", "above", "below"}))
+        ->default_str("corner");
     command->add_option("--at", arguments->at_mm,
                         "Place of the slice: z, y or x in millimetres; usually the middle");
     command->add_option("--window", arguments->window,
@@ -197,6 +220,35 @@ void add_show(CLI::App& group) {
     command->add_option("--series", arguments->series, "Number of the series, from 1")
         ->capture_default_str();
     command->callback([arguments] { show(*arguments); });
+}
+
+struct SynthArguments {
+    std::string folder, dicom;
+    cases::SynthOptions options;
+};
+
+void synth(const SynthArguments& arguments) {
+    const cases::Progress progress = cli::show_progress();
+    const cases::SynthCase made = cases::make_synth_case(arguments.options, progress);
+    cases::write_synth_case(made, arguments.folder, arguments.dicom, progress);
+    for (std::size_t i = 0; i < made.meshes.size(); ++i)
+        std::printf("part: %s, %.1f ml\n", made.manifest.parts[i].name.c_str(),
+                    medical::shape_of(made.meshes[i]).volume_mm3 * 1e-3);
+    std::printf("The generated case lies in '%s'%s%s%s.\n", arguments.folder.c_str(),
+                arguments.dicom.empty() ? "" : ", its CT as DICOM files in '",
+                arguments.dicom.c_str(), arguments.dicom.empty() ? "" : "'");
+}
+
+void add_synth(CLI::App& group) {
+    const auto arguments = std::make_shared<SynthArguments>();
+    CLI::App* command = group.add_subcommand(
+        "synth", "Generates a case: a liver with segments, vessels and tumours, and its CT.");
+    command->add_option("CASE", arguments->folder, "The case's folder, which is made")->required();
+    command->add_option("--seed", arguments->options.seed, "Equal seeds give equal cases")
+        ->capture_default_str();
+    command->add_option("--dicom", arguments->dicom,
+                        "A further folder, which is made, for the CT as DICOM files");
+    command->callback([arguments] { synth(*arguments); });
 }
 
 }  // namespace
@@ -208,6 +260,7 @@ void add_case_command(CLI::App& app) {
     add_check(*group);
     add_import(*group);
     add_show(*group);
+    add_synth(*group);
 }
 
 }  // namespace theatron::app

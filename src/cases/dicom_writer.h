@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes one DICOM image: CT, grey, 16 bits, uncompressed (explicit VR, little-endian).
 //
-// For tests. Equal arguments give equal bytes on every machine: there are no
+// For generated cases and tests. Equal arguments give equal bytes on every machine: there are no
 // dates and no random numbers in it.
 #pragma once
 

@@ -10,10 +10,36 @@ namespace {
 
 using medical::Mesh;
 
-// From the front, turned and tilted a little: x of the picture to the patient's left.
-constexpr Vec3 to_right{0.94, 0.34, 0};
-constexpr Vec3 to_viewer{0.33, -0.91, 0.25};
-constexpr Vec3 light{-0.35, -0.72, 0.6};
+// Unit vectors in the patient: the picture's right and up directions, and that to the viewer.
+struct Camera {
+    Vec3 right, up, viewer;
+    Vec3 light() const { return normalized(right * -0.35 + up * 0.6 + viewer * 0.72); }
+};
+
+Camera camera_of(PartsView view) {
+    constexpr Vec3 head{0, 0, 1}, front{0, -1, 0}, left{1, 0, 0};
+    const auto looking = [](Vec3 viewer, Vec3 up) {
+        const Vec3 v = normalized(viewer), right = normalized(cross(up, v));
+        return Camera{right, cross(v, right), v};
+    };
+    switch (view) {
+        case PartsView::front:
+            return looking(front, head);
+        case PartsView::back:
+            return looking(-front, head);
+        case PartsView::left:
+            return looking(left, head);
+        case PartsView::right:
+            return looking(-left, head);
+        case PartsView::above:
+            return looking(head, front);
+        case PartsView::below:
+            return looking(-head, front);
+        case PartsView::corner:
+            break;
+    }
+    return looking({0.33, -0.91, 0.25}, head);
+}
 
 struct Pixel {
     double depth = -1e30;  // towards the viewer
@@ -22,8 +48,15 @@ struct Pixel {
 
 class Canvas {
 public:
-    Canvas(Size size, Vec3 center, double mm_per_pixel)
-        : size_(size), center_(center), mm_per_pixel_(mm_per_pixel), pixels_(size.area()) {}
+    Canvas(Size size, Vec3 center, double mm_per_pixel, const Camera& camera)
+        : size_(size),
+          center_(center),
+          mm_per_pixel_(mm_per_pixel),
+          right_(camera.right),
+          up_(camera.up),
+          view_(camera.viewer),
+          light_(camera.light()),
+          pixels_(size.area()) {}
 
     // Draws `mesh`; each pixel keeps the nearest surface.
     void draw(const Mesh& mesh, Rgb color) {
@@ -68,8 +101,8 @@ public:
 
 private:
     Vec3 shaded(Rgb color, Vec3 normal) const {
-        const double diffuse = std::max(0.0, dot(normal, normalized(light)));
-        const Vec3 half = normalized(normalized(light) + view_);
+        const double diffuse = std::max(0.0, dot(normal, light_));
+        const Vec3 half = normalized(light_ + view_);
         const double gloss = std::pow(std::max(0.0, dot(normal, half)), 40) * 0.25;
         const auto linear = [&](std::uint8_t c) { return (c / 255.0) * (c / 255.0); };
         const Vec3 base{linear(color.r), linear(color.g), linear(color.b)};
@@ -114,15 +147,14 @@ private:
     Size size_;
     Vec3 center_;
     double mm_per_pixel_;
-    Vec3 view_ = normalized(to_viewer);
-    Vec3 right_ = normalized(to_right - view_ * dot(to_right, view_));
-    Vec3 up_ = cross(view_, right_);
+    Vec3 right_, up_, view_, light_;
     std::vector<Pixel> pixels_;
 };
 
 }  // namespace
 
-ColorImage picture_of_parts(const LoadedCase& loaded, Size size) {
+ColorImage picture_of_parts(const LoadedCase& loaded, Size size, PartsView view) {
+    const Camera camera = camera_of(view);
     Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
     for (std::size_t i = 0; i < loaded.meshes.size(); ++i) {
         if (loaded.manifest.parts[i].opacity == 0)
@@ -133,9 +165,15 @@ ColorImage picture_of_parts(const LoadedCase& loaded, Size size) {
         high = {std::max(high.x, box.high_mm.x), std::max(high.y, box.high_mm.y),
                 std::max(high.z, box.high_mm.z)};
     }
-    const double width = std::max(high.x - low.x, 1.0), height = std::max(high.z - low.z, 1.0);
-    Canvas canvas(size, (low + high) * 0.5,
-                  std::max(1.2 * width / size.width, 1.25 * height / size.height));
+    const Vec3 extent = high - low;
+    const auto shown = [&](Vec3 axis) {
+        return std::max(1.0, std::abs(axis.x) * extent.x + std::abs(axis.y) * extent.y +
+                                 std::abs(axis.z) * extent.z);
+    };
+    constexpr double margin = 1.08;
+    const double mm_per_pixel =
+        margin * std::max(shown(camera.right) / size.width, shown(camera.up) / size.height);
+    Canvas canvas(size, (low + high) * 0.5, mm_per_pixel, camera);
     for (std::size_t i = 0; i < loaded.meshes.size(); ++i)
         if (loaded.manifest.parts[i].opacity == 1)
             canvas.draw(loaded.meshes[i], loaded.manifest.parts[i].color);
