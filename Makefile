@@ -6,7 +6,7 @@ SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--s
 .PHONY: help setup build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
 
 help:
-	@echo "make demo               install what is needed, build, and show a streamed room"
+	@echo "make demo               install what is needed, build, and meet two people in a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
 	@echo "make test               build and run every check"
 	@echo "make test-all           the same with what takes long: fuzzing, TSan everywhere, clang-tidy"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron demo: a host and a viewer in one program, with cameras that need no
-// hardware, and pictures of what the viewer sees.
+// hardware, in a window or as pictures of what the viewer sees.
 #include <unistd.h>
 
 #include <cstdio>
@@ -22,6 +22,7 @@
 #include "participant_json.h"
 #include "scripted_people.h"
 #include "viewer/offscreen_view_native.h"
+#include "viewer_window.h"
 
 namespace theatron::app {
 namespace {
@@ -33,7 +34,12 @@ struct Flags {
     std::string out = "demo";
     std::string listen = "127.0.0.1:0";
     double seconds = 0;
+    bool no_window = false;
 };
+
+// In a window, the user stands where both people and the table are in view.
+constexpr viewer::ViewChoice window_view{CameraId{0}, -65, 8};
+constexpr Size window_size{1280, 720};
 
 struct View {
     const char* file;
@@ -41,30 +47,32 @@ struct View {
     viewer::ViewChoice choice;
 };
 
-void run(const Flags& flags) {
-    cli::catch_stop_signals();
-    const std::filesystem::path folder = flags.out;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw Error("Cannot make the folder '" + flags.out +
-                    "' for the pictures: " + error.message() + ".");
-
-    host::HostOptions options;
-    options.cameras = flags.cameras;
-    options.listen = net::parse_endpoint(flags.listen);
-    options.state = folder / "host";
-    options.name = "demo operating room";
-    host::Host host(options, cli::show_progress());
-
+client::Participant::Options viewer_options(const net::Link& link) {
     client::Participant::Options join;
-    join.link = net::parse_link(host.link());
+    join.link = link;
     join.name = "demo viewer";
     join.remark = [](const std::string& text) { log::say(text); };
     join.keeps_room = true;
-    client::Participant viewer(join);
-    ScriptedPeople people(join.link);
+    return join;
+}
 
+// The people of the script, on a thread of their own.
+class Meeting {
+public:
+    explicit Meeting(const net::Link& link)
+        : thread_([people = std::make_unique<ScriptedPeople>(link)](const std::stop_token& stop) {
+              while (!stop.stop_requested()) {
+                  people->on_tick();
+                  std::this_thread::sleep_for(10ms);
+              }
+          }) {}
+
+private:
+    std::jthread thread_;
+};
+
+void show_pictures(const Flags& flags, const std::filesystem::path& folder, const net::Link& link) {
+    client::Participant viewer(viewer_options(link));
     constexpr Size size{1280, 720};
     viewer::OffscreenView scene;
     const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
@@ -72,20 +80,16 @@ void run(const Flags& flags) {
                           {"as_mesh.png", "mesh", {CameraId{0}, -45, 5}},
                           {"as_splats.png", "splat", {CameraId{0}, -45, 5}}};
 
-    std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
-              << "  " << flags.program << " join '" << host.link() << "'\n\n"
-              << "Two scripted people are in it, who point, hold a brick and hand it over.\n"
-              << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
+    std::cout << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
     bool announced = false;
     while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         viewer.wait_for_frame(20ms);
-        people.on_tick();
         scene.take(viewer);
         const TimePoint now = steady_now();
-        if (scene.has_picture() && now >= next_picture) {
+        if (scene.can_draw() && now >= next_picture) {
             for (const View& view : views)
                 files::write_png(folder / view.file,
                                  scene.picture({view.choice, size, view.renderer, {}}).view());
@@ -102,11 +106,61 @@ void run(const Flags& flags) {
             next_line = now + (isatty(STDOUT_FILENO) ? Duration(500ms) : Duration(2s));
         }
     }
+    if (!announced)
+        throw Error("The demo ended before the first picture; give it more time with --seconds.");
+}
+
+// Null where none can be opened, for whatever reason: the demo then writes pictures.
+std::unique_ptr<xr::DesktopWindow> open_window(const Flags& flags) {
+    if (flags.no_window || !has_display())
+        return nullptr;
+    try {
+        return std::make_unique<xr::DesktopWindow>("Theatron", window_size);
+    } catch (const Error&) {
+        log::say("No window can be opened on this display.");
+        return nullptr;
+    }
+}
+
+void run(const Flags& flags) {
+    cli::catch_stop_signals();
+    const std::filesystem::path folder = flags.out;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw Error("Cannot make the folder '" + flags.out + "': " + error.message() + ".");
+
+    host::HostOptions options;
+    options.cameras = flags.cameras;
+    options.listen = net::parse_endpoint(flags.listen);
+    options.state = folder / "host";
+    options.name = "demo operating room";
+    // Objects that an earlier demo left there.
+    std::filesystem::remove(options.state / "room", error);
+    host::Host host(options, cli::show_progress());
+    const net::Link link = net::parse_link(host.link());
+    const auto window = open_window(flags);
+    const Meeting meeting(link);
+
+    std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
+              << "  " << flags.program << " join '" << host.link() << "'\n\n"
+              << "Two scripted people are in it, who point, hold a brick and hand it over.\n"
+              << std::flush;
+    if (window) {
+        std::cout << "You meet them in the window: F1 shows its keys, Esc, twice, ends the demo.\n"
+                  << std::flush;
+        ViewerWindow shown{.join = viewer_options(link)};
+        shown.viewer.view = window_view;
+        shown.greeting =
+            "You are in a generated operating room, with two scripted people. F1: keys";
+        shown.seconds = flags.seconds;
+        show(*window, std::move(shown));
+    } else {
+        show_pictures(flags, folder, link);
+    }
     std::cout << "\nThe demo has ended. Next, try your own camera:\n"
               << "  " << flags.program << " host --camera mkv:RECORDING.mkv,loop=1\n"
               << "  " << flags.program << " host --help\n";
-    if (!announced)
-        throw Error("The demo ended before the first picture; give it more time with --seconds.");
 }
 
 }  // namespace
@@ -114,13 +168,16 @@ void run(const Flags& flags) {
 void add_demo_command(CLI::App& app) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand(
-        "demo", "See it work: a generated room with two scripted people, streamed to a viewer");
+        "demo",
+        "See it work: a generated room with two scripted people, in a window or as pictures");
     command->footer("Example: theatron demo --seconds 20 --out pictures");
     cli::add_camera_option(*command, flags->cameras,
                            "Other cameras than the generated ones; repeat for more");
     command->add_option("--out", flags->out, "Folder for the pictures")->capture_default_str();
     command->add_option("--listen", flags->listen, "ADDRESS:PORT of the demo's host")
         ->capture_default_str();
+    command->add_flag("--no-window", flags->no_window,
+                      "Write pictures even where there is a display");
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->callback([flags, &app] {
         flags->program = app.get_name();

@@ -156,6 +156,9 @@ void run(Flags& flags) {
         for (const auto& [role, may] : others)
             std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
         std::cout << "Links for one person, with an end, and as QR codes: theatron link --help\n"
+                  << (flags.options.cameras.empty()
+                          ? "No camera is streamed (--camera): people meet in an empty room.\n"
+                          : "")
                   << "Ctrl-C ends the session.\n"
                   << std::flush;
     }
@@ -216,7 +219,7 @@ void add_host_command(CLI::App& app) {
         "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "
         "--listen 0.0.0.0:4400 --name 'OR 3'\n"
         "  theatron host --camera k4a:0 --region 0=200:150:240:180");
-    cli::add_camera_option(*command, flags->options.cameras)->required();
+    cli::add_camera_option(*command, flags->options.cameras);
     command->add_option("--places", flags->places,
                         "Where the cameras are in the room: a file that 'theatron register' wrote. "
                         "A camera's own place=X:Y:Z:YAW:PITCH:ROLL is the last word");

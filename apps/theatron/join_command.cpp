@@ -135,7 +135,7 @@ struct OffscreenPicture {
     // is this person's head for others.
     void take(client::Participant& participant, RoomLines& room) {
         scene.take(participant);
-        if (scene.has_picture() && !stands) {
+        if (scene.can_draw() && !stands) {
             room.stand(scene.view(view, size).room_from_eye * Pose{Quat{0, 1, 0, 0}, {}});
             stands = true;
         }
@@ -150,7 +150,7 @@ struct OffscreenPicture {
     }
 
     void write(const Flags& flags) {
-        if (!scene.has_picture())
+        if (!scene.can_draw())
             throw Error("No picture came from the host, so none was written.");
         viewer::OffscreenView::Wish wish{view, size, drawn_with(), {}};
         if (flags.stereo)
@@ -244,6 +244,11 @@ bool obey(client::Participant& participant, RoomLines& room, InputLines& input) 
     return !input.closed_by_person();
 }
 
+bool has_no_camera(const client::Participant& participant) {
+    std::uint64_t generation = 0;
+    return participant.cameras(generation).empty();
+}
+
 nlohmann::json json_of(const client::Participant& participant) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
@@ -274,14 +279,15 @@ void run(const Flags& flags) {
 
     if (flags.window()) {
         viewer::check_renderer_choice(flags.renderer);
-        ViewerWindow window{options, publisher.get(), {}, parse_size(flags.size), flags.seconds};
-        window.viewer.view = viewer::parse_view(flags.view);
-        window.viewer.room = parse_room(flags);
-        window.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
-        window.viewer.renderer = flags.renderer;
-        window.viewer.scale = parse_render_scale(flags.render_scale);
+        ViewerWindow shown{options, publisher.get(), {}, {}, flags.seconds};
+        shown.viewer.view = viewer::parse_view(flags.view);
+        shown.viewer.room = parse_room(flags);
+        shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
+        shown.viewer.renderer = flags.renderer;
+        shown.viewer.scale = parse_render_scale(flags.render_scale);
         cli::catch_stop_signals();
-        show(std::move(window));
+        xr::DesktopWindow window("Theatron", parse_size(flags.size));
+        show(window, std::move(shown));
         return;
     }
 
@@ -323,6 +329,10 @@ void run(const Flags& flags) {
         room.on_tick(participant);
         print_managed(participant);
         const TimePoint now = steady_now();
+        // Nothing more is to come from a host without cameras.
+        if (first_frame == TimePoint{} && status.phase == client::Participant::Phase::joined &&
+            has_no_camera(participant))
+            first_frame = now;
         if (!warm && first_frame != TimePoint{} && now - first_frame >= warmup) {
             participant.reset_figures();
             warm = true;

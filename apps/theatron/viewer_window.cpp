@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <mutex>
 #include <utility>
 
@@ -10,7 +11,6 @@
 #include "cli/stop_signal.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
-#include "xr/desktop_window_native.h"
 #include "xr/overlay_native.h"
 #include "xr/scaled_picture_native.h"
 
@@ -69,8 +69,14 @@ void print_end(viewer::Viewer& viewer, const client::Participant& participant,
 
 }  // namespace
 
-void show(ViewerWindow options) {
-    xr::DesktopWindow window("Theatron", options.size);
+bool has_display() {
+    for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"})
+        if (const char* value = std::getenv(variable); value && *value != '\0')
+            return true;
+    return false;
+}
+
+void show(xr::DesktopWindow& window, ViewerWindow options) {
     xr::ScaledPicture picture;
     xr::Overlay overlay;
     Remarks remarks;
@@ -127,6 +133,8 @@ void show(ViewerWindow options) {
             options.seconds > 0 && first != TimePoint{} &&
             now - first >= seconds_to_duration(options.seconds))
             break;
+        if (viewer.first_picture_at() != TimePoint{} && !options.greeting.empty())
+            viewer.note(std::exchange(options.greeting, {}), now);
         for (const std::string& text : remarks.take())
             viewer.note(text, now);
         if (now < next_picture)

@@ -4,6 +4,7 @@
 
 #include "publish/camera_publisher.h"
 #include "viewer/viewer.h"
+#include "xr/desktop_window_native.h"
 
 namespace theatron::app {
 
@@ -11,12 +12,14 @@ struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
     viewer::Viewer::Options viewer;
-    Size size{1280, 720};
-    double seconds = 0;  // end this long after the first picture; 0: never
+    std::string greeting;  // shown for some seconds after the first picture
+    double seconds = 0;    // end this long after the first picture; 0: never
 };
 
-// Returns when the person leaves. Throws Error if the window cannot be opened, or if the host
-// refused to let the person in.
-void show(ViewerWindow options);
+// True where a desktop is named by the environment; a window may still fail to open there.
+bool has_display();
+
+// Returns when the person leaves. Throws Error if the host refused to let the person in.
+void show(xr::DesktopWindow& window, ViewerWindow options);
 
 }  // namespace theatron::app

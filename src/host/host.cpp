@@ -64,9 +64,6 @@ wire::Camera describe(const capture::CameraInfo& info) {
 }  // namespace
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
-    if (options.cameras.empty())
-        throw Error(
-            "A host needs a camera; give one with --camera, for example --camera folder:DIR.");
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     if (!options.places.empty())
         places = capture::load_places(options.places);

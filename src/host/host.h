@@ -18,7 +18,7 @@
 namespace theatron::host {
 
 struct HostOptions {
-    std::vector<std::string> cameras;  // specifications
+    std::vector<std::string> cameras;  // specifications; none: people meet without cameras
     std::filesystem::path places;      // docs/formats/places.md; empty: none
     std::vector<std::string> filters;  // filter_choice.h
     net::Endpoint listen;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace theatron::room {
 namespace {
@@ -50,6 +51,14 @@ TeleportArc teleport_arc(const RoomExtent& extent, Vec3 from, Vec3 ahead) {
         speed.y -= gravity_m_per_s2 * step_s;
     }
     return arc;
+}
+
+Pose meeting_place(ParticipantId person) {
+    constexpr double radius_m = 1.5, looks_at_m = 1.35;
+    // Multiples of the golden angle never come near to each other early.
+    const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * double(std::uint32_t(person));
+    const Vec3 eye{radius_m * std::sin(angle), standing_eyes_m, radius_m * std::cos(angle)};
+    return look_at(eye, {0, looks_at_m, 0}, {0, 1, 0});
 }
 
 Pose standing_at(Vec3 landing, const Pose& room_from_eye, double eyes_m) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/ids.h"
 #include "room/virtual_room.h"
 
 namespace theatron::room {
@@ -16,6 +17,11 @@ inline constexpr double standing_eyes_m = 1.65, sitting_eyes_m = 1.2;
 
 // The place nearest to `eye` that is inside of the walls and above the floor.
 Vec3 kept_inside(const RoomExtent& extent, Vec3 eye);
+
+// Where a person begins in a meeting without cameras: the pose of an eye (z forward, y down) that
+// stands on a circle around the room's origin and looks at its middle. People with numbers near to
+// each other stand apart.
+Pose meeting_place(ParticipantId person);
 
 struct TeleportArc {
     std::vector<Vec3> points;  // from the hand to where the arc ends

@@ -40,6 +40,21 @@ TEST(Moving, AnArcThatMeetsAWallHasNoLanding) {
     EXPECT_FALSE(teleport_arc(extent, {0, -1, 50}, {0, 1, 0}).landing) << "outside";
 }
 
+TEST(Moving, PeopleWhoMeetWithoutCamerasStandApartAndLookAtTheMiddle) {
+    const auto walls = extent_of({});
+    ASSERT_TRUE(walls);
+    std::vector<Vec3> places;
+    for (std::uint32_t person = 1; person <= 8; ++person) {
+        const Pose eye = meeting_place(ParticipantId{person});
+        EXPECT_EQ(kept_inside(*walls, eye.translation), eye.translation);
+        const Vec3 towards_middle = normalized(Vec3{0, 1.35, 0} - eye.translation);
+        EXPECT_LT(length(rotate(eye.rotation, {0, 0, 1}) - towards_middle), 1e-9);
+        for (const Vec3& other : places)
+            EXPECT_GT(length(eye.translation - other), 0.6);
+        places.push_back(eye.translation);
+    }
+}
+
 TEST(Moving, StandsUprightAndLooksOn) {
     for (const Vec3 at : {Vec3{1, 0.4, 0}, Vec3{1, 1.6, 0}, Vec3{0.001, 0, 0}}) {
         const Pose eye = look_at({0, 1.6, 0}, at, {0, 1, 0});

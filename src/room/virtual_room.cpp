@@ -88,6 +88,8 @@ std::optional<RoomExtent> extent_of(const std::vector<RoomCamera>& cameras) {
             ahead.y = 0;
             include(ahead);
         }
+    if (cameras.empty())
+        include({});
     if (!extent)
         return extent;
     const auto widen = [](double& low, double& high) {
@@ -126,7 +128,7 @@ void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& vi
     frame.objects.push_back({&*floor_, {}, floor_look, true});
     frame.objects.push_back({&*walls_, {}, wall_look, true});
     const Vec3 eye = view.room_from_eye.translation;
-    for (const RoomCamera& camera : cameras_) {
+    for (const RoomCamera& camera : *cameras_) {
         const Pose& pose = camera.calibration.room_from_camera;
         const double distance = length(pose.translation - eye);
         if (!camera.calibration.registered || distance < free_around_eye_m)

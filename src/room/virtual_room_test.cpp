@@ -39,9 +39,20 @@ TEST(VirtualRoom, HoldsAllCamerasAndNeverFeelsNarrow) {
     EXPECT_GT(two->height, 3.3);
 }
 
+TEST(VirtualRoom, IsAroundTheOriginWhereThereAreNoCameras) {
+    render::test_context();
+    const auto extent = extent_of({});
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->left, -extent->right);
+    EXPECT_EQ(extent->back, -extent->front);
+    VirtualRoom room;
+    room.set_cameras({});
+    EXPECT_EQ(room.extent(), extent);
+    EXPECT_FALSE(seen(room, render::view_towards({0, 1.7, 2}, {0, 1, 0}, 60, {64, 48})).empty());
+}
+
 TEST(VirtualRoom, IsNotThereUntilItIsKnownWhereTheCamerasAre) {
     render::test_context();
-    EXPECT_FALSE(extent_of({}));
     EXPECT_FALSE(extent_of({camera_at({0, 2, 1}, "a", false)}));
     VirtualRoom room;
     const auto view = render::view_towards({0, 1.7, 3}, {0, 1, 0}, 60, {64, 48});
@@ -51,7 +62,7 @@ TEST(VirtualRoom, IsNotThereUntilItIsKnownWhereTheCamerasAre) {
     room.set_cameras({camera_at({0, 2, 1}, "a", false), camera_at({2, 2, 1}, "b")});
     ASSERT_EQ(seen(room, view).texts.size(), 1u);
     EXPECT_EQ(seen(room, view).texts[0].utf8, "b");
-    room.set_cameras({});
+    room.set_cameras({camera_at({0, 2, 1}, "a", false)});
     EXPECT_TRUE(seen(room, view).empty()) << "another host's cameras may be nowhere";
 }
 

@@ -7,6 +7,10 @@
 
 namespace theatron::viewer {
 
+CameraModel usual_lens() {
+    return pinhole({1280, 720}, 80);
+}
+
 render::CameraView Eye::view(Size picture) const {
     return render::view_of_camera(lens_, viewpoint_->room_from_eye, picture);
 }
@@ -44,6 +48,12 @@ bool Eye::follow(const ViewableCameras& cameras, bool must_exist, Size picture, 
     go_home(home_, cameras, picture);
     home_pose_ = own;
     return true;
+}
+
+void Eye::stand(const Pose& room_from_eye) {
+    constexpr double pivot_m = 1.5;
+    viewpoint_ = {room_from_eye, room_from_eye * Vec3{0, 0, pivot_m}};
+    lens_ = usual_lens();
 }
 
 void Eye::go_to(const Pose& room_from_eye) {

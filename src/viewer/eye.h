@@ -18,6 +18,9 @@ struct ViewableCameras {
     const std::map<CameraId, receive::CameraFramePtr>& newest;  // of cameras that sent a picture
 };
 
+// Of an eye that did not start from a camera.
+CameraModel usual_lens();
+
 // Reads no clock; from one thread. `picture` is the size of the picture in pixels.
 class Eye {
 public:
@@ -30,7 +33,8 @@ public:
     // False until some camera has sent a picture.
     bool is_placed() const { return viewpoint_.has_value(); }
     const ViewChoice& home() const { return home_; }
-    // Needs is_placed(). The eye has the lens of the camera whose view it started from.
+    // Needs is_placed(). The eye has the lens of the camera whose view it started from, else
+    // usual_lens().
     render::CameraView view(Size picture) const;
 
     // Moves to this camera's view, which becomes the home view. Throws Error if the camera does not
@@ -41,6 +45,10 @@ public:
     // follows that camera if it is moved, until the person has gone elsewhere. True if the view
     // changed. With `must_exist`, throws Error if there is no camera of the chosen number.
     bool follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now);
+
+    // Needs !is_placed(): places the eye without a camera. It takes a camera's view as soon as the
+    // camera has sent a picture, unless the person has moved.
+    void stand(const Pose& room_from_eye);
 
     // The eye stays inside of these walls when it flies or slides, unless an orbit took it out.
     void set_walls(const std::optional<room::RoomExtent>& walls) { walls_ = walls; }

@@ -88,6 +88,22 @@ TEST(Eye, FliesOnlyWhileKeysAreHeld) {
     EXPECT_EQ(eye.view(picture).room_from_eye.translation.z, flown);
 }
 
+TEST(Eye, StandsWithoutCamerasUntilOneSends) {
+    const Pose place{{}, {0, 1.6, 2}};
+    for (const bool has_moved : {false, true}) {
+        TwoCameras cameras;
+        Eye eye({CameraId{1}, 0, 0});
+        eye.stand(place);
+        ASSERT_TRUE(eye.is_placed());
+        EXPECT_EQ(eye.view(picture).room_from_eye, place);
+        if (has_moved)
+            eye.go_to({{}, {0, 1.6, 3}});
+        cameras.send(1);
+        EXPECT_NE(eye.follow(cameras, false, picture, TimePoint(1s)), has_moved);
+        EXPECT_EQ(x_of(eye), has_moved ? 0 : 1);
+    }
+}
+
 TEST(Eye, NamesACameraThatDoesNotExist) {
     TwoCameras cameras;
     cameras.send(0);

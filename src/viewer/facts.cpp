@@ -126,7 +126,7 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                                        std::string(status.standing.muted ? ", muted" : "")});
         line.push_back(cameras_fact(cameras));
         add_problems(cameras, line);
-        if (facts.has_picture)
+        if (facts.has_picture && !cameras.empty())
             line.push_back(age);
         line.push_back({"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
         line.push_back(

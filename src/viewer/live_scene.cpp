@@ -30,7 +30,8 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
         cut_people(cameras);
         generation_ = generation;
     }
-    update_room(cameras);
+    if (generation_ > 0)
+        update_room(cameras);
     std::vector<CameraId> updated;
     for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.

@@ -49,6 +49,8 @@ public:
 
     // The cameras of the room, without those that see their publisher.
     bool has_picture() const { return !newest_.empty(); }
+    // The host has told its cameras, and there are none of the room.
+    bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
     const std::optional<room::RoomExtent>& walls() const { return room_.extent(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The last frame of each of these that sent one.

@@ -2,12 +2,20 @@
 #include "viewer/offscreen_view_native.h"
 
 #include "base/error.h"
+#include "room/moving.h"
+#include "viewer/eye.h"
 
 namespace theatron::viewer {
 
+render::CameraView OffscreenView::view(const ViewChoice& view, Size size) const {
+    if (meets_without_cameras())
+        return render::view_of_camera(usual_lens(),
+                                      room::meeting_place(scene_.meeting().room().self), size);
+    return view.resolve(scene_.calibrations(), scene_.newest(), size);
+}
+
 render::Picture OffscreenView::render(const Wish& wish, bool with_room) {
-    const render::CameraView view =
-        wish.view.resolve(scene_.calibrations(), scene_.newest(), wish.size);
+    const render::CameraView view = this->view(wish.view, wish.size);
     std::vector<render::CameraView> eyes{view};
     if (wish.eye_distance_m) {
         const auto pair = render::stereo_pair(view, *wish.eye_distance_m);

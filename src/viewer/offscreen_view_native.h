@@ -22,12 +22,12 @@ public:
         (void)scene_.take(participant);
         (void)scene_.take_meeting(participant);
     }
-    // Needs has_picture(); throws Error if the view is impossible.
-    render::CameraView view(const ViewChoice& view, Size size) const {
-        return view.resolve(scene_.calibrations(), scene_.newest(), size);
-    }
+    // Needs can_draw(); throws Error if the view is impossible. In a meeting without cameras it is
+    // that of the place where this participant begins.
+    render::CameraView view(const ViewChoice& view, Size size) const;
 
-    bool has_picture() const { return scene_.has_picture(); }
+    // A camera has sent a picture, or the host has none.
+    bool can_draw() const { return scene_.has_picture() || meets_without_cameras(); }
     std::size_t cameras() const { return scene_.calibrations().size(); }
 
     struct Wish {
@@ -42,6 +42,9 @@ public:
     DepthImage distances(const Wish& wish) { return render(wish, false).depth_mm; }  // of clouds
 
 private:
+    bool meets_without_cameras() const {
+        return scene_.is_without_cameras() && scene_.meeting().room().self != ParticipantId{};
+    }
     render::Picture render(const Wish& wish, bool with_room);
 
     render::OffscreenContext context_;

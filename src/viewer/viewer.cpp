@@ -104,6 +104,11 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::own_view:
         case xr::Action::view_camera: {
             stop_following();
+            if (const auto place = meeting_place(); place && eye_.is_placed()) {
+                eye_.go_to(*place);
+                scene_changed_ = true;
+                break;
+            }
             ViewChoice choice{eye_.home().camera, 0, 0};
             if (key.action == xr::Action::view_camera)
                 choice.camera = CameraId(key.camera);
@@ -269,6 +274,10 @@ bool Viewer::step(Size picture, TimePoint now) {
         scene_changed_ = true;
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
+    if (const auto place = meeting_place(); place && !eye_.is_placed()) {
+        eye_.stand(*place);
+        scene_changed_ = true;
+    }
     while (const auto answer = participant_.take_managed())
         if (answer->refusal != wire::ManageRefusal::none)
             note(wire::text_of(answer->refusal), now);
@@ -276,10 +285,18 @@ bool Viewer::step(Size picture, TimePoint now) {
     look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
     send_pose(picture, now);
-    if (first_picture_at_ == TimePoint{} && scene_.has_picture())
+    if (first_picture_at_ == TimePoint{} && eye_.is_placed())
         first_picture_at_ = now;
     participant_.tell_renderer(way().renderer);
     return scene_changed_ && eye_.is_placed();
+}
+
+// In a meeting without cameras.
+std::optional<Pose> Viewer::meeting_place() const {
+    const ParticipantId self = scene_.meeting().room().self;
+    if (!scene_.is_without_cameras() || self == ParticipantId{})
+        return std::nullopt;
+    return room::meeting_place(self);
 }
 
 // Sends the pose of the eye as this person's head, again before an unchanged pose is stale.

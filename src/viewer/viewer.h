@@ -65,7 +65,7 @@ public:
     void note(const std::string& text, TimePoint now);
     // True while a fading camera or a moving person changes the picture by itself.
     bool is_animated() const { return fading_ || moving_; }
-    // The first moment that a picture could be drawn; TimePoint{} before.
+    // The first moment that the scene could be drawn; TimePoint{} before.
     TimePoint first_picture_at() const { return first_picture_at_; }
 
     // Number of presented pictures, and the ages of their frames.
@@ -83,6 +83,7 @@ private:
     void aim_teleport(const xr::WindowInput& input, Size picture);
     void look_through_followed(TimePoint now);
     void stop_following();
+    std::optional<Pose> meeting_place() const;
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 

@@ -9,7 +9,7 @@ import time
 import unittest
 
 from raw_peer import STATES, RawPeer
-from theatron_process import Process, host, make_recording, read_png, write_png
+from theatron_process import Process, host, make_recording, read_png, run, write_png
 
 ROOM = 3         # wire::Feature
 OBJECT_POSE = 2  # wire::StateTopic
@@ -55,6 +55,13 @@ def count(picture, color, side):
     return sum(all(abs(rows[y][channels * x + c] - color[c]) < 30 for c in range(3)) for y in range(height) for x in columns)
 
 
+def colorful(picture):
+    """Pixels of an avatar: the room itself is grey."""
+    width, height, channels, rows = picture
+    return sum(max(row[channels * x:channels * x + 3]) - min(row[channels * x:channels * x + 3]) > 60
+               for row in rows for x in range(width))
+
+
 class Room(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_room_"))
@@ -66,6 +73,20 @@ class Room(unittest.TestCase):
         (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
         camera = f"folder:{recording},loop=1,preload=1"
         self.start = lambda: host(self.folder / "state", camera)
+
+    def test_people_meet_without_a_camera(self):
+        picture = self.folder / "view.png"
+        look = lambda link: run("join", link, "--offscreen", picture, "--size", "160x120", "--seconds", "1")
+        with host(self.folder / "state") as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+            self.assertEqual(look(h.greeting["link"])[0], 0)
+            alone = read_png(picture)
+            self.assertGreater(min(max(row[:3]) for row in alone[3]), 5)  # walls and floor
+            self.assertLess(colorful(alone), 10)
+            anna.say("stand 0 1.4 0 0 1.4 1")  # where everybody who comes looks
+            time.sleep(0.3)
+            self.assertEqual(look(h.greeting["link"])[0], 0)
+            self.assertGreater(colorful(read_png(picture)), 100)
 
     def test_people_meet_hold_hand_over_and_let_go(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Zoë") as zoe:

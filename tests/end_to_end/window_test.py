@@ -160,6 +160,22 @@ class Window(unittest.TestCase):
                 do("key", "r")
                 self.wait_for_return(own)
 
+    def test_the_demo_is_a_window_where_there_is_a_display(self):
+        with Process("demo", "--out", str(self.folder / "demo"), env=self.screen.environment) as demo:
+            wait_until(lambda: self.screen.title().startswith("demo operating room"), 30)
+            wait_until(lambda: brightness(self.picture()) > 70, 30)
+            demo.send(signal.SIGTERM)
+            self.assertEqual(demo.end(20), 0, demo.errors)
+        self.assertEqual(list((self.folder / "demo").glob("*.png")), [])
+
+    def test_a_demo_without_a_usable_display_writes_pictures(self):
+        folder = self.folder / "demo_pictures"
+        with Process("demo", "--out", str(folder), "--seconds", "8",
+                     env={**self.screen.environment, "DISPLAY": ":31999"}) as demo:
+            self.assertEqual(demo.end(60), 0, demo.errors)
+            self.assertIn("No window can be opened on this display.", "".join(demo.errors))
+        self.assertTrue((folder / "from_between.png").exists())
+
     def test_a_lost_host_is_told_and_found_again(self):
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
