@@ -47,6 +47,7 @@ struct Flags {
     std::string summary;
     std::string places;
     std::string audit, admit = "all";
+    std::string cases;
     double seconds = 0;
     double link_hours = 0;
     bool json = false;
@@ -126,6 +127,7 @@ void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     flags.options.places = flags.places;
+    flags.options.cases = flags.cases;
     flags.options.is_audited = flags.audit != "none";
     if (flags.options.is_audited)
         flags.options.audit = flags.audit;
@@ -230,6 +232,9 @@ void add_host_command(CLI::App& app) {
                      "CAMERA is a number from 0 or a name. Repeat for more parts. Without a region "
                      "the whole image stays exact")
         ->allow_extra_args(false);
+    command->add_option("--cases", flags->cases,
+                        "A folder of cases (docs/cases.md): each case that lies there, or is put "
+                        "there later, can be opened in the room");
     command
         ->add_option(
             "--filter", flags->options.filters,

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "case_lines.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant.h"
@@ -216,7 +217,8 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, const std::string& line) {
-    if (obey_people_line(participant, line) || room.obey(line, participant))
+    if (obey_people_line(participant, line) || obey_case_line(participant, line) ||
+        room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -231,8 +233,8 @@ bool obey(client::Participant& participant, RoomLines& room, const std::string& 
     else if (!what.empty())
         std::fprintf(stderr,
                      "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-                     "MBIT', 'quit', in the room %s, or as an operator %s.\n",
-                     RoomLines::help(), people_help());
+                     "MBIT', 'quit', in the room %s, on cases %s, or as an operator %s.\n",
+                     RoomLines::help(), case_lines_help(), people_help());
     return true;
 }
 
@@ -252,6 +254,7 @@ bool has_no_camera(const client::Participant& participant) {
 nlohmann::json json_of(const client::Participant& participant) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
+    json["cases"] = case_json(participant);
     return json;
 }
 
@@ -269,6 +272,7 @@ void run(const Flags& flags) {
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
     options.keeps_room = true;
+    options.keeps_cases = true;
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
@@ -383,7 +387,8 @@ void add_join_command(CLI::App& app) {
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
         "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20', "
         "or act in the shared room\n(docs/room.md):\n" +
-        RoomLines::help() + ".\nOperators decide on people (docs/room.md):\n" + people_help() +
+        RoomLines::help() + ".\nOn the case in the room (docs/cases.md):\n" + case_lines_help() +
+        ".\nOperators decide on people (docs/room.md):\n" + people_help() +
         ".\n"
         "\nExamples:\n"
         "  theatron join LINK\n"

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "room/bricks.h"
+#include "session/case_objects.h"
 #include "session/room_text.h"
 #include "viewer/meeting.h"
 #include "viewer/refusal_text.h"
@@ -110,6 +111,11 @@ std::string RoomLines::change_held(const std::string& what, std::istream& words,
             return needs_places;
         words >> degrees;
         held_->room_from_object = {rotation_about({0, 1, 0}, radians_of(degrees)), place};
+        // The pose of a part is relative to its organ.
+        if (const auto open = session::case_in_room(participant.room().objects);
+            open && open->find(held_->object))
+            held_->room_from_object =
+                session::part_in_organ(open->organ_object, held_->room_from_object);
         if (participant.move_object(held_->object, held_->room_from_object, held_->scale))
             return "";
         held_.reset();

@@ -217,17 +217,29 @@ Volume read_volume(const fs::path& file) {
                    "volume");
 }
 
-LoadedCase read_case(const fs::path& folder) {
-    LoadedCase loaded;
-    loaded.manifest = read_manifest(folder);
-    if (loaded.manifest.unit != medical::Unit::mm || loaded.manifest.axes != medical::Axes::lps)
+Case read_finished_manifest(const fs::path& folder) {
+    Case manifest = read_manifest(folder);
+    if (manifest.unit != medical::Unit::mm || manifest.axes != medical::Axes::lps)
         throw Error("The case in " + in_quotes(folder) +
                     " is not finished: make one of it with 'theatron case import'.");
+    return manifest;
+}
+
+fs::path file_of(const fs::path& folder, const medical::Part& part) {
+    return part_file(folder, part.file, mesh_extension, "mesh");
+}
+
+fs::path file_of(const fs::path& folder, const medical::Series& series) {
+    return part_file(folder, series.file, volume_extension, "series of images");
+}
+
+LoadedCase read_case(const fs::path& folder) {
+    LoadedCase loaded;
+    loaded.manifest = read_finished_manifest(folder);
     for (const medical::Part& part : loaded.manifest.parts)
-        loaded.meshes.push_back(read_mesh(part_file(folder, part.file, mesh_extension, "mesh")));
+        loaded.meshes.push_back(read_mesh(file_of(folder, part)));
     for (const medical::Series& series : loaded.manifest.series)
-        loaded.volumes.push_back(
-            read_volume(part_file(folder, series.file, volume_extension, "series of images")));
+        loaded.volumes.push_back(read_volume(file_of(folder, series)));
     return loaded;
 }
 

@@ -24,6 +24,11 @@ inline constexpr const char* volume_extension = ".thvolume";
 
 // Each throws Error with one sentence that names the file.
 medical::Case read_manifest(const std::filesystem::path& folder);
+// The manifest of a finished case: millimetres in LPS.
+medical::Case read_finished_manifest(const std::filesystem::path& folder);
+// A regular file of the folder itself, with the ending of its kind.
+std::filesystem::path file_of(const std::filesystem::path& folder, const medical::Part& part);
+std::filesystem::path file_of(const std::filesystem::path& folder, const medical::Series& series);
 medical::Mesh read_mesh(const std::filesystem::path& file);
 medical::Volume read_volume(const std::filesystem::path& file);
 

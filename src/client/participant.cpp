@@ -30,6 +30,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::sends_only);
     if (options.keeps_room)
         features.push_back(wire::Feature::room);
+    if (options.keeps_cases)
+        features.push_back(wire::Feature::cases);
     return features;
 }
 
@@ -42,6 +44,8 @@ Participant::Participant(Options options)
       shared_(std::make_unique<Shared>()),
       decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
+    if (options_.keeps_cases)
+        cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
     if (session_.begin().size() + 1 > wire::max_first_envelope_size)
         throw Error("Name, token and codecs together have more than " +
                     std::to_string(wire::max_first_envelope_size) +
@@ -140,6 +144,7 @@ void Participant::run() {
             shared_->taken = 0;
             shared_->is_telling = false;
             shared_->is_telling_room = false;
+            shared_->is_asking_content = false;
             shared_->poses.clear();
             shared_->own_pose.reset();
             shared_->visitors.clear();
@@ -150,6 +155,8 @@ void Participant::run() {
             shared_->status.round_trip = {};
             shared_->status.clock_known = false;
         }
+        if (cases_)
+            cases_->on_connected();
         const net::Client::End end = client.run();
 
         std::unique_lock lock(shared_->mutex);
@@ -364,6 +371,15 @@ void Participant::on_control(ByteView message) {
         case Change::managed:
             on_managed();
             break;
+        case Change::cases:
+            if (cases_)
+                cases_->on_offer(session_.offered_cases());
+            request_content();
+            break;
+        case Change::content:
+            if (cases_)
+                cases_->on_content(session_.content(), steady_now());
+            break;
         case Change::refused:
         case Change::goodbye:
         case Change::nothing:
@@ -409,6 +425,7 @@ void Participant::on_tick() {
             session::ViewerSession::choose(camera, wish.depth_codec, wish.color_codec));
 
     on_encode_keys();
+    request_content();
     if (delivery_wish)
         client.send_control(session_.choose_delivery(*delivery_wish));
 

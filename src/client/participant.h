@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "client/case_keeper.h"
 #include "client/decoders.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
@@ -64,6 +65,8 @@ public:
         Publishing publishing;  // needed for publish()
         // Keeps the objects of the room; needed for room() and the functions below it.
         bool keeps_room = false;
+        // Takes the content of the case that is open in the room; needs keeps_room.
+        bool keeps_cases = false;
         // An object of the room or its pose has changed. Called from the participant's thread.
         std::function<void()> room_changed;
     };
@@ -178,6 +181,11 @@ public:
     // The oldest refusal of a request not taken yet, with the request's number; if any.
     std::optional<std::pair<std::uint32_t, session::Refusal>> take_room_refusal();
 
+    // The host's cases, from any thread. Empty without Options::keeps_cases.
+    std::vector<wire::OfferedCase> cases() const;
+    // See CaseKeeper::open().
+    std::optional<OpenCase> open_case(std::uint64_t& version) const;
+
     // For operators, from any thread: the people who wait for admission now.
     std::vector<wire::Visitor> visitors() const;
     // Sends a decision on a person. Returns its number; 0 while not joined.
@@ -201,6 +209,8 @@ private:
     void on_state(const wire::State& state);
     void tell_pose();
     void on_room_message();
+    void tell_content();
+    void request_content();
     void tell_room();
     void on_waiting();
     void on_standing();
@@ -231,6 +241,7 @@ private:
     struct Shared;
     std::unique_ptr<Shared> shared_;
     std::unique_ptr<Decoders> decoders_;  // its threads use shared_
+    std::unique_ptr<CaseKeeper> cases_;   // likewise; may be null
     std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 // The room of a participant's session.
 #include <utility>
 
+#include "base/steady_clock.h"
 #include "client/participant_shared.h"
 
 namespace theatron::client {
@@ -12,6 +13,17 @@ void Participant::on_room_message() {
         shared_->room.on_message(session_.room());
     }
     tell_room();
+    if (cases_) {
+        session::RoomObjects organs;
+        {
+            const std::lock_guard lock(shared_->mutex);
+            if (shared_->room.known())
+                for (const auto& [id, object] : shared_->room.confirmed())
+                    if (object.kind == session::ObjectKind::organ)
+                        organs.emplace(id, object);
+        }
+        cases_->on_room(organs);
+    }
     if (options_.room_changed)
         options_.room_changed();
 }
@@ -32,6 +44,33 @@ void Participant::tell_room() {
         const wire::State state{{wire::StateTopic::object, std::uint32_t(object)}, body};
         shared_->client->send_states({&state, 1});
     }
+}
+
+// From any thread; the participant's thread asks.
+void Participant::tell_content() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->client && !std::exchange(shared_->is_asking_content, true))
+        shared_->client->post([this] { request_content(); });
+}
+
+void Participant::request_content() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->is_asking_content = false;
+    }
+    if (!cases_ || !session_.joined())
+        return;
+    for (const wire::RequestContent& request : cases_->take_requests(steady_now()))
+        shared_->client->send_control(wire::encode(request));
+}
+
+std::vector<wire::OfferedCase> Participant::cases() const {
+    return cases_ ? cases_->offered() : std::vector<wire::OfferedCase>();
+}
+
+std::optional<OpenCase> Participant::open_case(std::uint64_t& version) const {
+    version = 0;
+    return cases_ ? cases_->open(version) : std::nullopt;
 }
 
 Participant::Room Participant::room() const {

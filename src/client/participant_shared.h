@@ -42,8 +42,9 @@ struct Participant::Shared {
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
     session::MemberRoom room;
-    bool is_telling_room = false;  // tell_room() has been posted
-    bool has_standing = false;     // on this connection
+    bool is_telling_room = false;    // tell_room() has been posted
+    bool is_asking_content = false;  // request_content() has been posted
+    bool has_standing = false;       // on this connection
     std::vector<wire::Visitor> visitors;
     std::uint32_t decisions = 0;                           // sent, for their numbers
     std::deque<wire::Managed> managed;                     // answers not yet taken

@@ -134,6 +134,14 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     start_lanes(options.cameras, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
+    if (!options.cases.empty())
+        cases = std::make_unique<CaseShelf>(options.cases,
+                                            [this](std::vector<session::CaseFacts> offered) {
+                                                server->post([this, offered = std::move(offered)] {
+                                                    session->set_cases(offered);
+                                                    carry_out();
+                                                });
+                                            });
     thread = std::thread([this] {
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });

@@ -30,6 +30,7 @@ struct HostOptions {
     std::filesystem::path state;  // keys, tokens and links; empty: the user's state folder
     std::filesystem::path audit;  // empty: audit.jsonl in the state folder
     bool is_audited = true;
+    std::filesystem::path cases;  // the folder of cases that are offered; empty: none
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.

@@ -186,6 +186,16 @@ void Host::Impl::carry_out(const session::action::Drawing& a) {
               {{"id", int(a.participant)}, log::outside("renderer", a.renderer)});
 }
 
+// Of a range that goes beyond the content, its beginning is sent.
+void Host::Impl::carry_out(const session::action::SendContent& a) {
+    const auto bytes = cases ? cases->content(a.content) : nullptr;
+    const bool is_here = bytes && a.offset < bytes->size();
+    const std::uint64_t end =
+        is_here ? a.offset + std::min<std::uint64_t>(a.count, bytes->size() - a.offset) : 0;
+    server->send_content(peer_of(a.participant),
+                         {a.content, is_here ? bytes : nullptr, a.offset, end});
+}
+
 void Host::Impl::note_left(net::PeerId peer) {
     if (leaving.erase(peer) > 0 && leaving.empty()) {
         const std::lock_guard lock(goodbye_mutex);

@@ -11,6 +11,7 @@
 #include "base/steady_clock.h"
 #include "capture/camera_places.h"
 #include "host/audit_log.h"
+#include "host/case_shelf.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "host/link_book.h"
@@ -87,6 +88,7 @@ struct Host::Impl {
     bool all_left = false;  // guarded by goodbye_mutex
 
     std::unique_ptr<RoomReplay> replay;  // uses the lanes and the server
+    std::unique_ptr<CaseShelf> cases;    // its thread posts to the server; may be null
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
@@ -132,6 +134,7 @@ struct Host::Impl {
     void carry_out(const session::action::Drawing& a);
     void carry_out(const session::action::Audit& a);
     void carry_out(const session::action::RevokeLink& a);
+    void carry_out(const session::action::SendContent& a);
     void hold_lane(std::size_t camera);
     void hold_lanes();
     void release_lanes();

@@ -100,6 +100,13 @@ void Connection::send_voice(const wire::Voice& voice) {
     write();
 }
 
+void Connection::send_content(Outbox::Content content) {
+    if (finished_ || !closing_.empty())
+        return;
+    (void)outbox_.push_content(std::move(content));
+    write();
+}
+
 void Connection::taken(std::size_t bytes) {
     acknowledger_.taken(bytes, now_());
     acknowledge();

@@ -70,6 +70,7 @@ public:
     void send_control(ByteView control);
     void send_states(std::span<const wire::State> states);
     void send_voice(const wire::Voice& voice);
+    void send_content(Outbox::Content content);
     Outbox::Pushed send_media(Media media);
     // A media message of this size that waited has been taken: see Events::media.
     void taken(std::size_t bytes);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "wire/control.h"
 #include "wire/envelope.h"
 
 namespace theatron::net {
@@ -43,6 +44,13 @@ void Outbox::push_voice(const wire::Voice& voice) {
     else if (voice_.size() >= max_waiting_voices)
         voice_.pop_front();
     voice_.push_back({voice.speaker, {voice.packet.begin(), voice.packet.end()}});
+}
+
+bool Outbox::push_content(Content content) {
+    if (content_.size() >= max_waiting_content)
+        return false;
+    content_.push_back(std::move(content));
+    return true;
 }
 
 int Outbox::drop_waiting(Lane& lane) {
@@ -166,7 +174,8 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
         return true;
     }
     const bool media = sending_ || waiting_ > 0;
-    idle_ = !media && !interaction_waits();
+    const bool bulk = !content_.empty();
+    idle_ = !media && !bulk && !interaction_waits();
     if (idle_) {
         flight_.idle();
         return false;
@@ -174,12 +183,15 @@ bool Outbox::next(Bytes& envelope, TimePoint now) {
     if (interaction_waits() && flight_.may_send_interaction(now) &&
         below_ceiling(now, interaction_burst)) {
         next_interaction(envelope, now);
-        moved_ += !media;
+        moved_ += !media && !bulk;
         return true;
     }
-    if (!media || !flight_.may_send(now) || !below_ceiling(now, ceiling_burst))
+    if ((!media && !bulk) || !flight_.may_send(now) || !below_ceiling(now, ceiling_burst))
         return false;
-    next_chunk(envelope, now);
+    if (bulk && (!media || media_since_content_ >= content_share * flight_.chunk_size()))
+        next_content(envelope, now);
+    else
+        next_chunk(envelope, now);
     ++moved_;
     return true;
 }
@@ -213,6 +225,27 @@ void Outbox::next_states(Bytes& envelope) {
     }
 }
 
+// A piece is as large as a chunk of media, so that nothing waits longer behind it.
+void Outbox::next_content(Bytes& envelope, TimePoint now) {
+    Content& content = content_.front();
+    wire::Content piece{
+        Bytes(content.hash.bytes.begin(), content.hash.bytes.end()), content.offset, 0, {}};
+    if (content.bytes) {
+        const std::uint64_t size =
+            std::min<std::uint64_t>(flight_.chunk_size(), content.end - content.offset);
+        const auto begin = content.bytes->begin() + std::ptrdiff_t(content.offset);
+        piece.total = content.bytes->size();
+        piece.bytes.assign(begin, begin + std::ptrdiff_t(size));
+        content.offset += size;
+    }
+    envelope = wire::wrap_control(wire::encode(piece));
+    if (!content.bytes || content.offset == content.end)
+        content_.pop_front();
+    media_since_content_ = 0;
+    flight_.sent_interaction(envelope.size(), now);
+    pay(envelope.size(), now);
+}
+
 void Outbox::next_chunk(Bytes& envelope, TimePoint now) {
     if (!sending_) {
         Lane& lane = *longest_unserved();
@@ -231,6 +264,7 @@ void Outbox::next_chunk(Bytes& envelope, TimePoint now) {
     const bool ends = sent_ == sending_->size();
     flight_.sent(envelope.size(), sending_queued_, ends, now);
     pay(envelope.size(), now);
+    media_since_content_ = content_.empty() ? 0 : media_since_content_ + envelope.size();
     if (ends)
         sending_.reset();
 }

@@ -9,7 +9,10 @@
 // per stream, and the newest frame wins: when a newer frame comes, a waiting frame to which none
 // refers is dropped; a broken chain of references is cut at once and continued at the next key
 // frame. So a slow peer gets fewer frames, never older ones, and memory is bounded. A peer that
-// records gets everything instead, in order and however late, up to a bound of bytes. Flight limits
+// records gets everything instead, in order and however late, up to a bound of bytes. Content that
+// the peer has asked for (organs, images) takes what the others leave: the gaps between pictures,
+// and of a link that pictures fill one byte of content_share, so that it always comes to its end.
+// Flight limits
 // the bytes in flight, a ceiling the bytes per second; all classes except acknowledgements count
 // in both.
 #pragma once
@@ -20,6 +23,7 @@
 #include <optional>
 
 #include "base/bytes.h"
+#include "base/content_hash.h"
 #include "base/ids.h"
 #include "base/time.h"
 #include "net/flight.h"
@@ -65,6 +69,10 @@ public:
     static constexpr std::size_t max_waiting_states = 1024;
     // Packets of one speaker that may wait, and of all together.
     static constexpr std::size_t max_waiting_voice = 3, max_waiting_voices = 96;
+    // Parts of content that may wait; further ones are dropped, and the peer asks again.
+    static constexpr std::size_t max_waiting_content = 4;
+    // While pictures wait too, one of so many bytes is content.
+    static constexpr std::size_t content_share = 8;
     // Longest time in which a peer takes nothing although something waits: see stands_still().
     static constexpr Duration give_up_after = std::chrono::seconds(30);
 
@@ -75,6 +83,15 @@ public:
     void put_acknowledgement(const wire::Acknowledgement& newest) { acknowledgement_ = newest; }
     void put_state(const wire::State& state);
     void push_voice(const wire::Voice& voice);
+
+    // A part of content that the peer has asked for; it leaves in wire::Content messages.
+    struct Content {
+        ContentHash hash;
+        std::shared_ptr<const Bytes> bytes;  // the whole; null: it is not here
+        std::uint64_t offset = 0, end = 0;   // within it
+    };
+    // False, and nothing is queued, if max_waiting_content parts wait.
+    bool push_content(Content content);
 
     struct Pushed {
         int dropped = 0;  // frames, possibly including this one
@@ -119,7 +136,8 @@ public:
     }
 
     bool empty() const {
-        return !acknowledgement_ && !interaction_waits() && !sending_ && waiting_ == 0;
+        return !acknowledgement_ && !interaction_waits() && !sending_ && waiting_ == 0 &&
+               content_.empty();
     }
     bool control_waits() const { return !control_.empty(); }
     // Counts frames that have begun to leave.
@@ -148,6 +166,7 @@ private:
     void next_interaction(Bytes& envelope, TimePoint now);
     void next_states(Bytes& envelope);
     void next_chunk(Bytes& envelope, TimePoint now);
+    void next_content(Bytes& envelope, TimePoint now);
 
     struct Packet {
         ParticipantId speaker{};
@@ -161,6 +180,8 @@ private:
     wire::StateKey last_state_;               // the one that was sent last
     std::map<StreamId, Lane> lanes_;
     std::size_t waiting_ = 0, waiting_bytes_ = 0;
+    std::deque<Content> content_;
+    std::size_t media_since_content_ = 0;  // bytes, while content waited
     bool keeps_everything_ = false;
     bool full_ = false;  // since the bound was reached, until half has left
     std::uint64_t turn_ = 0;

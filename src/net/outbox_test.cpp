@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "wire/control.h"
 #include "wire/envelope.h"
 
 namespace theatron::net {
@@ -428,6 +429,87 @@ TEST(Outbox, InteractionCountsInTheCeilingAndMediaYields) {
     EXPECT_LT(alone, 1'000'000u);
     EXPECT_LT(together, alone - 400'000);
     EXPECT_GT(together, alone - 700'000);
+}
+
+struct Sent {
+    std::size_t media = 0, content = 0, poses = 0;  // bytes
+    std::vector<char> order;                        // 'm', 'c', 'p'
+};
+
+// Takes envelopes until nothing leaves any more, at most so many.
+Sent take(Outbox& outbox, int most, Bytes* content = nullptr) {
+    Sent sent;
+    Bytes envelope;
+    wire::Unwrapper unwrapper;
+    for (int i = 0; i < most && outbox.next(envelope, from_us(2000)); ++i) {
+        const auto got = unwrapper.take(envelope);
+        EXPECT_TRUE(got);
+        if (!got->control.empty()) {
+            const auto message = wire::decode_to_participant(got->control);
+            const auto& piece = std::get<wire::Content>(*message);
+            if (content)
+                content->insert(content->end(), piece.bytes.begin(), piece.bytes.end());
+            sent.content += envelope.size();
+            sent.order.push_back('c');
+        } else if (got->is_media) {
+            sent.media += envelope.size();
+            sent.order.push_back('m');
+        } else {
+            sent.poses += envelope.size();
+            sent.order.push_back('p');
+        }
+    }
+    return sent;
+}
+
+Outbox::Content content(std::shared_ptr<const Bytes> bytes) {
+    const std::size_t size = bytes->size();
+    return {{}, std::move(bytes), 0, size};
+}
+
+TEST(Outbox, ContentLeavesWholeAndInOrder) {
+    auto bytes = std::make_shared<Bytes>(100'000);
+    for (std::size_t i = 0; i < bytes->size(); ++i)
+        (*bytes)[i] = std::byte(i * 7);
+    Outbox outbox;
+    EXPECT_TRUE(outbox.push_content({{}, bytes, 1000, 50'000}));
+    EXPECT_TRUE(outbox.push_content({{}, bytes, 50'000, 100'000}));
+    Bytes got;
+    take(outbox, 1000, &got);
+    EXPECT_EQ(got, Bytes(bytes->begin() + 1000, bytes->end()));
+    EXPECT_TRUE(outbox.empty());
+}
+
+TEST(Outbox, ContentThatIsNotThereIsAnsweredWithoutBytes) {
+    Outbox outbox;
+    EXPECT_TRUE(outbox.push_content({{}, nullptr, 0, 0}));
+    Bytes got;
+    EXPECT_EQ(take(outbox, 10, &got).order, std::vector<char>{'c'});
+    EXPECT_TRUE(got.empty());
+    EXPECT_TRUE(outbox.empty());
+}
+
+TEST(Outbox, ContentWaitsForPosesAndTakesASmallShareBesidePictures) {
+    Outbox outbox;
+    outbox.push_media(frame(1, 0, true, 0, 600'000));
+    outbox.push_content(content(std::make_shared<Bytes>(300'000)));
+    const Bytes pose(20);
+    outbox.put_state({{wire::StateTopic::pose, 1}, pose});
+    const Sent sent = take(outbox, 37);
+    EXPECT_EQ(sent.order.front(), 'p');
+    EXPECT_GT(sent.content, 0u);
+    EXPECT_LE(sent.content * (Outbox::content_share - 1), sent.media);
+    // The next picture does not wait for the content that is left.
+    outbox.put_state({{wire::StateTopic::pose, 1}, pose});
+    EXPECT_EQ(take(outbox, 1).order, std::vector<char>{'p'});
+}
+
+TEST(Outbox, MoreContentThanAFewPartsIsNotQueued) {
+    Outbox outbox;
+    const auto bytes = std::make_shared<Bytes>(10);
+    for (std::size_t i = 0; i < Outbox::max_waiting_content; ++i)
+        EXPECT_TRUE(outbox.push_content(content(bytes)));
+    EXPECT_FALSE(outbox.push_content(content(bytes)));
 }
 
 }  // namespace

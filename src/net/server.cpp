@@ -175,6 +175,14 @@ Outbox::Pushed Server::send_media(PeerId peer, Media media) {
     return connection->send_media(std::move(media));
 }
 
+void Server::send_content(PeerId peer, Outbox::Content content) {
+    const auto found = impl_->peers.find(peer);
+    if (found == impl_->peers.end())
+        return;
+    const auto connection = found->second;
+    connection->send_content(std::move(content));
+}
+
 void Server::take_media(PeerId peer, std::size_t max_message) {
     if (const auto found = impl_->peers.find(peer); found != impl_->peers.end())
         found->second->take_media(max_message);

@@ -72,6 +72,8 @@ public:
     void send_control(PeerId peer, ByteView control);
     void send_states(PeerId peer, std::span<const wire::State> states);
     Outbox::Pushed send_media(PeerId peer, Media media);
+    // `content.offset` < `content.end`, both within its bytes. Dropped if too much waits already.
+    void send_content(PeerId peer, Outbox::Content content);
     // Calls Handler::alarm at this time instead of the time that was set before.
     void set_alarm(TimePoint when);
     // Media of this peer is taken from now on; without this it ends the peer's connection.

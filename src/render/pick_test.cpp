@@ -57,5 +57,26 @@ TEST_F(PickTest, ARayThroughAPixelMeetsWhatThePixelShows) {
     EXPECT_FALSE(pick(frame, ray_through(view, {0.02, 0.02})));
 }
 
+TEST_F(PickTest, ScaledObjectsAreFoundAtTheirSize) {
+    frame.objects.push_back({&*ball, {Quat{}, {0, 1, -3}}, {}, false, liver, 2});
+    EXPECT_NEAR(pick(frame, {{0, 1, 0}, {0, 0, -1}})->distance_m, 2, 0.01);
+    EXPECT_TRUE(pick(frame, {{0.9, 1, 0}, {0, 0, -1}}));
+    frame.objects.back().scale = 0.5;
+    EXPECT_NEAR(pick(frame, {{0, 1, 0}, {0, 0, -1}})->distance_m, 2.75, 0.01);
+    EXPECT_FALSE(pick(frame, {{0.3, 1, 0}, {0, 0, -1}}));
+}
+
+TEST_F(PickTest, WhatIsCutAwayIsTransparentForRays) {
+    // The front half is gone: the ray meets the back of the ball from inside.
+    frame.objects.push_back(
+        {&*ball, {Quat{}, {0, 1, -3}}, {}, false, liver, 1, Cut{{0, 0, 1}, -3}});
+    EXPECT_NEAR(pick(frame, {{0, 1, 0}, {0, 0, -1}})->distance_m, 3.5, 0.01);
+    EXPECT_NEAR(pick(frame, {{0, 1, -6}, {0, 0, 1}})->distance_m, 2.5, 0.01);
+    EXPECT_FALSE(pick(frame, {{0, 1, -2.8}, {0, 0, 1}}));
+    frame.objects.back().cut = Cut{{1, 0, 0}, -0.1};
+    EXPECT_FALSE(pick(frame, {{0, 1, 0}, {0, 0, -1}}));
+    EXPECT_TRUE(pick(frame, {{-0.3, 1, 0}, {0, 0, -1}}));
+}
+
 }  // namespace
 }  // namespace theatron::render

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,13 @@ struct SurfaceLook {
 // Names an object in the result of a pick (pick.h). The code that appends an object chooses it.
 enum class ObjectId : std::uint32_t { none = 0 };
 
+// A plane of the room that cuts an object: places with dot(normal, place) > distance_m are left
+// out.
+struct Cut {
+    Vec3 normal;
+    double distance_m = 0;
+};
+
 struct SceneObject {
     const SceneMesh* mesh = nullptr;
     Pose room_from_object;
@@ -97,7 +105,9 @@ struct SceneObject {
     // Floor and walls of the room, whose inside is convex. They are drawn behind everything else at
     // any distance, so that they never hide a real floor that was measured a little lower.
     bool backdrop = false;
-    ObjectId id = ObjectId::none;  // none: rays pass through it
+    ObjectId id = ObjectId::none;           // none: rays pass through it
+    double scale = 1;                       // metres of the room in a metre of the mesh
+    std::optional<Cut> cut = std::nullopt;  // objects that are cut cast no shadows
 };
 
 // One line of text. Its frame: x along the line, y down, z away from the reader; the origin is at

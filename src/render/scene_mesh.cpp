@@ -89,6 +89,18 @@ SceneMesh::SceneMesh(const MeshData& data) : buffers_(std::make_unique<Buffers>(
         const Vertex& v = data.vertices[data.indices[i]];
         return Vec3{v.px, v.py, v.pz};
     };
+    Vec3 low{1e30, 1e30, 1e30}, high = low * -1;
+    for (const Vertex& v : data.vertices) {
+        low = {std::min<double>(low.x, v.px), std::min<double>(low.y, v.py),
+               std::min<double>(low.z, v.pz)};
+        high = {std::max<double>(high.x, v.px), std::max<double>(high.y, v.py),
+                std::max<double>(high.z, v.pz)};
+    }
+    if (!data.vertices.empty())
+        buffers_->middle = (low + high) * 0.5;
+    for (const Vertex& v : data.vertices)
+        buffers_->radius_m =
+            std::max(buffers_->radius_m, length(Vec3{v.px, v.py, v.pz} - buffers_->middle));
     for (std::size_t i = 0; i + 2 < data.indices.size(); i += 3)
         buffers_->triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
 }

@@ -15,6 +15,8 @@ struct SceneMesh::Buffers {
     VertexArray attributes;  // 0: place, 1: normal, 2: place in the texture
     Buffer vertices, indices;
     GLsizei count = 0;
+    Vec3 middle;  // of a ball around all corners
+    double radius_m = 0;
     std::vector<TriangleTree::Triangle> triangles;  // until the tree is made
     std::optional<TriangleTree> tree;
 

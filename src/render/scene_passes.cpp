@@ -26,6 +26,13 @@ void set_vector(GLint uniform, Vec3 v) {
     glUniform3f(uniform, float(v.x), float(v.y), float(v.z));
 }
 
+Mat4 place_of(const SceneObject& object) {
+    Mat4 placed = matrix(object.room_from_object);
+    for (std::size_t i = 0; i < 12; ++i)  // the first three columns
+        placed.m[i] *= object.scale;
+    return placed;
+}
+
 // The light's view of the ball that contains all shadow casters, without perspective.
 struct LightView {
     Mat4 clip_from_room;
@@ -57,10 +64,11 @@ struct LitProgram {
     GLint look = program.uniform("look");
     GLint tells_distance = program.uniform("tells_distance");
     GLint unlit = program.uniform("unlit");
+    GLint cut = program.uniform("cut");
 
-    LitProgram(std::string_view quality, std::string_view texture)
+    LitProgram(std::string_view quality, std::string_view texture, std::string_view cutting)
         : program({quality, texture, "scene.vert"},
-                  {"output.glsl", quality, texture, "scene.frag"}) {
+                  {"output.glsl", quality, texture, cutting, "scene.frag"}) {
         program.set_sampler("environment", environment_unit);
         program.set_sampler("shadow_map", shadow_unit);
         program.set_sampler("scene_depth", scene_depth_unit);
@@ -81,7 +89,7 @@ bool is_translucent(const SceneObject& object) {
 }  // namespace
 
 struct ScenePasses::Parts {
-    std::optional<LitProgram> lit[2][2];  // high quality, textured; made when first used
+    std::optional<LitProgram> lit[2][2][2];  // high quality, textured, cut; made when first used
     const LitProgram* in_use = nullptr;
     Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
     GLint shadow_clip_from_object = shadow.uniform("clip_from_object");
@@ -133,9 +141,9 @@ struct ScenePasses::Parts {
         shadow.use();
         for (const SceneObject& object : frame.objects) {
             // A depth map has no opacity: a translucent object would cast a solid one's shadow.
-            if (is_translucent(object) || (object.backdrop && !with_backdrop))
+            if (is_translucent(object) || object.cut || (object.backdrop && !with_backdrop))
                 continue;
-            set_matrix(shadow_clip_from_object, clip_from_room * matrix(object.room_from_object));
+            set_matrix(shadow_clip_from_object, clip_from_room * place_of(object));
             object.mesh->buffers().draw();
         }
         glBindVertexArray(0);
@@ -174,14 +182,15 @@ struct ScenePasses::Parts {
     }
 
     // Makes the right program current and sets its uniforms of the whole picture.
-    void use_lit(const LitPicture& picture, bool textured) {
+    void use_lit(const LitPicture& picture, bool textured, bool cuts) {
         const SceneFrame& frame = picture.frame;
         const CameraView& view = picture.view;
         const bool high = frame.quality == SceneQuality::high;
-        std::optional<LitProgram>& wanted = lit[high][textured];
+        std::optional<LitProgram>& wanted = lit[high][textured][cuts];
         if (!wanted)
             wanted.emplace(high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
-                           textured ? "#define TEXTURED" : "#define PLAIN");
+                           textured ? "#define TEXTURED" : "#define PLAIN",
+                           cuts ? "#define CUT" : "#define WHOLE");
         if (in_use == &*wanted)
             return;
         in_use = &*wanted;
@@ -199,8 +208,11 @@ struct ScenePasses::Parts {
 
     void draw(const LitPicture& picture, const SceneObject& object) {
         const SurfaceLook& look = object.look;
-        use_lit(picture, look.texture || look.unlit);
-        set_matrix(in_use->room_from_object, matrix(object.room_from_object));
+        use_lit(picture, look.texture || look.unlit, object.cut.has_value());
+        set_matrix(in_use->room_from_object, place_of(object));
+        if (object.cut)
+            glUniform4f(in_use->cut, float(object.cut->normal.x), float(object.cut->normal.y),
+                        float(object.cut->normal.z), float(object.cut->distance_m));
         set_vector(in_use->base_color, look.base_color);
         glUniform4f(in_use->look, float(look.metallic),
                     float(std::clamp(look.roughness, 0.05, 1.0)), float(look.opacity),
@@ -258,8 +270,14 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
     for (const bool backdrop : {true, false}) {
         glDepthMask(backdrop ? GL_FALSE : GL_TRUE);
         for (const SceneObject& object : frame.objects)
-            if (!is_translucent(object) && object.backdrop == backdrop)
+            if (!is_translucent(object) && object.backdrop == backdrop) {
+                // Through a cut the inside is seen.
+                if (object.cut)
+                    glDisable(GL_CULL_FACE);
                 p.draw(picture, object);
+                if (object.cut)
+                    glEnable(GL_CULL_FACE);
+            }
     }
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
@@ -268,27 +286,34 @@ void ScenePasses::draw_opaque(const SceneFrame& frame, const CameraView& view,
 void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& view,
                                    const DrawTarget& target) {
     Parts& p = *parts_;
-    std::vector<const SceneObject*> sorted;
-    for (const SceneObject& object : frame.objects)
-        if (is_translucent(object))
-            sorted.push_back(&object);
-    const auto distance = [&](const SceneObject* object) {
-        return length(object->room_from_object.translation - view.room_from_eye.translation);
+    struct Side {
+        const SceneObject* object;
+        GLenum hidden;
+        double distance_m;
     };
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const SceneObject* a, const SceneObject* b) {
-        return distance(a) > distance(b);
-    });
+    std::vector<Side> sorted;
+    for (const SceneObject& object : frame.objects) {
+        if (!is_translucent(object))
+            continue;
+        const SceneMesh::Buffers& mesh = object.mesh->buffers();
+        const Vec3 middle = object.room_from_object * (mesh.middle * object.scale);
+        const double distance = length(middle - view.room_from_eye.translation);
+        const double radius = mesh.radius_m * object.scale;
+        sorted.push_back({&object, GL_FRONT, distance + radius});
+        sorted.push_back({&object, GL_BACK, distance - radius});
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Side& a, const Side& b) { return a.distance_m > b.distance_m; });
     p.begin_lit(target);
     const LitPicture picture{frame, view, false};
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
-    for (const SceneObject* object : sorted)
-        for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
-            glCullFace(hidden);
-            p.draw(picture, *object);
-        }
+    for (const Side& side : sorted) {
+        glCullFace(side.hidden);
+        p.draw(picture, *side.object);
+    }
     glDisable(GL_CULL_FACE);
     if (p.text)
         p.text->draw(frame.texts, view);

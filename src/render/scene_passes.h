@@ -29,8 +29,9 @@ public:
     // Draws the maps that both eyes share: shadows. Changes framebuffer and viewport.
     void prepare(const SceneFrame& frame);
     void draw_opaque(const SceneFrame& frame, const CameraView& view, const DrawTarget& target);
-    // Draws from back to front, each object's inside before its outside. Correct for objects
-    // that do not intersect.
+    // Draws from back to front: the far sides of objects by their farthest, the near sides by their
+    // nearest places, so that an object inside of another one is drawn between the other's sides.
+    // Correct for objects that do not intersect.
     void draw_translucent(const SceneFrame& frame, const CameraView& view,
                           const DrawTarget& target);
 

@@ -75,6 +75,38 @@ TEST_F(SceneTest, TranslucentThingsShowWhatIsBehindThem) {
     EXPECT_GT(over.g, 30) << "and not solid";
 }
 
+// A translucent shell around a translucent and an opaque ball, listed in any order, from any side.
+TEST_F(SceneTest, WhatIsInsideOfATranslucentShellIsSeenThroughIt) {
+    const SceneMesh shell(make_sphere_mesh(0.5, 24)), inner(make_sphere_mesh(0.2, 24));
+    const Pose place{Quat{}, {0, 0.5, 0}};
+    const SurfaceLook red{{0.7, 0.1, 0.1}, 0, 0.5, 0.3}, blue{{0.1, 0.1, 0.8}, 0, 0.5, 0.6};
+    const Vec3 middle = place.translation;
+    frame.objects = {{&shell, place, red}, {&inner, place, blue}};
+    const Picture one = draw({160, 120});
+    std::swap(frame.objects[0], frame.objects[1]);
+    EXPECT_EQ(at(draw({160, 120}), middle), at(one, middle)) << "the order does not matter";
+    frame.objects = {{&shell, place, red}};
+    const Rgb alone = at(draw({160, 120}), middle);
+    EXPECT_GT(at(one, middle).b, alone.b + 20);
+    EXPECT_GT(at(one, middle).r, 40) << "the shell's near side is before it";
+    frame.objects = {{&shell, place, red}, {&inner, place, {{0.1, 0.1, 0.8}, 0, 0.5}}};
+    EXPECT_GT(at(draw({160, 120}), middle).b, alone.b + 20);
+}
+
+TEST_F(SceneTest, ACutShowsTheInside) {
+    frame.objects = {
+        {&*ball, {Quat{}, {0, 0.3, 0}}, {{0.8, 0.2, 0.2}, 0, 0.5}},
+        {&*pillar, {Quat{}, {0, -0.1, 0}}, {{0.1, 0.8, 0.1}, 0, 0.7}, false, ObjectId::none, 0.5}};
+    const Vec3 middle{0, 0.3, 0};
+    const Rgb closed = at(draw({160, 120}), middle);
+    EXPECT_GT(closed.r, closed.g + 30);
+    frame.objects[0].cut = Cut{{0, 0, 1}, 0};  // the front half
+    const Rgb open = at(draw({160, 120}), middle);
+    EXPECT_GT(open.g, open.r + 20) << "the pillar in it";
+    frame.objects[0].cut = Cut{{0, 0, -1}, 0};  // the back half
+    EXPECT_EQ(at(draw({160, 120}), middle), closed);
+}
+
 TEST_F(SceneTest, MetalReflectsItsSurroundings) {
     const Picture picture = draw({320, 240});
     const Rgb top = at(picture, {0, 0.47, 0.11}), below = at(picture, {-0.02, 0.1, 0.2});

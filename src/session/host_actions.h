@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "base/content_hash.h"
 #include "base/ids.h"
 #include "session/audit_event.h"
 #include "session/key_requests.h"
@@ -72,6 +73,13 @@ struct Drawing {
 struct Audit {
     AuditEvent event;
 };
+// Send the participant `count` bytes of this content from `offset` on, behind everything else.
+struct SendContent {
+    ParticipantId participant{};
+    ContentHash content;
+    std::uint64_t offset = 0;
+    std::uint32_t count = 0;
+};
 // Make this link invalid for good.
 struct RevokeLink {
     std::string link;
@@ -79,9 +87,10 @@ struct RevokeLink {
 
 }  // namespace action
 
-using Action = std::variant<action::Send, action::Close, action::End, action::Joined,
-                            action::TakeMedia, action::RequestKey, action::ChangeSettings,
-                            action::KeepEverything, action::SetCeiling, action::Stepped,
-                            action::Drawing, action::Audit, action::RevokeLink>;
+using Action =
+    std::variant<action::Send, action::Close, action::End, action::Joined, action::TakeMedia,
+                 action::RequestKey, action::ChangeSettings, action::KeepEverything,
+                 action::SetCeiling, action::Stepped, action::Drawing, action::Audit,
+                 action::RevokeLink, action::SendContent>;
 
 }  // namespace theatron::session

@@ -70,13 +70,59 @@ void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
         decision.refusal = Refusal::recorded;
     else if (request && gives_to_observer(*request))
         decision.refusal = Refusal::role;
+    else if (request && !may(member->second.role, Right::handle))
+        decision.refusal = Refusal::role;
+    else if (auto on_case = request ? decide_on_case(id, message.number, *request) : std::nullopt)
+        decision = std::move(*on_case);
     else if (request)
-        decision = state_.on_request(id, message.number, *request,
-                                     may(member->second.role, Right::handle));
+        decision = state_.on_request(id, message.number, *request, true);
     for (const RoomChange& change : decision.changes)
         tell(change);
     member->second.decided = message.number;
     send(id, wire::RoomDecision{message.number, std::uint8_t(decision.refusal)});
+}
+
+std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, std::uint32_t number,
+                                                            const Request& request) {
+    const auto is_of_case = [](ObjectKind kind) {
+        return kind == ObjectKind::organ || kind == ObjectKind::screen;
+    };
+    const auto find = [&](ObjectId object) -> const RoomObject* {
+        const auto found = state_.objects().find(object);
+        return found != state_.objects().end() && is_of_case(found->second.kind) ? &found->second
+                                                                                 : nullptr;
+    };
+    if (const auto* create = std::get_if<request::Create>(&request))
+        return is_of_case(create->kind) ? std::optional(open_case(id, *create)) : std::nullopt;
+    if (const auto* change = std::get_if<request::SetProperties>(&request)) {
+        const RoomObject* object = find(change->object);
+        if (object && !may_become(object->kind, object->properties, change->properties))
+            return RoomState::Decision{Refusal::malformed, {}};
+    }
+    const auto* remove = std::get_if<request::Remove>(&request);
+    const RoomObject* removed = remove ? find(remove->object) : nullptr;
+    if (!removed)
+        return std::nullopt;
+    // A part is hidden, not removed. Without the organ there is no case.
+    if (!decode_as<CaseOrgan>(removed->kind, removed->properties))
+        return RoomState::Decision{Refusal::part_of_case, {}};
+    RoomState::Decision decision = state_.on_request(id, number, request, true);
+    if (decision.refusal == Refusal::none)
+        for (RoomChange& change : state_.replace_case(id, {}).changes)
+            decision.changes.push_back(std::move(change));
+    return decision;
+}
+
+RoomState::Decision HostRoom::open_case(ParticipantId id, const request::Create& request) {
+    const auto organ = decode_as<CaseOrgan>(request.kind, request.properties);
+    if (!organ)
+        return {Refusal::malformed, {}};
+    const auto facts = std::find_if(cases_.begin(), cases_.end(), [&](const CaseFacts& known) {
+        return known.id == organ->of_case;
+    });
+    if (facts == cases_.end())
+        return {Refusal::no_such_object, {}};
+    return state_.replace_case(id, case_objects(*facts, request.room_from_object));
 }
 
 void HostRoom::refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal) {

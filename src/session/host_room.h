@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "session/case_objects.h"
 #include "session/host_actions.h"
 #include "session/request_budget.h"
 #include "session/room_bytes.h"
@@ -39,6 +40,11 @@ public:
     void refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal);
     void send_snapshot(ParticipantId id);
 
+    // The cases that participants may open: by creating an organ whose properties name the case.
+    // One case is open at a time; another one replaces it.
+    void set_cases(std::vector<CaseFacts> cases) { cases_ = std::move(cases); }
+    const std::vector<CaseFacts>& cases() const { return cases_; }
+
     struct Forward {
         std::vector<ParticipantId> receivers;
         bool is_flood = false;
@@ -68,6 +74,11 @@ private:
     };
     // True if the request gives an object to a participant whose role does not allow to hold it.
     bool gives_to_observer(const Request& request) const;
+    // The decision on a request that concerns the objects of a case; nullopt: it is an ordinary
+    // one.
+    std::optional<RoomState::Decision> decide_on_case(ParticipantId id, std::uint32_t number,
+                                                      const Request& request);
+    RoomState::Decision open_case(ParticipantId id, const request::Create& request);
     void tell(const RoomChange& change);
     void send(ParticipantId id, wire::ToParticipant message) {
         actions_.push_back(action::Send{id, std::move(message)});
@@ -76,6 +87,7 @@ private:
     RoomState state_;
     RoomObjects replayed_;  // with recorded_bit
     std::uint64_t replayed_changes_ = 0;
+    std::vector<CaseFacts> cases_;
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

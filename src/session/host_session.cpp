@@ -44,6 +44,9 @@ Kind kind_of(const wire::RoomRequest&) {
 Kind kind_of(const wire::Manage&) {
     return Kind::manage;
 }
+Kind kind_of(const wire::RequestContent&) {
+    return Kind::content;
+}
 
 }  // namespace
 
@@ -158,6 +161,8 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, {participant.role, participant.records, participant.name, participant.muted},
                    participant.has(wire::Feature::room), participant.connected);
+    if (!room_.cases().empty())
+        tell_cases(id);
     if (participant.may(Right::manage))
         tell_operators();
 }
@@ -217,6 +222,30 @@ void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, 
     room_.on_request(id, request);
 }
 
+void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {
+    if (request.count > 0)
+        actions_.push_back(
+            action::SendContent{id, to_content_hash(request.hash).value_or(ContentHash{}),
+                                request.offset, request.count});
+}
+
+void HostSession::set_cases(std::vector<CaseFacts> cases) {
+    room_.set_cases(std::move(cases));
+    for (const auto& [id, participant] : admission_.participants())
+        if (participant.takes_part())
+            tell_cases(id);
+}
+
+void HostSession::tell_cases(ParticipantId id) {
+    if (!admission_.find(id)->has(wire::Feature::cases))
+        return;
+    wire::OfferedCases offer;
+    for (const CaseFacts& facts : room_.cases())
+        offer.cases.push_back(
+            {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), facts.name, facts.bytes});
+    send(id, std::move(offer));
+}
+
 void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
     RequestBudget& budget = participant.budget;
     if (!participant.late_codecs.empty() && budget.grant_later(Kind::codecs, now))
@@ -273,6 +302,8 @@ void HostSession::resynchronise(ParticipantId id) {
     tell_renderer(id);
     streams_.tell_again(id);
     room_.send_snapshot(id);
+    if (!room_.cases().empty())
+        tell_cases(id);
     if (participant->may(Right::manage))
         tell_operators();
 }

@@ -90,6 +90,8 @@ public:
     std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now) {
         return room_.replay(recorded, now);
     }
+    // The cases that can be opened from now on, in this order, at most wire::max_offered_cases.
+    void set_cases(std::vector<CaseFacts> cases);
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
 
@@ -150,6 +152,8 @@ private:
     void carry_out(ParticipantId id, const wire::CameraState& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::RoomRequest& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Manage& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::RequestContent& message, TimePoint now);
+    void tell_cases(ParticipantId id);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
                           const std::vector<wire::Camera>& cameras) const;

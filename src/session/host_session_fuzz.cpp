@@ -87,7 +87,7 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish, wire::Feature::room};
+    wishes.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::cases};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
@@ -115,6 +115,14 @@ void check_rights(const HostSession& host) {
             std::abort();
     if (host.visitors().size() > wire::max_visitors)
         std::abort();
+}
+
+session::CaseFacts case_facts(int number) {
+    session::CaseFacts facts;
+    facts.id.bytes[0] = std::byte(number);
+    facts.name = "case";
+    facts.opacities.assign(std::size_t(2 + number), 255);
+    return facts;
 }
 
 // A participant who waits for admission gets nothing of the session.
@@ -163,7 +171,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto choice = in.get<std::uint8_t>();
         const ParticipantId id{1 + choice % participants};
         const SettingId setting{std::uint16_t(choice / 8)};
-        switch (what % 18) {
+        switch (what % 19) {
             case 0:
                 if (!host.participants().contains(id))
                     host.on_connected(id, now);
@@ -248,6 +256,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     wire::encode(wire::RoomRequest{1u + choice / 16,
                                                    session::encode_request(requests[choice % 3])}),
                     now);
+                break;
+            }
+            case 17: {
+                host.set_cases({case_facts(0), case_facts(choice % 3)});
+                const session::Request requests[] = {
+                    session::request::Create{
+                        session::ObjectKind::organ, {}, 1,
+                        session::encode_case_object(
+                            session::CaseOrgan{case_facts(choice / 8 % 4).id})},
+                    session::request::Remove{session::ObjectId(choice / 4)},
+                    session::request::SetProperties{
+                        session::ObjectId(choice / 4),
+                        session::encode_case_object(session::CasePart{case_facts(0).id, 1})}};
+                host.on_control(
+                    id,
+                    wire::encode(wire::RoomRequest{1u + choice / 16,
+                                                   session::encode_request(requests[choice % 3])}),
+                    now);
+                host.on_control(id, wire::encode(wire::RequestContent{Bytes(32), choice, choice}),
+                                now);
                 break;
             }
             case 9:

@@ -43,8 +43,9 @@ public:
         room,     // a change of the room
         manage,   // a decision of an operator
         other,    // unknown and unexpected messages
+        content,  // a part of a case
     };
-    static constexpr std::size_t kinds = 10;
+    static constexpr std::size_t kinds = 11;
 
     struct Limit {
         double per_second = 0;
@@ -61,7 +62,8 @@ public:
                                                       {20, 80},
                                                       {40, 200},
                                                       {10, 40},
-                                                      {5, 20}}};
+                                                      {5, 20},
+                                                      {200, 400}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 

@@ -132,10 +132,11 @@ enum class Refusal : std::uint8_t {
     not_held_by_you,
     role,  // the participant's role does not allow it
     no_such_participant,
-    too_many,   // objects, or bytes of properties
-    malformed,  // a pose that is not finite, a scale out of range, an unknown kind
-    too_often,  // more requests than a host answers
-    recorded,   // the object is part of a recording that is replayed
+    too_many,      // objects, or bytes of properties
+    malformed,     // a pose that is not finite, a scale out of range, an unknown kind
+    too_often,     // more requests than a host answers
+    recorded,      // the object is part of a recording that is replayed
+    part_of_case,  // it cannot be removed alone
 };
 
 // FNV-1a over all fields; equal rooms have equal hashes on every machine.

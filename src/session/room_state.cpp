@@ -118,6 +118,42 @@ RoomState::Decision RoomState::on_request(ParticipantId from, std::uint32_t numb
     return decision;
 }
 
+RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomObject> objects) {
+    const auto is_of_case = [](const RoomObject& object) {
+        return object.kind == ObjectKind::organ || object.kind == ObjectKind::screen;
+    };
+    std::vector<ObjectId> old;
+    std::size_t old_bytes = 0, bytes = 0;
+    for (const auto& [id, object] : objects_)
+        if (is_of_case(object)) {
+            old.push_back(id);
+            old_bytes += object.properties.size();
+        }
+    for (const RoomObject& object : objects) {
+        bytes += object.properties.size();
+        if (!is_sound(object.room_from_object, object.scale))
+            return {Refusal::malformed, {}};
+    }
+    std::size_t all = bytes;
+    for (const auto& [id, object] : objects_)
+        all += object.properties.size();
+    if (objects_.size() - old.size() + objects.size() > max_objects ||
+        all - old_bytes > max_property_bytes_of_all)
+        return {Refusal::too_many, {}};
+    Decision decision;
+    for (const ObjectId id : old) {
+        objects_.erase(id);
+        decision.changes.push_back(changed(id));
+    }
+    for (RoomObject& object : objects) {
+        const ObjectId id{++newest_id_};
+        object.creator = by;
+        objects_[id] = std::move(object);
+        decision.changes.push_back(changed(id));
+    }
+    return decision;
+}
+
 Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Create& request) {
     if (!is_known(request.kind) || !is_sound(request.room_from_object, request.scale))
         return Refusal::malformed;

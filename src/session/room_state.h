@@ -45,6 +45,9 @@ public:
     Decision on_request(ParticipantId from, std::uint32_t number, const Request& request,
                         bool may_change);
 
+    // Removes all organs and screens and adds these objects, all or none.
+    Decision replace_case(ParticipantId by, std::vector<RoomObject> objects);
+
     // Applies a pose. True, and it must be forwarded, if it belongs to the object's present grip,
     // `from` is the holder, and the pose is newer than the one before.
     bool on_pose(ParticipantId from, const ObjectPose& pose);

@@ -146,6 +146,14 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
         managed_ = *managed;
         return Change::managed;
     }
+    if (auto* offer = std::get_if<wire::OfferedCases>(&message)) {
+        offered_cases_ = std::move(offer->cases);
+        return Change::cases;
+    }
+    if (auto* content = std::get_if<wire::Content>(&message)) {
+        content_ = std::move(*content);
+        return Change::content;
+    }
     return Change::nothing;
 }
 

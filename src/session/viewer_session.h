@@ -51,6 +51,8 @@ public:
         standing,    // standing(): this participant's role
         visitors,    // visitors(): the people who wait for this operator
         managed,     // managed(): the host's answer to a decision
+        cases,       // offered_cases(): all cases of the host
+        content,     // content(): a piece of what this participant has asked for
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
@@ -94,6 +96,8 @@ public:
     const wire::Standing& standing() const { return standing_; }
     const std::vector<wire::Visitor>& visitors() const { return visitors_; }
     const wire::Managed& managed() const { return managed_; }
+    const std::vector<wire::OfferedCase>& offered_cases() const { return offered_cases_; }
+    const wire::Content& content() const { return content_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -123,6 +127,8 @@ private:
     wire::Standing standing_;
     std::vector<wire::Visitor> visitors_;
     wire::Managed managed_;
+    std::vector<wire::OfferedCase> offered_cases_;
+    wire::Content content_;
 };
 
 }  // namespace theatron::session

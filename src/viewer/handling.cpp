@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "viewer/case_actions.h"
 #include "viewer/refusal_text.h"
 
 namespace theatron::viewer {
@@ -23,8 +24,10 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
     while (const auto refusal = participant.take_room_refusal())
         if (const std::string text = text_of(refusal->second); !text.empty())
             note_ = text;
+    if (!held_)
+        screen_.on_input(input, surface_m, aspect, view, meeting, participant);
     if (input.grabbed && input.grabbed_left)
-        grab(*input.grabbed, surface_m, view, meeting, participant);
+        grab(*input.grabbed, input.steering.fast, surface_m, view, meeting, participant);
     // The object was removed or given away, or the host refused the grip.
     if (held_) {
         const session::RoomObject* object = meeting.find(held_->object);
@@ -41,7 +44,9 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
             held_->grasp.turn(clicks);
         else
             held_->grasp.approach(clicks);
-        (void)participant.move_object(held_->object, held_->grasp.room_from_object(), held_->scale);
+        (void)participant.move_object(
+            held_->object, meeting.stored_pose(held_->object, held_->grasp.room_from_object()),
+            held_->scale);
     }
     for (const xr::KeyPress& key : input.keys)
         on_key(key.action, view, meeting, participant);
@@ -49,12 +54,15 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
         release(meeting, participant);
 }
 
-void Handling::grab(Vec2 pointer, std::optional<double> surface_m, const render::CameraView& view,
-                    Meeting& meeting, client::Participant& participant) {
+void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
+                    const render::CameraView& view, Meeting& meeting,
+                    client::Participant& participant) {
     const render::PickRay ray = render::ray_through(view, pointer);
-    const auto hit = meeting.pick(ray, view);
+    auto hit = meeting.pick(ray, view);
     if (!hit || (surface_m && *surface_m < depth_of(hit->picked.place, view)))
         return;
+    if (const auto& open = meeting.case_scene().in_room(); open && !part && open->find(hit->object))
+        hit->object = open->organ_id;
     const session::RoomObject* object = meeting.find(hit->object);
     if (!object)
         return;
@@ -65,13 +73,14 @@ void Handling::grab(Vec2 pointer, std::optional<double> surface_m, const render:
     const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
     if (grip == 0)
         return;
-    held_ = Held{hit->object, grip, Grasp(object->room_from_object, ray, hit->picked.place),
+    held_ = Held{hit->object, grip, Grasp(meeting.shown_pose(hit->object), ray, hit->picked.place),
                  pointer, object->scale};
     (void)meeting.take(participant);
 }
 
 void Handling::release(const Meeting& meeting, client::Participant& participant) {
-    const Pose pose = meeting.resting(held_->object, held_->grasp.room_from_object());
+    const Pose pose = meeting.stored_pose(
+        held_->object, meeting.resting(held_->object, held_->grasp.room_from_object()));
     participant.ask_room(request::Release{held_->object, held_->grip, pose, held_->scale});
     held_.reset();
 }
@@ -83,6 +92,18 @@ void Handling::on_key(xr::Action action, const render::CameraView& view, const M
         participant.ask_room(request::Create{
             session::ObjectKind::brick, {{}, ahead}, 1, room::encode_brick({4, 2, next_color_++})});
     } else if (action == xr::Action::remove && held_) {
+        const auto& open = meeting.case_scene().in_room();
+        if (const auto* part = open ? open->find(held_->object) : nullptr) {
+            const std::size_t number = part->facts.part;
+            release(meeting, participant);
+            show_part(participant, number, false);
+            return;
+        }
+        if (open && (held_->object == open->organ_id ||
+                     (open->screen && held_->object == open->screen->id))) {
+            note_ = "O shows the case, with a button that closes it";
+            return;
+        }
         participant.ask_room(request::Remove{held_->object});
         held_.reset();
     } else if (action == xr::Action::give && held_) {

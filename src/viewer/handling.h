@@ -9,6 +9,7 @@
 #include "client/participant.h"
 #include "viewer/grasp.h"
 #include "viewer/meeting.h"
+#include "viewer/screen_handling.h"
 #include "xr/window_input.h"
 
 namespace theatron::viewer {
@@ -37,13 +38,15 @@ private:
         Vec2 pointer;  // shares of the picture's width and height
         double scale = 1;
     };
-    void grab(Vec2 pointer, std::optional<double> surface_m, const render::CameraView& view,
-              Meeting& meeting, client::Participant& participant);
+    // `part`: of an organ, not the organ.
+    void grab(Vec2 pointer, bool part, std::optional<double> surface_m,
+              const render::CameraView& view, Meeting& meeting, client::Participant& participant);
     void release(const Meeting& meeting, client::Participant& participant);
     void on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
                 client::Participant& participant);
 
     std::optional<Held> held_;
+    ScreenHandling screen_;
     std::uint8_t next_color_ = 0;
     std::string note_;
 };

@@ -67,6 +67,7 @@ bool Meeting::take(const client::Participant& participant) {
         room_ = participant.room();
         changed = true;
     }
+    changed = case_.take(participant, room_.objects, changed) || changed;
     const TimePoint now = taken_at_ = participant.now();
     auto poses = participant.poses();
     std::erase_if(tracks_, [&](const auto& track) { return !poses.contains(track.first); });
@@ -106,30 +107,46 @@ const render::SceneMesh& Meeting::mesh_of(const room::Brick& brick) {
 void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) {
     const Vec3 eye = view.room_from_eye.translation;
     for (const auto& [id, object] : room_.objects) {
+        add_holder(frame, id, object, eye);
         if (object.kind != session::ObjectKind::brick)
             continue;
         const auto brick = room::decode_brick(object.properties);
         if (!brick)
             continue;
-        const bool is_held = object.grip.holder != ParticipantId{};
         render::SurfaceLook look{room::color_of(ParticipantId{brick->color}), 0, 0.35};
         frame.objects.push_back({&mesh_of(*brick), object.room_from_object, look, false,
                                  render::ObjectId(std::uint32_t(id))});
-        if (!is_held || object.grip.holder == room_.self)
-            continue;
-        const std::string text = name_of(object.grip.holder) + " holds this";
-        Pose place =
-            room::facing(object.room_from_object.translation + Vec3{0, label_above_m, 0}, eye);
-        place.translation =
-            place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
-        frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});
     }
+    case_.add_to(frame, view);
     add_teleports(frame);
     if (people_.empty())
         return;
     if (!avatars_)
         avatars_ = std::make_unique<room::People>();
     avatars_->add_to(frame, people_, view);
+}
+
+// The name of another person above what they hold.
+void Meeting::add_holder(render::SceneFrame& frame, session::ObjectId id,
+                         const session::RoomObject& object, Vec3 eye) {
+    if (object.grip.holder == ParticipantId{} || object.grip.holder == room_.self)
+        return;
+    const std::string text = name_of(object.grip.holder) + " holds this";
+    Pose place = room::facing(shown_pose(id).translation + Vec3{0, label_above_m, 0}, eye);
+    place.translation =
+        place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
+    frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});
+}
+
+Pose Meeting::shown_pose(session::ObjectId object) const {
+    if (const auto shown = case_.shown_pose(object))
+        return *shown;
+    const session::RoomObject* found = find(object);
+    return found ? found->room_from_object : Pose{};
+}
+
+Pose Meeting::stored_pose(session::ObjectId object, const Pose& room_from_shown) const {
+    return case_.stored_pose(object, room_from_shown).value_or(room_from_shown);
 }
 
 void Meeting::add_teleports(render::SceneFrame& frame) {

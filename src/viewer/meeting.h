@@ -15,6 +15,7 @@
 #include "room/people.h"
 #include "room/teleport_marks.h"
 #include "session/pose_track.h"
+#include "viewer/case_scene.h"
 
 namespace theatron::viewer {
 
@@ -44,6 +45,15 @@ public:
     };
     std::optional<Hit> pick(const render::PickRay& ray, const render::CameraView& view);
 
+    // The case that is open in the room.
+    CaseScene& case_scene() { return case_; }
+    const CaseScene& case_scene() const { return case_; }
+
+    // Where an object is drawn, and the pose that it has in the room's state there: they differ for
+    // parts of an organ. Needs an object that can be held.
+    Pose shown_pose(session::ObjectId object) const;
+    Pose stored_pose(session::ObjectId object, const Pose& room_from_shown) const;
+
     // Null if there is no object with this number. Valid until take().
     const session::RoomObject* find(session::ObjectId object) const;
     // The pose of an object after its release at `released`: bricks snap together.
@@ -61,6 +71,8 @@ public:
 private:
     const render::SceneMesh& mesh_of(const room::Brick& brick);
     void add_teleports(render::SceneFrame& frame);
+    void add_holder(render::SceneFrame& frame, session::ObjectId id,
+                    const session::RoomObject& object, Vec3 eye);
 
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
@@ -72,6 +84,7 @@ private:
     std::unique_ptr<room::TeleportMarks> marks_;  // made for the first teleport
     std::unique_ptr<room::People> avatars_;       // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
+    CaseScene case_;
 };
 
 // All people of the room except room.self, with these poses. `now` is session time.

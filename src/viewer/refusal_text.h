@@ -24,6 +24,7 @@ static_assert(code_of(session::Refusal::too_many) == wire::TextCode::room_full);
 static_assert(code_of(session::Refusal::malformed) == wire::TextCode::beyond_room_limits);
 static_assert(code_of(session::Refusal::too_often) == wire::TextCode::room_too_often);
 static_assert(code_of(session::Refusal::recorded) == wire::TextCode::part_of_recording);
+static_assert(code_of(session::Refusal::part_of_case) == wire::TextCode::part_of_case);
 
 // Part of a sentence, without a full stop; empty where nothing was refused.
 inline std::string text_of(session::Refusal refusal) {

@@ -3,6 +3,7 @@
 // operators also buttons that decide on people.
 #pragma once
 
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -27,7 +28,14 @@ struct Decide {  // an operator's decision on a person
     ParticipantId person{};
     wire::Role role{};
 };
-using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide>;
+struct OpenOffered {  // a case of the host
+    ContentHash offered;
+};
+struct ChangeCase {  // false: there is no such case any more
+    std::function<bool(client::Participant&)> change;
+};
+using RoomCommand =
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

@@ -7,6 +7,9 @@
 #include "base/error.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
+#include "viewer/case_actions.h"
+#include "viewer/case_panel.h"
+#include "viewer/screen_handling.h"
 #include "wire/manage_text.h"
 
 namespace theatron::viewer {
@@ -15,6 +18,8 @@ namespace {
 constexpr Duration pose_interval = std::chrono::milliseconds(15);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
 constexpr Duration notice_shown = std::chrono::seconds(5);
+// A case is opened at this distance in front of the eye.
+constexpr double new_case_distance_m = 0.9;
 // A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
 
@@ -48,8 +53,11 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     if (const std::string text = handling_.take_note(); !text.empty())
         note(text, now);
     scene_changed_ = scene_changed_ || input.redraw;
-    for (const xr::KeyPress& key : input.keys)
+    for (const xr::KeyPress& key : input.keys) {
+        if (key.action == xr::Action::slice_here)
+            show_slice_at(input, picture, now);
         on_key(key, picture, now);
+    }
     aim_teleport(input, picture);
     if (input.steering.moves())
         stop_following();
@@ -88,6 +96,11 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::people:
             shows_panels_ = !shows_panels_;
             break;
+        case xr::Action::show_case:
+            shows_case_ = !shows_case_;
+            break;
+        case xr::Action::slice_here:
+            break;  // needs the mouse: show_slice_at()
         case xr::Action::sit_or_stand:
             if (!eye_.is_placed())
                 break;
@@ -137,6 +150,20 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
     }
 }
 
+void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now) {
+    if (!eye_.is_placed() || !input.pointer)
+        return;
+    Meeting& meeting = scene_.meeting();
+    const render::CameraView view = eye_.view(picture);
+    const auto hit = meeting.pick(render::ray_through(view, *input.pointer), view);
+    const auto& open = meeting.case_scene().in_room();
+    const auto place =
+        hit ? meeting.case_scene().patient_point(hit->object, hit->picked.place) : std::nullopt;
+    if (!place || !open || !open->screen)
+        return note("Point at a part of an organ with images", now);
+    set_screen(participant_, through(open->screen->facts, *place));
+}
+
 // The arc begins below the eye, so that it is seen from above.
 void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
     constexpr Vec3 hand_from_eye{0.15, 0.3, 0.1};
@@ -168,6 +195,18 @@ void Viewer::press(int command, TimePoint now) {
     const RoomCommand chosen = commands_[std::size_t(command)];
     if (const auto* decision = std::get_if<Decide>(&chosen)) {
         participant_.manage(decision->action, decision->person, decision->role);
+        return;
+    }
+    if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
+        if (!change->change(participant_))
+            note("This is not in the room any more", now);
+        return;
+    }
+    if (const auto* offer = std::get_if<OpenOffered>(&chosen)) {
+        constexpr Size any{16, 9};
+        const Pose eye = eye_.view(any).room_from_eye;
+        open_case(participant_, offer->offered, eye * Vec3{0, 0.1, new_case_distance_m},
+                  eye.translation);
         return;
     }
     stop_following();
@@ -380,6 +419,15 @@ Facts Viewer::facts(TimePoint now) {
         RoomPanel panel = room_panel(
             {scene_.meeting().room(), scene_.meeting().people(), places_of(cameras()), followed_,
              facts.received.status.standing.role == wire::Role::operator_, facts.visitors});
+        facts.panels = std::move(panel.panels);
+        commands_ = std::move(panel.commands);
+    }
+    if (shows_case_) {
+        RoomPanel panel{std::move(facts.panels), std::move(commands_)};
+        const CaseScene& scene = scene_.meeting().case_scene();
+        add_case_panel({participant_.cases(), scene.in_room() ? &*scene.in_room() : nullptr,
+                        scene.content(), scene.monitor().volume()},
+                       panel);
         facts.panels = std::move(panel.panels);
         commands_ = std::move(panel.commands);
     }

@@ -84,6 +84,7 @@ private:
     void look_through_followed(TimePoint now);
     void stop_following();
     std::optional<Pose> meeting_place() const;
+    void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
@@ -103,7 +104,7 @@ private:
     std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees
     std::optional<room::TeleportArc> arc_;   // while it is aimed
     bool sits_ = false;
-    bool shows_panels_ = false;
+    bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;
     bool line_ = true;

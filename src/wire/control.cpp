@@ -170,6 +170,15 @@ bool is_sound(const Standing& standing) {
 bool is_sound(const Visitor& visitor) {
     return is_known(visitor.role);
 }
+bool is_sound(const RequestContent& request) {
+    return request.hash.size() == content_hash_size && request.count <= max_content_request;
+}
+bool is_sound(const OfferedCase& offered) {
+    return offered.hash.size() == content_hash_size;
+}
+bool is_sound(const Content& content) {
+    return content.hash.size() == content_hash_size;
+}
 bool is_sound(const Managed& answer) {
     return answer.refusal <= ManageRefusal::too_often;
 }

@@ -48,10 +48,15 @@ enum class Feature : std::uint16_t {
     publish = 1,     // sends cameras
     sends_only = 2,  // is sent no cameras of others
     room = 3,        // keeps the objects of the room (session/room_replica.h)
+    cases = 4,       // is told of the host's cases, and takes their content
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
 inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
+inline constexpr std::size_t max_offered_cases = 64;
+inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
+inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
+inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
 
 // A run of a host; random. Numbers of cameras and participants are of one session.
 enum class SessionId : std::uint32_t {};
@@ -238,6 +243,20 @@ struct Manage {
         field(m.action);
         field(m.participant);
         field(m.role);
+    }
+};
+
+// The participant asks for `count` bytes of this content from `offset` on. The host answers with
+// Content messages, in order.
+struct RequestContent {
+    Bytes hash;
+    std::uint64_t offset = 0;
+    std::uint32_t count = 0;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.hash, content_hash_size);
+        field(m.offset);
+        field(m.count);
     }
 };
 
@@ -542,13 +561,49 @@ struct Goodbye {
     static void fields(auto& m, auto&& field) { field(m.reason); }
 };
 
+// A case of the host that can be opened in the room.
+struct OfferedCase {
+    Bytes hash;  // of its description (medical/shared_case.h), which names all its other content
+    std::string name;
+    std::uint64_t bytes = 0;  // of all its content
+    bool operator==(const OfferedCase&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.hash, content_hash_size);
+        field(m.name, max_name);
+        field(m.bytes);
+    }
+};
+
+// All cases of the host, after Welcome and whenever they change.
+struct OfferedCases {
+    std::vector<OfferedCase> cases;
+
+    static void fields(auto& m, auto&& field) { field(m.cases, max_offered_cases); }
+};
+
+// A piece of requested content. `total` is the size of the whole; 0: the host does not have it.
+struct Content {
+    Bytes hash;
+    std::uint64_t offset = 0;
+    std::uint64_t total = 0;
+    Bytes bytes;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.hash, content_hash_size);
+        field(m.offset);
+        field(m.total);
+        field(m.bytes, max_content_piece);
+    }
+};
+
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
-                            Unpublish, CameraState, RoomRequest, Manage>;
-using ToParticipant =
-    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
-                 CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
-                 RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed>;
+                            Unpublish, CameraState, RoomRequest, Manage, RequestContent>;
+using ToParticipant = std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer,
+                                   Refused, Goodbye, CamerasAdded, CamerasRemoved, Published,
+                                   Encode, EncodeKey, RoomSnapshot, RoomChange, RoomDecision,
+                                   Waiting, Standing, Visitors, Managed, OfferedCases, Content>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

@@ -107,6 +107,7 @@ constexpr Row rows[] = {
     {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
     {TextCode::room_too_often, "That was too much at once; try again"},
     {TextCode::part_of_recording, "Only the recording moves this"},
+    {TextCode::part_of_case, "This belongs to the case; hide it, or close the case"},
 
     {TextCode::operators_decide, "Only operators decide on others."},
     {TextCode::decided_person_gone, "That person has left."},

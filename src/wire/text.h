@@ -87,6 +87,7 @@ enum class TextCode : std::uint16_t {
     beyond_room_limits = 506,
     room_too_often = 507,
     part_of_recording = 508,
+    part_of_case = 509,
 
     // Decisions on people.
     operators_decide = 600,

@@ -90,6 +90,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::sit_or_stand};
         case SDLK_p:
             return KeyPress{Action::people};
+        case SDLK_o:
+            return KeyPress{Action::show_case};
+        case SDLK_i:
+            return KeyPress{Action::slice_here};
         case SDLK_r:
         case SDLK_HOME:
             return KeyPress{Action::own_view};

@@ -24,6 +24,8 @@ enum class Action {
     remove,     // removes the held object
     sit_or_stand,
     people,       // shows or hides the panel of people and places
+    show_case,    // shows or hides the panel of the case
+    slice_here,   // moves the slice to the place of an organ under the mouse
     admit,        // for operators: lets in the person who has waited longest
     turn_away,    // the opposite
     own_view,     // back to the camera's own view

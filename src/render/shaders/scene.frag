@@ -17,6 +17,10 @@ uniform sampler2D surface_texture;  // sRGB; white where the surface has none
 uniform bool unlit;
 #endif
 
+#ifdef CUT
+uniform vec4 cut;  // normal and distance of the plane behind which nothing is drawn
+#endif
+
 // Ambient occlusion, by what the opaque objects' depth shows around a place.
 uniform bool occludes;
 uniform sampler2D scene_depth;
@@ -131,6 +135,10 @@ float open_share(vec3 n) {
 #endif
 
 void main() {
+#ifdef CUT
+    if (dot(cut.xyz, v_place) > cut.w)
+        discard;
+#endif
     float distance_m = tells_distance ? 1.0 / gl_FragCoord.w : 0.0;
 #ifdef TEXTURED
     vec4 texel = texture(surface_texture, v_uv);

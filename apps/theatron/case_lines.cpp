@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "case_lines.h"
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/hex_text.h"
+#include "base/log.h"
+#include "medical/slice.h"
+#include "medical/window.h"
+#include "viewer/case_actions.h"
+#include "viewer/screen_handling.h"
+
+namespace theatron::app {
+namespace {
+
+// The organ's place where a script does not give one.
+constexpr Vec3 usual_place{0, 1.3, 0}, usual_eye{0, 1.6, 1};
+
+std::string rest_of(std::istream& words) {
+    std::string text;
+    std::getline(words >> std::ws, text);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\r'))
+        text.pop_back();
+    return text;
+}
+
+double read_number(std::istream& words, double low, double high, const char* what) {
+    double value = 0;
+    if (!(words >> value) || !(value >= low && value <= high))
+        throw Error(std::string(what) + " is a number from " + std::to_string(int(low)) + " to " +
+                    std::to_string(int(high)) + ".");
+    return value;
+}
+
+void open_by_name(client::Participant& participant, const std::string& name) {
+    std::string names;
+    for (const wire::OfferedCase& offered : participant.cases()) {
+        if (offered.name == name) {
+            viewer::open_case(participant, *to_content_hash(offered.hash), usual_place, usual_eye);
+            return;
+        }
+        names += (names.empty() ? "" : ", ") + offered.name;
+    }
+    throw Error("The host offers no case '" + name + "'; " +
+                (names.empty() ? "it offers none." : "it offers " + names + "."));
+}
+
+// By number from 0, or by name.
+std::size_t find_part(const client::Participant& participant, const std::string& which) {
+    std::uint64_t version = 0;
+    const auto open = participant.open_case(version);
+    std::string names;
+    if (open && open->description)
+        for (std::size_t i = 0; i < open->description->parts.size(); ++i) {
+            const std::string& name = open->description->parts[i].name;
+            if (which == name || which == std::to_string(i))
+                return i;
+            names += (names.empty() ? "" : ", ") + name;
+        }
+    throw Error("The open case has no part '" + which + "'" +
+                (names.empty() ? "." : "; it has " + names + "."));
+}
+
+// "slice axial", "slice 12.5", "window liver", "window 60 400".
+bool change_screen(client::Participant& participant, const std::string& what, std::istream& words) {
+    std::uint64_t version = 0;
+    const auto open = participant.open_case(version);
+    const auto room = session::case_in_room(participant.room().objects);
+    if (!open || !room || !room->screen)
+        return false;
+    session::CaseScreen screen = room->screen->facts;
+    std::string which;
+    words >> which;
+    if (what == "slice") {
+        const auto volume =
+            screen.series < open->volumes.size() ? open->volumes[screen.series] : nullptr;
+        if (!volume)
+            throw Error("The images have not come yet.");
+        constexpr const char* names[] = {"axial", "coronal", "sagittal"};
+        const auto named = std::find(std::begin(names), std::end(names), which);
+        if (named != std::end(names)) {
+            screen = viewer::turned(screen, *volume, medical::Orientation(named - names));
+            words >> which;
+        }
+        if (named == std::end(names) || words) {
+            std::istringstream number(which);
+            screen.position_mm = read_number(number, -100'000, 100'000, "The place in millimetres");
+            screen = viewer::scrolled(screen, *volume, 0);  // within the images
+        }
+    } else {
+        const auto presets = medical::window_presets();
+        const auto preset = std::find_if(presets.begin(), presets.end(),
+                                         [&](const auto& p) { return p.name == which; });
+        if (preset != presets.end()) {
+            screen.center = preset->window.center;
+            screen.width = preset->window.width;
+        } else {
+            std::istringstream number(which);
+            screen.center = read_number(number, -20'000, 20'000, "The centre of a window");
+            screen.width = read_number(words, 1, 20'000, "The width of a window");
+        }
+    }
+    return viewer::set_screen(participant, screen);
+}
+
+bool carry_out(client::Participant& participant, const std::string& what, std::istream& words) {
+    if (what == "open")
+        return open_by_name(participant, rest_of(words)), true;
+    if (what == "close")
+        return viewer::close_case(participant);
+    if (what == "hide" || what == "show")
+        return viewer::show_part(participant, find_part(participant, rest_of(words)),
+                                 what == "show");
+    if (what == "opacity") {
+        const double percent = read_number(words, 0, 100, "The opacity in percent");
+        return viewer::set_opacity(participant, find_part(participant, rest_of(words)),
+                                   percent / 100);
+    }
+    if (what == "explode")
+        return viewer::explode(participant,
+                               read_number(words, 0, 100, "The distance in percent") / 100);
+    if (what == "together")
+        return viewer::put_together(participant);
+    if (what == "scale")
+        return viewer::set_scale(participant, read_number(words, 0.01, 100, "The scale"));
+    if (what == "cut" || what == "whole")
+        return viewer::cut_at_slice(participant, what == "cut");
+    if (what == "slice" || what == "window")
+        return change_screen(participant, what, words);
+    throw Error(std::string("The lines on cases are ") + case_lines_help() + ".");
+}
+
+nlohmann::json screen_json(const session::CaseInRoom& room) {
+    if (!room.screen)
+        return nullptr;
+    const session::CaseScreen& screen = room.screen->facts;
+    return {{"object", std::uint32_t(room.screen->id)},
+            {"orientation", screen.orientation},
+            {"position_mm", screen.position_mm},
+            {"center", screen.center},
+            {"width", screen.width}};
+}
+
+}  // namespace
+
+const char* case_lines_help() {
+    return "'case open NAME', 'case close', 'case hide PART', 'case show PART',\n"
+           "'case opacity PERCENT PART', 'case explode PERCENT', 'case together', 'case scale "
+           "FACTOR',\n"
+           "'case slice axial|coronal|sagittal [MM]', 'case slice MM', 'case window PRESET',\n"
+           "'case window CENTRE WIDTH', 'case cut', 'case whole'";
+}
+
+bool obey_case_line(client::Participant& participant, const std::string& line) {
+    std::istringstream words(line);
+    std::string word, what;
+    words >> word >> what;
+    if (word != "case")
+        return false;
+    try {
+        if (!carry_out(participant, what, words))
+            log::say("'" + line + "': No case is open, or it has no such part.");
+    } catch (const Error& error) {
+        log::say("'" + line + "': " + error.what());
+    }
+    return true;
+}
+
+nlohmann::json case_json(const client::Participant& participant) {
+    nlohmann::json offered = nlohmann::json::array();
+    for (const wire::OfferedCase& one : participant.cases())
+        offered.push_back(one.name);
+    nlohmann::json json{{"offered", offered}, {"open", nullptr}};
+    std::uint64_t version = 0;
+    const auto open = participant.open_case(version);
+    const auto room = session::case_in_room(participant.room().objects);
+    if (!open || !room)
+        return json;
+    nlohmann::json parts = nlohmann::json::array();
+    for (const auto& part : room->parts) {
+        const std::size_t number = part.facts.part;
+        const bool known = open->description && number < open->description->parts.size();
+        parts.push_back({{"object", std::uint32_t(part.id)},
+                         {"name", known ? open->description->parts[number].name : ""},
+                         {"shown", part.facts.shown},
+                         {"opacity", part.facts.opacity / 255.0},
+                         {"is_here", known && open->meshes[number] != nullptr}});
+    }
+    json["open"] = {{"hash", hex_text(open->id.bytes)},
+                    {"name", open->description ? open->description->name : ""},
+                    {"complete", open->is_complete()},
+                    {"got", open->progress.got},
+                    {"all", open->progress.all},
+                    {"problem", open->problem},
+                    {"object", std::uint32_t(room->organ_id)},
+                    {"explosion", room->organ.explosion / 255.0},
+                    {"cut", room->organ.cut},
+                    {"screen", screen_json(*room)},
+                    {"parts", parts}};
+    return json;
+}
+
+}  // namespace theatron::app

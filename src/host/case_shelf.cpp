@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/case_shelf.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/log.h"
+#include "base/outside_text.h"
+#include "base/thread_name.h"
+#include "cases/manifest.h"
+#include "net/content_digest.h"
+
+namespace theatron::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int niceness = 10;
+// Files of one folder whose sizes and times are compared.
+constexpr int max_watched_files = 1000;
+
+// Empty for a folder without a manifest.
+std::string signature_of(const fs::path& folder) {
+    std::error_code failed;
+    if (!fs::is_regular_file(fs::symlink_status(folder / cases::manifest_name, failed)))
+        return "";
+    std::set<std::string> files;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        std::error_code ignored;
+        files.insert(entry->path().filename().string() + " " +
+                     std::to_string(entry->file_size(ignored)) + " " +
+                     std::to_string(entry->last_write_time(ignored).time_since_epoch().count()));
+        if (int(files.size()) >= max_watched_files)
+            break;
+    }
+    std::string text;
+    for (const std::string& file : files)
+        text += file + "\n";
+    return text;
+}
+
+session::CaseFacts facts_of(const cases::ShareableCase& shared) {
+    session::CaseFacts facts;
+    facts.id = shared.id;
+    facts.name = shared.description.name;
+    facts.bytes = shared.bytes;
+    for (const medical::SharedPart& part : shared.description.parts)
+        facts.opacities.push_back(part.opacity);
+    if (shared.window)
+        facts.screen = session::CaseScreen{
+            shared.id, 0, 0, shared.middle_slice_mm, shared.window->center, shared.window->width};
+    return facts;
+}
+
+}  // namespace
+
+CaseShelf::CaseShelf(fs::path directory, Changed changed)
+    : directory_(std::move(directory)), changed_(std::move(changed)) {
+    std::error_code failed;
+    if (!fs::is_directory(directory_, failed))
+        throw Error("There is no folder '" + clean_text(directory_.string(), 300) +
+                    "' for cases; make it, or name another with --cases.");
+    thread_ = std::thread([this] { run(); });
+}
+
+CaseShelf::~CaseShelf() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    stop_.notify_all();
+    thread_.join();
+}
+
+std::shared_ptr<const Bytes> CaseShelf::content(const ContentHash& hash) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = content_.find(hash);
+    return found == content_.end() ? nullptr : found->second;
+}
+
+void CaseShelf::run() {
+    name_this_thread("cases");
+    setpriority(PRIO_PROCESS, id_t(gettid()), niceness);
+    std::unique_lock lock(mutex_);
+    while (!stopping_) {
+        lock.unlock();
+        (void)contain("cases", [this] { look(); });
+        lock.lock();
+        stop_.wait_for(lock, interval, [this] { return stopping_; });
+    }
+}
+
+void CaseShelf::look() {
+    std::set<std::string> names;
+    std::error_code failed;
+    for (fs::directory_iterator entry(directory_, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        std::error_code ignored;
+        if (entry->is_directory(ignored))
+            names.insert(entry->path().filename().string());
+        if (names.size() > max_folders)
+            names.erase(std::prev(names.end()));
+    }
+    const std::string problem = failed ? failed.message() : "";
+    if (!problem.empty() && problem != listing_problem_)
+        log::warning("host", "the folder of cases cannot be read",
+                     {{"folder", directory_.string()}, {"why", problem}});
+    listing_problem_ = problem;
+    if (failed)
+        return;
+    bool changed = false;
+    for (auto folder = folders_.begin(); folder != folders_.end();) {
+        const bool is_gone = !names.contains(folder->first);
+        changed = changed || (is_gone && folder->second.shared);
+        folder = is_gone ? folders_.erase(folder) : std::next(folder);
+    }
+    for (const std::string& name : names)
+        changed = look_at(name, folders_[name]) || changed;
+    if (changed)
+        publish();
+}
+
+// A case is read once its files have stayed the same from one look to the next: one that is still
+// being copied is not complete.
+bool CaseShelf::look_at(const std::string& name, Folder& folder) {
+    const fs::path path = directory_ / name;
+    std::string signature = signature_of(path);
+    if (signature != folder.signature) {
+        folder.signature = std::move(signature);
+        folder.is_read = false;
+        return false;
+    }
+    if (folder.is_read)
+        return false;
+    folder.is_read = true;
+    const bool was_offered = folder.shared.has_value();
+    folder.shared.reset();
+    if (folder.signature.empty())
+        return was_offered;
+    std::uint64_t taken = 0;
+    for (const auto& [other, known] : folders_)
+        taken += known.shared ? known.shared->bytes : 0;
+    try {
+        folder.shared = cases::share_case(path, net::content_hash, max_content_bytes - taken);
+        log::info("host", "case is offered",
+                  {log::outside("name", folder.shared->description.name),
+                   {"parts", folder.shared->description.parts.size()},
+                   {"series", folder.shared->description.series.size()},
+                   {"bytes", folder.shared->bytes}});
+    } catch (const std::exception& error) {
+        log::say(std::string(error.what()) + " This case is not offered.");
+    }
+    return was_offered || folder.shared;
+}
+
+void CaseShelf::publish() {
+    std::vector<session::CaseFacts> offered;
+    std::map<ContentHash, std::shared_ptr<const Bytes>> content;
+    for (const auto& [name, folder] : folders_)
+        if (folder.shared) {
+            offered.push_back(facts_of(*folder.shared));
+            content.insert(folder.shared->content.begin(), folder.shared->content.end());
+        }
+    {
+        const std::lock_guard lock(mutex_);
+        content_ = std::move(content);
+    }
+    changed_(std::move(offered));
+}
+
+}  // namespace theatron::host

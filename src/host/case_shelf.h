@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cases that a host offers: each folder with a case in one directory. A thread of low priority
+// watches the directory, reads new cases, and keeps their shareable content in memory, so that a
+// file that changes meanwhile never gives two participants different organs.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/time.h"
+#include "cases/share_case.h"
+#include "session/case_objects.h"
+
+namespace theatron::host {
+
+class CaseShelf {
+public:
+    static constexpr Duration interval = std::chrono::milliseconds(200);
+    // Of all cases together; a case beyond it is not offered.
+    static constexpr std::uint64_t max_content_bytes = std::uint64_t(2) << 30;
+    // Folders of the directory that are read; the first ones by name.
+    static constexpr std::size_t max_folders = 64;
+
+    // Other cases are offered from now on. From the thread of the shelf.
+    using Changed = std::function<void(std::vector<session::CaseFacts>)>;
+
+    // Throws Error with one sentence if there is no such directory.
+    CaseShelf(std::filesystem::path directory, Changed changed);
+    ~CaseShelf();
+
+    // From any thread. Null if no offered case has this content.
+    std::shared_ptr<const Bytes> content(const ContentHash& hash) const;
+
+private:
+    struct Folder {
+        std::string signature;  // sizes and times of its files
+        bool is_read = false;   // in this state of its files
+        std::optional<cases::ShareableCase> shared;
+    };
+    void run();
+    void look();
+    // True if what is offered changes.
+    bool look_at(const std::string& name, Folder& folder);
+    void publish();
+
+    const std::filesystem::path directory_;
+    const Changed changed_;
+    std::map<std::string, Folder> folders_;  // the thread's only; by name
+    std::string listing_problem_;            // likewise
+    mutable std::mutex mutex_;               // guards all below
+    std::condition_variable stop_;
+    std::map<ContentHash, std::shared_ptr<const Bytes>> content_;
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::host

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/case_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/case_actions.h"
+#include "viewer/screen_handling.h"
+
+namespace theatron::viewer {
+namespace {
+
+using client::Participant;
+
+constexpr double opacity_step = 0.2, apart = 0.6;
+// Further parts are reached by lines of `theatron join`.
+constexpr std::size_t listed_parts = 24;
+
+std::string megabytes(std::uint64_t bytes) {
+    return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
+}
+
+std::string state_of(const CasePanelFacts& facts) {
+    const client::OpenCase* content = facts.content;
+    if (!content)
+        return "";
+    if (!content->problem.empty())
+        return content->problem;
+    return content->is_complete()
+               ? ""
+               : megabytes(content->progress.got) + " of " + megabytes(content->progress.all);
+}
+
+class Builder {
+public:
+    Builder(RoomPanel& panel) : panel_(panel) {}
+
+    xr::PanelButton button(std::string label, RoomCommand command) {
+        panel_.commands.push_back(std::move(command));
+        return {std::move(label), int(panel_.commands.size()) - 1};
+    }
+    xr::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
+        return button(std::move(label), ChangeCase{std::move(action)});
+    }
+    void row(std::string text, std::string detail, std::vector<xr::PanelButton> buttons) {
+        rows_.push_back({std::move(text), std::move(detail), std::move(buttons)});
+    }
+    void finish(std::string title) { panel_.panels.push_back({std::move(title), rows_}); }
+
+private:
+    RoomPanel& panel_;
+    std::vector<xr::PanelRow> rows_;
+};
+
+void add_parts(const CasePanelFacts& facts, Builder& add) {
+    if (!facts.content || !facts.content->description)
+        return;
+    const auto& parts = facts.content->description->parts;
+    for (std::size_t i = 0; i < std::min(facts.room->parts.size(), listed_parts); ++i) {
+        const session::CasePart part = facts.room->parts[i].facts;
+        if (part.part >= parts.size())
+            continue;
+        const double opacity = part.opacity / 255.0;
+        const auto change = [&](double by) {
+            return [number = part.part, to = std::clamp(opacity + by, 0.0, 1.0)](Participant& p) {
+                return set_opacity(p, number, to);
+            };
+        };
+        add.row(
+            parts[part.part].name,
+            std::to_string(std::lround(opacity * 100)) + " %" + (part.shown ? "" : ", hidden"),
+            {add.action(part.shown ? "Hide" : "Show",
+                        [part](Participant& p) { return show_part(p, part.part, !part.shown); }),
+             add.action("-", change(-opacity_step)), add.action("+", change(opacity_step))});
+    }
+}
+
+void add_screen(const CasePanelFacts& facts, Builder& add) {
+    if (!facts.room->screen || !facts.volume)
+        return;
+    const session::CaseScreen screen = facts.room->screen->facts;
+    std::vector<xr::PanelButton> planes, windows;
+    const char* names[] = {"Axial", "Coronal", "Sagittal"};
+    for (int i = 0; i < 3; ++i)
+        planes.push_back(
+            add.action(names[i], [next = turned(screen, *facts.volume, medical::Orientation(i))](
+                                     Participant& p) { return set_screen(p, next); }));
+    for (const medical::WindowPreset& preset : medical::window_presets()) {
+        session::CaseScreen next = screen;
+        next.center = preset.window.center;
+        next.width = preset.window.width;
+        windows.push_back(add.action(std::string(preset.name),
+                                     [next](Participant& p) { return set_screen(p, next); }));
+    }
+    add.row("Images", "", std::move(planes));
+    const auto half = windows.begin() + std::ptrdiff_t(windows.size() / 2);
+    add.row("Window", "", {windows.begin(), half});
+    add.row("", "", {half, windows.end()});
+}
+
+}  // namespace
+
+void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
+    Builder add(panel);
+    if (facts.room) {
+        const bool known = facts.content && facts.content->description;
+        add.row(known ? facts.content->description->name : "A case", state_of(facts),
+                {add.action("Life size", [](Participant& p) { return set_scale(p, 1); }),
+                 add.action("Close", close_case)});
+        const bool is_apart = facts.room->organ.explosion != 0, cut = facts.room->organ.cut;
+        std::vector<xr::PanelButton> buttons{
+            add.action(is_apart ? "Closer" : "Apart",
+                       [is_apart](Participant& p) { return explode(p, is_apart ? 0 : apart); }),
+            add.action("Together", put_together)};
+        if (facts.volume)
+            buttons.push_back(add.action(cut ? "Whole" : "Cut",
+                                         [cut](Participant& p) { return cut_at_slice(p, !cut); }));
+        add.row("Parts", "", std::move(buttons));
+        add_parts(facts, add);
+        add_screen(facts, add);
+    }
+    for (const wire::OfferedCase& offered : facts.offered) {
+        const auto hash = to_content_hash(offered.hash);
+        if (!hash || (facts.room && facts.room->organ.of_case == *hash))
+            continue;
+        add.row(offered.name, megabytes(offered.bytes), {add.button("Open", OpenOffered{*hash})});
+    }
+    if (!facts.room && facts.offered.empty())
+        add.row("The host offers no case", "", {});
+    add.finish("Case");
+}
+
+}  // namespace theatron::viewer

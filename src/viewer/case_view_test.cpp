@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The slice that the screen of a case shows, and its changes.
+#include <gtest/gtest.h>
+
+#include "viewer/case_panel.h"
+#include "viewer/screen_handling.h"
+
+namespace theatron::viewer {
+namespace {
+
+// Samples tell their place: 100 * slice + 10 * row + column.
+medical::Volume volume() {
+    medical::Volume v;
+    v.grid = {4, 3, 5, {-10, 20, 100}, {2, 0, 0}, {0, 2, 0}, {0, 0, 5}};
+    for (int k = 0; k < 5; ++k)
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 4; ++i)
+                v.samples.push_back(std::int16_t(100 * k + 10 * j + i));
+    return v;
+}
+
+session::CaseScreen screen_at(double position_mm) {
+    session::CaseScreen screen;
+    screen.position_mm = position_mm;
+    screen.center = 256;
+    screen.width = 512;
+    return screen;
+}
+
+TEST(CaseView, ASliceIsGreysOfTheSamplesThere) {
+    const SlicePicture slice = slice_picture(volume(), screen_at(110));
+    ASSERT_EQ(slice.picture.size, (Size{4, 3}));
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 4; ++i)
+            EXPECT_EQ(slice.picture.view().row(j)[i].g,
+                      medical::grey_of(200 + 10 * j + i, {256, 512}));
+    EXPECT_EQ(slice.plane.point_at(0, 0), (Vec3{-10, 20, 110}));
+}
+
+TEST(CaseView, SlicesBeyondTheImagesAreTheOutermost) {
+    const medical::Volume v = volume();
+    EXPECT_EQ(scrolled(screen_at(110), v, 1).position_mm, 115);
+    EXPECT_EQ(scrolled(screen_at(110), v, -9).position_mm, 100);
+    EXPECT_EQ(scrolled(screen_at(110), v, 1e9).position_mm, 120);
+    EXPECT_EQ(slice_picture(v, screen_at(5000)).plane.top_left_mm.z, 120);
+}
+
+TEST(CaseView, AnotherOrientationGoesThroughTheMiddle) {
+    const auto coronal = turned(screen_at(100), volume(), medical::Orientation::coronal);
+    EXPECT_EQ(coronal.orientation, 1);
+    EXPECT_EQ(coronal.position_mm, 22);
+    EXPECT_EQ(coronal.center, 256);
+}
+
+TEST(CaseView, TheSliceGoesThroughAPlaceOfThePatient) {
+    session::CaseScreen screen = screen_at(100);
+    EXPECT_EQ(through(screen, {1, 2, 3}).position_mm, 3);
+    screen.orientation = 1;
+    EXPECT_EQ(through(screen, {1, 2, 3}).position_mm, 2);
+    screen.orientation = 2;
+    EXPECT_EQ(through(screen, {1, 2, 3}).position_mm, 1);
+}
+
+TEST(CasePanel, OffersCasesThatAreNotOpen) {
+    Bytes first(32), second(32);
+    second[0] = std::byte(7);
+    CasePanelFacts facts;
+    facts.offered = {{first, "One", 2'000'000}, {second, "Two", 48'300'000}};
+    session::CaseInRoom room;
+    room.organ.of_case = *to_content_hash(second);
+    RoomPanel panel;
+    add_case_panel(facts, panel);
+    ASSERT_EQ(panel.panels.size(), 1u);
+    ASSERT_EQ(panel.panels[0].rows.size(), 2u);
+    EXPECT_EQ(panel.panels[0].rows[1].detail, "48 MB");
+    const auto& open = std::get<OpenOffered>(
+        panel.commands[std::size_t(panel.panels[0].rows[1].buttons[0].command)]);
+    EXPECT_EQ(open.offered, *to_content_hash(second));
+
+    facts.room = &room;
+    RoomPanel with_open;
+    add_case_panel(facts, with_open);
+    const auto& rows = with_open.panels[0].rows;
+    EXPECT_EQ(rows.back().text, "One") << "Two is open";
+}
+
+}  // namespace
+}  // namespace theatron::viewer

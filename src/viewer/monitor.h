@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen of the open case: a slice of its images with letters of directions and a scale bar, in
+// the room and as a plane inside of the organ.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client/participant.h"
+#include "medical/slice.h"
+#include "medical/window.h"
+#include "render/camera_view.h"
+#include "render/scene_frame.h"
+#include "session/case_objects.h"
+
+namespace theatron::viewer {
+
+// The grey picture of a screen's slice. Pure.
+struct SlicePicture {
+    medical::SlicePlane plane;
+    ColorImage picture;
+};
+SlicePicture slice_picture(const medical::Volume& volume, const session::CaseScreen& screen);
+
+// Use from one thread, with the same GL context current.
+class Monitor {
+public:
+    // The picture's larger side, and the bar at its lower edge by which it is held.
+    static constexpr double side_m = 0.5, bar_m = 0.04;
+
+    void take(const std::optional<session::CaseInRoom>& room, const client::OpenCase* content);
+    void add_to(render::SceneFrame& frame, const session::CaseInRoom& room, Vec3 middle_mm,
+                const render::CameraView& view);
+
+    // The slice's plane in the room: its normal points to the viewer of the picture.
+    std::optional<render::Cut> plane_in(const session::CaseInRoom& room, Vec3 middle_mm) const;
+    // The patient coordinates of a place of the room on the picture; nullopt beside it.
+    std::optional<Vec3> patient_point(const session::CaseInRoom& room, Vec3 place) const;
+    // The volume that the screen shows; null: it has not come.
+    const medical::Volume* volume() const { return volume_.get(); }
+
+private:
+    void update();
+    Vec2 size_m() const;
+
+    std::shared_ptr<const medical::Volume> volume_;
+    std::optional<session::CaseScreen> wanted_, shown_;
+    std::string series_;
+    medical::SlicePlane plane_;
+    std::optional<render::SceneTexture> texture_;
+    std::optional<render::SceneMesh> panel_, bar_, ruler_, inside_;
+    Vec2 panel_size_;
+    double ruler_m_ = 0;
+};
+
+}  // namespace theatron::viewer

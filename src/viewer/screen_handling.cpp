@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/screen_handling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "viewer/case_actions.h"
+
+namespace theatron::viewer {
+namespace {
+
+constexpr double least_width = 1, most_width = 20'000, most_center = 20'000;
+
+double depth_of(Vec3 place, const render::CameraView& view) {
+    return (inverse(view.room_from_eye) * place).z;
+}
+
+}  // namespace
+
+session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
+                             double slices) {
+    session::CaseScreen next = screen;
+    const medical::SliceRange range =
+        medical::slice_range(volume.grid, medical::Orientation(screen.orientation));
+    next.position_mm =
+        std::clamp(screen.position_mm + slices * range.step_mm, range.first_mm, range.last_mm);
+    return next;
+}
+
+session::CaseScreen turned(const session::CaseScreen& screen, const medical::Volume& volume,
+                           medical::Orientation orientation) {
+    session::CaseScreen next = screen;
+    next.orientation = std::uint8_t(orientation);
+    const medical::SliceRange range = medical::slice_range(volume.grid, orientation);
+    next.position_mm = range.first_mm + range.step_mm * (range.count / 2);
+    return next;
+}
+
+session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm) {
+    session::CaseScreen next = screen;
+    switch (medical::Orientation(screen.orientation)) {
+        case medical::Orientation::axial:
+            next.position_mm = patient_mm.z;
+            break;
+        case medical::Orientation::coronal:
+            next.position_mm = patient_mm.y;
+            break;
+        case medical::Orientation::sagittal:
+            next.position_mm = patient_mm.x;
+            break;
+    }
+    return next;
+}
+
+void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
+                              double aspect, const render::CameraView& view, Meeting& meeting,
+                              client::Participant& participant) {
+    const CaseScene& scene = meeting.case_scene();
+    const auto& open = scene.in_room();
+    const medical::Volume* volume = scene.monitor().volume();
+    if (!open || !open->screen || !volume) {
+        drags_window_ = false;
+        return;
+    }
+    const session::CaseScreen& screen = open->screen->facts;
+    const auto picks_picture = [&](Vec2 pointer) {
+        const auto hit = meeting.pick(render::ray_through(view, pointer), view);
+        return hit && hit->object == open->screen->id &&
+               scene.monitor().patient_point(*open, hit->picked.place) &&
+               !(surface_m && *surface_m < depth_of(hit->picked.place, view));
+    };
+    if (input.grabbed && input.grabbed_left && picks_picture(*input.grabbed)) {
+        drags_window_ = true;
+        input.grabbed.reset();
+    }
+    if (drags_window_) {
+        const double right = std::exchange(input.steering.turn.x, 0) / aspect,
+                     down = std::exchange(input.steering.turn.y, 0);
+        session::CaseScreen next = screen;
+        next.width = std::clamp(screen.width + right * units_per_picture, least_width, most_width);
+        next.center =
+            std::clamp(screen.center - down * units_per_picture, -most_center, most_center);
+        if (next != screen)
+            set_screen(participant, next);
+    }
+    if (input.released)
+        drags_window_ = false;
+    if (input.steering.approach != 0 && input.pointer && picks_picture(*input.pointer))
+        set_screen(participant, scrolled(screen, *volume,
+                                         std::round(std::exchange(input.steering.approach, 0))));
+}
+
+}  // namespace theatron::viewer

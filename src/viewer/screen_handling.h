@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen of a case: other slices and windows, and the mouse on it: the wheel scrolls, a drag
+// changes the window.
+#pragma once
+
+#include <optional>
+
+#include "viewer/meeting.h"
+#include "xr/window_input.h"
+
+namespace theatron::viewer {
+
+// The screen with another slice: so many slices further; of another orientation, through its
+// middle; through a place of the patient. Pure.
+session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
+                             double slices);
+session::CaseScreen turned(const session::CaseScreen& screen, const medical::Volume& volume,
+                           medical::Orientation orientation);
+session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm);
+
+// Use from one thread.
+class ScreenHandling {
+public:
+    // The width of a picture is so many units of the window's centre and width.
+    static constexpr double units_per_picture = 1200;
+
+    // Takes what concerns the screen out of `input`.
+    void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
+                  const render::CameraView& view, Meeting& meeting,
+                  client::Participant& participant);
+
+private:
+    bool drags_window_ = false;
+};
+
+}  // namespace theatron::viewer

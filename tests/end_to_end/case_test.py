@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A patient's case in the shared room: offered while the session runs, opened by one, seen by all."""
+import json
+import math
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+
+from theatron_process import Process, host, make_recording, read_png, wait_until
+
+
+def sphere(radius, middle, rings=24):
+    """The bytes of a surface (docs/formats/case_mesh.md): a sphere, millimetres."""
+    vertices, normals, triangles = [], [], []
+    columns = 2 * rings
+    for r in range(rings + 1):
+        for c in range(columns):
+            down, around = math.pi * r / rings, math.pi * c / rings
+            n = (math.sin(down) * math.cos(around), math.sin(down) * math.sin(around), math.cos(down))
+            normals.append(n)
+            vertices.append(tuple(m + radius * x for m, x in zip(middle, n)))
+    for r in range(rings):
+        for c in range(columns):
+            a, b = r * columns + c, r * columns + (c + 1) % columns
+            triangles += [(a, a + columns, b + columns), (a, b + columns, b)]
+    data = b"THME" + struct.pack("<B3xII", 1, len(vertices), len(triangles))
+    for list_, form in ((vertices, "<3f"), (normals, "<3f"), (triangles, "<3I")):
+        data += b"".join(struct.pack(form, *each) for each in list_)
+    return data
+
+
+def images(columns=64, rows=64, slices=32, step=(3.0, 3.0, 5.0)):
+    """The bytes of a series (docs/formats/case_volume.md): a bright ball of 80 mm in dark air."""
+    origin = tuple(-0.5 * (n - 1) * s for n, s in zip((columns, rows, slices), step))
+    header = b"THVO" + struct.pack("<BB2x3I", 1, 0, columns, rows, slices) + struct.pack("<3d", *origin)
+    header += struct.pack("<9d", step[0], 0, 0, 0, step[1], 0, 0, 0, step[2]) + struct.pack("<4d", 1, 0, 60, 400)
+    samples = []
+    for k in range(slices):
+        for j in range(rows):
+            for i in range(columns):
+                x, y, z = (o + n * s for o, n, s in zip(origin, (i, j, k), step))
+                samples.append(150 if x * x + y * y + z * z < 80 * 80 else -500)
+    return header + struct.pack(f"<{len(samples)}h", *samples)
+
+
+def write_case(folder, name="Made liver", tumour=True):
+    """A shell, a vessel, and a tumour inside; a matching series."""
+    folder.mkdir(parents=True)
+    parts = [("liver", "shell", "#b25c4a", 0.35, sphere(80, (0, 0, 0))),
+             ("portal vein", "portal_vein", "#466ed2", 1, sphere(12, (20, 0, 0)))]
+    if tumour:
+        parts.append(("tumour", "tumour", "#eccc3c", 1, sphere(18, (-25, 0, 10))))
+    manifest = {"theatron_case": 1, "name": name, "units": "mm", "space": "LPS", "deidentified": True,
+                "license": "CC0", "credit": "made by a test", "parts": [],
+                "series": [{"name": "CT", "modality": "CT", "file": "ct.thvolume"}]}
+    for number, (part, role, color, opacity, mesh) in enumerate(parts):
+        (folder / f"part_{number}.thmesh").write_bytes(mesh)
+        manifest["parts"].append({"name": part, "role": role, "file": f"part_{number}.thmesh", "color": color, "opacity": opacity})
+    (folder / "ct.thvolume").write_bytes(images())
+    (folder / "identifiers.json").write_text('{"name": "Doe^Jane"}')
+    (folder / "identifiers.json").chmod(0o600)
+    (folder / "case.json").write_text(json.dumps(manifest))
+    return folder
+
+
+def member(link, name, *options):
+    return Process("join", link, "--name", name, "--every", "0.1", *options)
+
+
+def has_all(figures):
+    open_case = figures["cases"]["open"]
+    return open_case and open_case["complete"]
+
+
+def parts_of(figures):
+    return {part["name"]: part for part in figures["cases"]["open"]["parts"]}
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_case_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        recording = make_recording(self.folder / "box", width=160, height=120, frames=4)
+        # The camera stands 1.6 m above the floor and looks level along -z.
+        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
+        (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+        self.cases = self.folder / "cases"
+        self.cases.mkdir()
+        self.start = lambda: host(self.folder / "state", f"folder:{recording},loop=1,preload=1",
+                                  options=("--cases", self.cases))
+
+    def test_a_case_dropped_in_is_opened_by_one_and_had_by_three(self):
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, \
+                member(h.greeting["link"], "Ben") as ben, \
+                member(h.greeting["links"]["observer"], "Cleo") as cleo:
+            for person in (anna, ben, cleo):
+                person.wait_for(lambda f: len(f["room"]["people"]) == 3, 20)
+            write_case(self.cases / "liver")
+            for person in (anna, ben, cleo):
+                person.wait_for(lambda f: f["cases"]["offered"] == ["Made liver"], 10)
+            cleo.say("case open Made liver")
+            self.wait_for_error(cleo, "Your role does not allow this")
+            anna.say("case open Made liver")
+            for person in (anna, ben, cleo):
+                person.wait_for(has_all, 10)
+            # One takes the organ; the others see it in their hand, and all rooms are the same.
+            organ = anna.newest_json()["cases"]["open"]["object"]
+            ben.say(f"grab {organ}")
+            ben.say("move 0.2 1.25 -0.3 40")
+            ben.say("release")
+            ben.say("case hide liver")
+            ben.say("case explode 50")
+            for person in (anna, ben, cleo):
+                person.wait_for(lambda f: not parts_of(f)["liver"]["shown"] and f["cases"]["open"]["explosion"] > 0.4, 10)
+            hashes = {person.newest_json()["room"]["hash"] for person in (anna, ben, cleo)}
+            self.assertEqual(len(hashes), 1)
+            # A part of its own, then everything back.
+            tumour = parts_of(anna.newest_json())["tumour"]["object"]
+            anna.say(f"grab {tumour}")
+            anna.say("move 0.5 1.4 0.1 0")
+            anna.say("release")
+            ben.wait_for(lambda f: self.position(f, tumour) != [0, 0, 0], 10)
+            ben.say("case together")
+            anna.wait_for(lambda f: self.position(f, tumour) == [0, 0, 0] and parts_of(f)["liver"]["shown"], 10)
+            # The case goes on after a restart of the host, with the room.
+            before = anna.newest_json()["cases"]["open"]["hash"]
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+        with self.start() as h, member(h.greeting["link"], "Dora") as dora:
+            again = dora.wait_for(has_all, 20)
+            self.assertEqual(again["cases"]["open"]["hash"], before)
+            self.assertEqual(self.position(again, again["cases"]["open"]["object"]), [0.2, 1.25, -0.3])
+            write_case(self.cases / "next", "Second", tumour=False)
+            dora.wait_for(lambda f: "Second" in f["cases"]["offered"], 10)
+            dora.say("case open Second")
+            dora.wait_for(lambda f: has_all(f) and f["cases"]["open"]["name"] == "Second" and len(parts_of(f)) == 2, 10)
+            dora.say("case close")
+            dora.wait_for(lambda f: not f["cases"]["open"] and not f["room"]["objects"], 10)
+
+    def test_a_broken_case_is_said_and_the_others_are_offered(self):
+        broken = write_case(self.cases / "broken", "Broken")
+        (broken / "part_1.thmesh").unlink()
+        cut = write_case(self.cases / "cut", "Cut")
+        (cut / "ct.thvolume").write_bytes((cut / "ct.thvolume").read_bytes()[:5000])
+        newer = write_case(self.cases / "newer", "Newer")
+        (newer / "case.json").write_text((newer / "case.json").read_text().replace('"theatron_case": 1', '"theatron_case": 2'))
+        write_case(self.cases / "whole", "Whole")
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
+            for sentence in ("lacks the file 'part_1.thmesh'", "ct.thvolume' is", "case.json"):
+                self.wait_for_error(h, sentence)
+            # Repaired while the session runs.
+            (broken / "part_1.thmesh").write_bytes(sphere(5, (0, 0, 0)))
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Broken", "Whole"], 10)
+            shutil.rmtree(broken)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 10)
+            for line, problem in (("case open Nothing", "offers no case 'Nothing'; it offers Whole."),
+                                  ("case close", "No case is open"), ("case hide liver", "has no part 'liver'"),
+                                  ("case explode 200", "from 0 to 100"), ("case what", "The lines on cases")):
+                anna.say(line)
+                self.wait_for_error(anna, problem)
+
+    def test_what_names_the_patient_leaves_the_folder_nowhere(self):
+        write_case(self.cases / "liver")
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.say("case open Made liver")
+            anna.wait_for(has_all, 10)
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+            self.assertNotIn("Doe", "".join(h.errors + anna.errors))
+        for file in (self.folder / "state").rglob("*"):
+            if file.is_file():
+                self.assertNotIn(b"Doe", file.read_bytes(), file)
+
+    def test_organ_slice_and_cut_are_drawn(self):
+        write_case(self.cases / "liver")
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+
+            def count(name, is_it):
+                with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240", "--quality", "low",
+                             "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                width, height, channels, rows = read_png(self.folder / name)
+                return sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
+
+            def is_blue(r, g, b):
+                return b > r + 25 and b > g + 10 and b > 70
+
+            def is_white(r, g, b):
+                return min(r, g, b) > 150 and max(r, g, b) - min(r, g, b) < 8
+
+            without = count("without.png", is_blue), count("without.png", is_white)
+            anna.say("case open Made liver")
+            anna.wait_for(has_all, 10)
+            anna.say("case scale 2")
+            anna.say("case slice coronal 0")
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            vein = count("vein.png", is_blue)
+            self.assertGreater(vein, without[0] + 30, "the vein through the shell")
+            screen = count("vein.png", is_white)
+            self.assertGreater(screen, without[1] + 500, "the bright ball of the images")
+            anna.say("case hide portal vein")
+            anna.wait_for(lambda f: not parts_of(f)["portal vein"]["shown"], 10)
+            self.assertLess(count("hidden.png", is_blue), without[0] + vein // 4)
+            anna.say("case cut")
+            anna.wait_for(lambda f: f["cases"]["open"]["cut"], 10)
+            self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
+
+    @staticmethod
+    def position(figures, number):
+        return next((o["position"] for o in figures["room"]["objects"] if o["id"] == number), None)
+
+    @staticmethod
+    def wait_for_error(process, text, timeout=10):
+        wait_until(lambda: any(text in line for line in process.errors), timeout, 0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()
