@@ -29,7 +29,7 @@ void ContentFetch::begin_next() {
     for (const Wanted& wanted : wanted_) {
         if (failures_.contains(wanted.hash))
             continue;
-        current_.emplace();
+        current_ = Current();
         current_->wanted = wanted;
         current_->size = wanted.exact ? wanted.size : 0;
         current_->digest = make_digest_();

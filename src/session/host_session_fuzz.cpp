@@ -261,10 +261,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             case 17: {
                 host.set_cases({case_facts(0), case_facts(choice % 3)});
                 const session::Request requests[] = {
-                    session::request::Create{
-                        session::ObjectKind::organ, {}, 1,
-                        session::encode_case_object(
-                            session::CaseOrgan{case_facts(choice / 8 % 4).id})},
+                    session::request::Create{session::ObjectKind::organ,
+                                             {},
+                                             1,
+                                             session::encode_case_object(session::CaseOrgan{
+                                                 case_facts(choice / 8 % 4).id})},
                     session::request::Remove{session::ObjectId(choice / 4)},
                     session::request::SetProperties{
                         session::ObjectId(choice / 4),

@@ -27,14 +27,14 @@ bool CaseScene::take(const client::Participant& participant, const session::Room
         changed = true;
     }
     std::uint64_t version = 0;
-    auto content = participant.open_case(version);
+    auto newest = participant.open_case(version);
     if (version != version_) {
         version_ = version;
         changed = true;
     }
-    if (!content || !content_ || content->id != content_->id)
+    if (!newest || !content_ || newest->id != content_->id)
         drawn_.clear();
-    content_ = std::move(content);
+    content_ = std::move(newest);
     if (const medical::SharedCase* about = description())
         for (std::size_t i = 0; i < content_->meshes.size(); ++i) {
             const auto& mesh = content_->meshes[i];

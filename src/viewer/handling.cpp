@@ -20,12 +20,12 @@ double depth_of(Vec3 place, const render::CameraView& view) {
 
 void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
                         const render::CameraView& view, Meeting& meeting,
-                        client::Participant& participant) {
+                        client::Participant& participant, TimePoint now) {
     while (const auto refusal = participant.take_room_refusal())
         if (const std::string text = text_of(refusal->second); !text.empty())
             note_ = text;
     if (!held_)
-        screen_.on_input(input, surface_m, aspect, view, meeting, participant);
+        screen_.on_input(input, surface_m, aspect, view, meeting, participant, now);
     if (input.grabbed && input.grabbed_left)
         grab(*input.grabbed, input.steering.fast, surface_m, view, meeting, participant);
     // The object was removed or given away, or the host refused the grip.

@@ -25,7 +25,7 @@ public:
     // grabbed. `aspect` is the picture's width divided by its height.
     void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
-                  client::Participant& participant);
+                  client::Participant& participant, TimePoint now);
 
     // The newest sentence for the user since the last call; may be empty.
     std::string take_note();

@@ -53,23 +53,33 @@ session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm) 
     return next;
 }
 
+void ScreenHandling::send(client::Participant& participant, TimePoint now) {
+    if (!waiting_ || now - sent_ < send_interval)
+        return;
+    set_screen(participant, *waiting_);
+    waiting_.reset();
+    sent_ = now;
+}
+
 void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
                               double aspect, const render::CameraView& view, Meeting& meeting,
-                              client::Participant& participant) {
+                              client::Participant& participant, TimePoint now) {
     const CaseScene& scene = meeting.case_scene();
     const auto& open = scene.in_room();
     const medical::Volume* volume = scene.monitor().volume();
     if (!open || !open->screen || !volume) {
         drags_window_ = false;
+        waiting_.reset();
         return;
     }
-    const session::CaseScreen& screen = open->screen->facts;
     const auto picks_picture = [&](Vec2 pointer) {
         const auto hit = meeting.pick(render::ray_through(view, pointer), view);
         return hit && hit->object == open->screen->id &&
                scene.monitor().patient_point(*open, hit->picked.place) &&
                !(surface_m && *surface_m < depth_of(hit->picked.place, view));
     };
+    session::CaseScreen next = waiting_.value_or(open->screen->facts);
+    const session::CaseScreen before = next;
     if (input.grabbed && input.grabbed_left && picks_picture(*input.grabbed)) {
         drags_window_ = true;
         input.grabbed.reset();
@@ -77,18 +87,16 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     if (drags_window_) {
         const double right = std::exchange(input.steering.turn.x, 0) / aspect,
                      down = std::exchange(input.steering.turn.y, 0);
-        session::CaseScreen next = screen;
-        next.width = std::clamp(screen.width + right * units_per_picture, least_width, most_width);
-        next.center =
-            std::clamp(screen.center - down * units_per_picture, -most_center, most_center);
-        if (next != screen)
-            set_screen(participant, next);
+        next.width = std::clamp(next.width + right * units_per_picture, least_width, most_width);
+        next.center = std::clamp(next.center - down * units_per_picture, -most_center, most_center);
     }
     if (input.released)
         drags_window_ = false;
     if (input.steering.approach != 0 && input.pointer && picks_picture(*input.pointer))
-        set_screen(participant, scrolled(screen, *volume,
-                                         std::round(std::exchange(input.steering.approach, 0))));
+        next = scrolled(next, *volume, std::round(std::exchange(input.steering.approach, 0)));
+    if (next != before)
+        waiting_ = next;
+    send(participant, now);
 }
 
 }  // namespace theatron::viewer

@@ -27,10 +27,16 @@ public:
     // Takes what concerns the screen out of `input`.
     void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
-                  client::Participant& participant);
+                  client::Participant& participant, TimePoint now);
 
 private:
+    void send(client::Participant& participant, TimePoint now);
+
     bool drags_window_ = false;
+    // A host takes 40 changes of the room a second: a drag sends fewer, the last one always.
+    static constexpr Duration send_interval = std::chrono::milliseconds(33);
+    std::optional<session::CaseScreen> waiting_;
+    TimePoint sent_;
 };
 
 }  // namespace theatron::viewer

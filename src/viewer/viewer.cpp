@@ -49,7 +49,7 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
                       TimePoint now) {
     if (eye_.is_placed())
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
-                           eye_.view(picture), scene_.meeting(), participant_);
+                           eye_.view(picture), scene_.meeting(), participant_, now);
     if (const std::string text = handling_.take_note(); !text.empty())
         note(text, now);
     scene_changed_ = scene_changed_ || input.redraw;

@@ -188,28 +188,47 @@ class Case(unittest.TestCase):
                 width, height, channels, rows = read_png(self.folder / name)
                 return sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
 
-            def is_blue(r, g, b):
-                return b > r + 25 and b > g + 10 and b > 70
+            def is_yellow(r, g, b):
+                return r > b + 50 and g > b + 30
 
             def is_white(r, g, b):
                 return min(r, g, b) > 150 and max(r, g, b) - min(r, g, b) < 8
 
-            without = count("without.png", is_blue), count("without.png", is_white)
+            without = count("without.png", is_yellow), count("without.png", is_white)
             anna.say("case open Made liver")
             anna.wait_for(has_all, 10)
             anna.say("case scale 2")
             anna.say("case slice coronal 0")
             anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 1, 10)
-            vein = count("vein.png", is_blue)
-            self.assertGreater(vein, without[0] + 30, "the vein through the shell")
-            screen = count("vein.png", is_white)
+            tumour = count("tumour.png", is_yellow)
+            self.assertGreater(tumour, without[0] + 100, "the tumour through the shell")
+            screen = count("tumour.png", is_white)
             self.assertGreater(screen, without[1] + 500, "the bright ball of the images")
-            anna.say("case hide portal vein")
-            anna.wait_for(lambda f: not parts_of(f)["portal vein"]["shown"], 10)
-            self.assertLess(count("hidden.png", is_blue), without[0] + vein // 4)
+            anna.say("case hide tumour")
+            anna.wait_for(lambda f: not parts_of(f)["tumour"]["shown"], 10)
+            self.assertLess(count("hidden.png", is_yellow), without[0] + tumour // 4)
             anna.say("case cut")
             anna.wait_for(lambda f: f["cases"]["open"]["cut"], 10)
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
+
+    def test_a_recording_replays_the_case(self):
+        write_case(self.cases / "liver")
+        recording = self.folder / "session.mkv"
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.say("case open Made liver")
+            anna.wait_for(has_all, 10)
+            with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
+                anna.wait_for(lambda f: len(f["room"]["people"]) == 2, 20)
+                anna.say("case explode 80")
+                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+            name = anna.newest_json()["cases"]["open"]["hash"]
+        self.assertNotIn(b"Doe", recording.read_bytes())
+        with host(self.folder / "other", f"recording:{recording}", options=("--cases", self.cases)) as h, \
+                member(h.greeting["link"], "Ben") as ben:
+            again = ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["explosion"] > 0.7, 20)
+            self.assertEqual(again["cases"]["open"]["hash"], name)
+            self.assertTrue(all(o["recorded"] for o in again["room"]["objects"]))
 
     @staticmethod
     def position(figures, number):
