@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "room/mesh_parts.h"
 #include "room/organ_mesh.h"
 
 namespace theatron::viewer {
@@ -117,8 +118,13 @@ void Monitor::update() {
     ruler_m_ = ruler_m;
     panel_.emplace(render::make_panel_mesh(size.x, size.y));
     inside_.emplace(two_sided_panel(plane_.size.width * mm, plane_.size.height * mm));
-    bar_.emplace(render::make_box_mesh({-size.x / 2, size.y / 2, -0.01},
-                                       {size.x / 2, size.y / 2 + bar_m, 0.01}));
+    render::MeshData housing = render::make_box_mesh({-size.x / 2, size.y / 2, -0.01},
+                                                     {size.x / 2, size.y / 2 + bar_m, 0.01});
+    room::append(
+        housing,
+        render::make_box_mesh({-size.x / 2, -size.y / 2, 0.002}, {size.x / 2, size.y / 2, 0.01}),
+        {1, 1, 1}, {});
+    housing_.emplace(housing);
     ruler_.emplace(render::make_box_mesh({0, 0, 0}, {ruler_m, 0.004, 0.001}));
 }
 
@@ -134,7 +140,7 @@ void Monitor::add_to(render::SceneFrame& frame, const session::CaseInRoom& room,
     SurfaceLook look = unlit({1, 1, 1});
     look.texture = &*texture_;
     frame.objects.push_back({&*panel_, place, look, false, id, scale});
-    frame.objects.push_back({&*bar_, place, {{0.12, 0.14, 0.16}, 0, 0.5}, false, id, scale});
+    frame.objects.push_back({&*housing_, place, {{0.12, 0.14, 0.16}, 0, 0.5}, false, id, scale});
     const auto at = [&](double x, double y) {
         return place * Pose{{}, Vec3{x, y, -before_m} * scale};
     };

@@ -49,7 +49,7 @@ private:
     std::string series_;
     medical::SlicePlane plane_;
     std::optional<render::SceneTexture> texture_;
-    std::optional<render::SceneMesh> panel_, bar_, ruler_, inside_;
+    std::optional<render::SceneMesh> panel_, housing_, ruler_, inside_;
     Vec2 panel_size_;
     double ruler_m_ = 0;
 };
