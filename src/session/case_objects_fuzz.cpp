@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any properties are an object of a case or are refused; an object is written as it was read.
+#include <algorithm>
 #include <cstdlib>
 
 #include "session/case_objects.h"
