@@ -208,7 +208,7 @@ SynthCase make_synth_case(const SynthOptions& options, const Progress& progress)
     add(part("portal vein", Role::portal_vein),
         vessel_surface(liver.box(), synth.vessels.portal_vein, 0.9, budget));
     add(part("hepatic artery", Role::artery),
-        vessel_surface(liver.box(), synth.vessels.artery, 0.6, budget));
+        vessel_surface(liver.box(), synth.vessels.artery, 0.65, budget));
     add(part("hepatic veins", Role::hepatic_vein),
         vessel_surface(liver.box(), synth.vessels.hepatic_veins, 0.9, budget));
     Part bladder = part("gall bladder", Role::other);

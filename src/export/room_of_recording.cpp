@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "export/mark_json.h"
 #include "files/json_text.h"
 #include "session/room_bytes.h"
 #include "session/room_text.h"
@@ -31,12 +32,16 @@ Json describe(const std::optional<wire::PartPose>& part) {
 
 Json describe(session::ObjectId id, const session::RoomObject& object) {
     const auto& [q, p] = object.room_from_object;
-    return {{"id", std::uint32_t(id)},
-            {"kind", session::text_of(object.kind)},
-            {"held_by", std::uint32_t(object.grip.holder)},
-            {"position", {p.x, p.y, p.z}},
-            {"rotation", {q.w, q.x, q.y, q.z}},
-            {"scale", object.scale}};
+    Json json{{"id", std::uint32_t(id)},
+              {"kind", session::text_of(object.kind)},
+              {"held_by", std::uint32_t(object.grip.holder)},
+              {"position", {p.x, p.y, p.z}},
+              {"rotation", {q.w, q.x, q.y, q.z}},
+              {"scale", object.scale}};
+    if (object.kind == session::ObjectKind::mark)
+        if (const std::optional<room::Mark> mark = room::decode_mark(object.properties))
+            json["mark"] = mark_json(*mark);
+    return json;
 }
 
 Json describe(const session::RoomObject& person, const session::PoseBodies& poses) {

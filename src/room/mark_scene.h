@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marks in the scene, in their authors' colours and with their labels.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "render/camera_view.h"
+#include "render/scene_frame.h"
+#include "room/mark.h"
+
+namespace theatron::room {
+
+struct PlacedMark {
+    Mark mark;
+    Pose room_from_points;
+    double scale = 1;  // of the points
+};
+
+// Needs the GL context current in which its first marks were added.
+class MarkScene {
+public:
+    // Appends the marks; labels face the eye and have the same height in the picture at any
+    // distance, within bounds. Keeps the meshes of these marks for the next call and no others.
+    void add_to(render::SceneFrame& frame, const std::vector<PlacedMark>& marks,
+                const render::CameraView& view);
+
+private:
+    std::map<Bytes, render::SceneMesh> meshes_;  // by the marks' properties and scale
+};
+
+}  // namespace theatron::room

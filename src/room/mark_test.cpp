@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "room/mark.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+#include "room/mark_mesh.h"
+
+namespace theatron::room {
+namespace {
+
+Mark stroke(std::size_t points) {
+    Mark mark;
+    mark.surface = MarkedSurface::organ;
+    mark.object = 0x01020304;
+    mark.color = 5;
+    mark.initials = "\u00d6K";
+    for (std::size_t i = 0; i < points; ++i)
+        mark.points.push_back({{0.5 * double(i), -0.25, 2}, {0, i % 2 ? -1.0 : 1.0, 0}});
+    return mark;
+}
+
+Mark pin() {
+    Mark mark;
+    mark.kind = MarkKind::pin;
+    mark.number = 12;
+    mark.initials = "AB";
+    mark.points = {{{1, 2, 3}, {0, 0, 1}}};
+    return mark;
+}
+
+Mark between(MarkKind kind, Vec3 a, Vec3 b) {
+    Mark mark;
+    mark.kind = kind;
+    mark.initials = "AB";
+    mark.points = {{a, {0, 1, 0}}, {b, {0, 1, 0}}};
+    return mark;
+}
+
+std::vector<Mark> examples() {
+    Mark distance = between(MarkKind::distance, {0, 1, 0}, {0, 1, 0.25});
+    distance.deviation_m = 0.0015f;
+    return {stroke(2), stroke(most_mark_points), pin(), distance,
+            between(MarkKind::arrow, {0, 1, 0}, {0.5, 1, 0})};
+}
+
+TEST(Mark, ComesBackFromItsBytes) {
+    for (const Mark& mark : examples()) {
+        const Bytes bytes = encode_mark(mark);
+        EXPECT_LE(bytes.size(), 4096u);
+        EXPECT_EQ(decode_mark(bytes), mark);
+    }
+}
+
+// The test vector of docs/formats/mark.md.
+TEST(Mark, HasTheDocumentedBytes) {
+    Mark mark = pin();
+    mark.surface = MarkedSurface::slice;
+    mark.object = 0x01020304;
+    mark.color = 5;
+    mark.points[0].position = {1, -0.5, 2};
+    const unsigned char documented[] = {3,    3, 4,    3,    2,    1, 5, 12,   0,    0,    0,   0,
+                                        0,    2, 0x41, 0x42, 1,    0, 0, 0x80, 0x3f, 0,    0,   0,
+                                        0xbf, 0, 0,    0,    0x40, 0, 0, 0,    0,    0xff, 0x7f};
+    const ByteView bytes = std::as_bytes(std::span(documented));
+    EXPECT_TRUE(std::ranges::equal(encode_mark(mark), bytes));
+    EXPECT_EQ(decode_mark(bytes), mark);
+}
+
+TEST(Mark, BytesThatAreTooShortOrTooLongAreNone) {
+    for (const Mark& mark : examples()) {
+        Bytes bytes = encode_mark(mark);
+        for (std::size_t size = 0; size < bytes.size(); ++size)
+            ASSERT_FALSE(decode_mark(ByteView(bytes).first(size))) << size;
+        bytes.push_back({});
+        EXPECT_FALSE(decode_mark(bytes));
+    }
+}
+
+TEST(Mark, ContradictionsAreRefused) {
+    const auto refused = [](const Mark& valid, auto change) {
+        ASSERT_TRUE(decode_mark(encode_mark(valid)));
+        Mark mark = valid;
+        change(mark);
+        EXPECT_FALSE(decode_mark(encode_mark(mark)));
+    };
+    refused(stroke(3), [](Mark& m) { m.points.resize(1); });
+    refused(stroke(3), [](Mark& m) { m.points.resize(most_mark_points + 1, m.points[0]); });
+    refused(stroke(3), [](Mark& m) { m.kind = MarkKind(9); });
+    refused(stroke(3), [](Mark& m) { m.kind = MarkKind::arrow; });
+    refused(stroke(3), [](Mark& m) { m.surface = MarkedSurface(0); });
+    refused(stroke(3), [](Mark& m) { m.object = 0; });
+    refused(stroke(3), [](Mark& m) { m.number = 1; });
+    refused(stroke(3), [](Mark& m) { m.deviation_m = 0.1f; });
+    refused(stroke(3), [](Mark& m) { m.initials = std::string(most_initials_bytes + 1, 'A'); });
+    refused(stroke(3), [](Mark& m) { m.points[1].normal = {0, 0.5, 0}; });
+    refused(stroke(3), [](Mark& m) { m.points[1].position.x = 1001; });
+    refused(stroke(3),
+            [](Mark& m) { m.points[1].position.x = std::numeric_limits<double>::quiet_NaN(); });
+    refused(pin(), [](Mark& m) { m.number = 0; });
+    refused(pin(), [](Mark& m) { m.object = 4; });
+}
+
+TEST(Mark, InitialsAreThoseOfTheFirstAndTheLastWord) {
+    EXPECT_EQ(initials_of("Ada Lovelace"), "AL");
+    EXPECT_EQ(initials_of("  Ada   King of Lovelace "), "AL");
+    EXPECT_EQ(initials_of("Ada"), "A");
+    EXPECT_EQ(initials_of("\u00d6zlem K\u00f6se"), "\u00d6K");
+    EXPECT_EQ(initials_of(" "), "?");
+    // Cut in the middle of a character.
+    EXPECT_EQ(initials_of("\xc3"), "\xc3");
+}
+
+std::vector<MarkPoint> circle(std::size_t count, double radius) {
+    std::vector<MarkPoint> line;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle = 6 * double(i) / double(count - 1);
+        line.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0}, {0, 0, 1}});
+    }
+    return line;
+}
+
+double farthest_left_out(const std::vector<MarkPoint>& line, const std::vector<MarkPoint>& kept) {
+    double worst = 0;
+    for (const MarkPoint& point : line) {
+        double nearest = 1e9;
+        for (std::size_t i = 1; i < kept.size(); ++i) {
+            const Vec3 a = kept[i - 1].position, step = kept[i].position - a;
+            const double t = std::clamp(dot(point.position - a, step) / dot(step, step), 0.0, 1.0);
+            nearest = std::min(nearest, length(point.position - a - step * t));
+        }
+        worst = std::max(worst, nearest);
+    }
+    return worst;
+}
+
+TEST(Mark, ASimplifiedLineStaysWithinTheTolerance) {
+    const std::vector<MarkPoint> line = circle(2000, 0.1);
+    const std::vector<MarkPoint> kept = simplified(line, 0.0005, most_mark_points);
+    EXPECT_LT(kept.size(), 60u);
+    EXPECT_GT(kept.size(), 10u);
+    EXPECT_EQ(kept.front(), line.front());
+    EXPECT_EQ(kept.back(), line.back());
+    EXPECT_LE(farthest_left_out(line, kept), 0.0005);
+}
+
+TEST(Mark, ALineThatIsTooLongLosesDetailAndNotItsEnd) {
+    const std::vector<MarkPoint> line = circle(2000, 0.1);
+    const std::vector<MarkPoint> kept = simplified(line, 0, 12);
+    EXPECT_LE(kept.size(), 12u);
+    EXPECT_EQ(kept.back(), line.back());
+    EXPECT_LT(farthest_left_out(line, kept), 0.02);
+    const std::vector<MarkPoint> two = circle(2, 0.1);
+    EXPECT_EQ(simplified(two, 0.1, 2), two);
+}
+
+// The volume inside, by the divergence theorem, and whether each edge is used as often in either
+// direction.
+struct Shape {
+    double volume_m3 = 0;
+    bool closed = true;
+};
+Shape shape_of(const render::MeshData& mesh) {
+    Shape shape;
+    // Rings, caps and seams have vertices of their own at equal places, up to rounding.
+    std::map<std::array<long, 3>, std::uint32_t> places;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    const auto at = [](float m) { return std::lround(double(m) * 1e6); };
+    const auto place = [&](std::uint32_t i) {
+        const auto& v = mesh.vertices[i];
+        return places.try_emplace({at(v.px), at(v.py), at(v.pz)}, std::uint32_t(places.size()))
+            .first->second;
+    };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        Vec3 p[3];
+        std::uint32_t corner[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& v = mesh.vertices[mesh.indices[i + k]];
+            p[k] = {double(v.px), double(v.py), double(v.pz)};
+            corner[k] = place(mesh.indices[i + k]);
+        }
+        shape.volume_m3 += dot(p[0], cross(p[1], p[2])) / 6;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (corner[k] != corner[(k + 1) % 3]) {
+                ++edges[{corner[k], corner[(k + 1) % 3]}];
+                --edges[{corner[(k + 1) % 3], corner[k]}];
+            }
+    }
+    for (const auto& [edge, balance] : edges)
+        shape.closed = shape.closed && balance == 0;
+    return shape;
+}
+
+TEST(Mark, ATubeIsClosedAndAsThickAsItShouldBe) {
+    const render::MeshData mesh = make_mark_mesh(between(MarkKind::stroke, {}, {0.1, 0, 0}));
+    // On the surface, not in it.
+    for (const auto& v : mesh.vertices)
+        EXPECT_GT(v.py, -1e-6);
+    const Shape shape = shape_of(mesh);
+    EXPECT_TRUE(shape.closed);
+    // An octagon's area is 2 sqrt(2) r squared.
+    EXPECT_NEAR(shape.volume_m3, 0.1 * 2.8284 * 0.0012 * 0.0012, 1e-9);
+}
+
+TEST(Mark, EveryKindHasAClosedMeshThatFacesOutwards) {
+    for (const Mark& mark : examples()) {
+        const Shape shape = shape_of(make_mark_mesh(mark));
+        EXPECT_TRUE(shape.closed) << to_text(mark.kind);
+        EXPECT_GT(shape.volume_m3, 0) << to_text(mark.kind);
+    }
+}
+
+TEST(Mark, PointsAtOnePlaceStillHaveAMesh) {
+    for (const MarkKind kind : {MarkKind::stroke, MarkKind::arrow, MarkKind::distance})
+        for (const auto& v : make_mark_mesh(between(kind, {1, 1, 1}, {1, 1, 1})).vertices)
+            ASSERT_TRUE(std::isfinite(v.px + v.nx + v.py + v.ny + v.pz + v.nz));
+}
+
+TEST(Mark, LabelsSayNumberLengthAndAuthor) {
+    EXPECT_EQ(label_of(pin()), "12 AB");
+    EXPECT_EQ(label_of(between(MarkKind::arrow, {}, {1, 0, 0})), "AB");
+    Mark distance = between(MarkKind::distance, {}, {0.0123, 0, 0});
+    EXPECT_EQ(label_of(distance), "12.3 mm AB");
+    distance.deviation_m = 0.0015f;
+    EXPECT_EQ(label_of(distance), "12.3 mm \u00b1 3.0 mm AB");
+}
+
+}  // namespace
+}  // namespace theatron::room
