@@ -11,6 +11,7 @@
 #include "export/export_formats.h"
 #include "export/export_places.h"
 #include "export/room_of_recording.h"
+#include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "host/filter_choice.h"
 #include "record/remarks.h"
@@ -125,13 +126,17 @@ void run(const Flags& flags) {
 
     if (!flags.room.empty() && !recording->room().present)
         throw Error("'" + flags.file + "' has no room: only recordings of sessions have one.");
+    for (const std::string& file : {flags.k4a, flags.room}) {
+        if (file.empty())
+            continue;
+        for (const record::Segment& segment : recording->segments())
+            files::require_other_file(file, segment.file);
+        exporting::require_free(file, flags.overwrite);
+        files::require_writable(file);
+    }
     for (const std::string& folder : {flags.ply, flags.png})
         if (!folder.empty())
             exporting::clear_folder(folder, flags.overwrite);
-    if (!flags.k4a.empty())
-        exporting::clear_file(flags.k4a, flags.overwrite);
-    if (!flags.room.empty())
-        exporting::clear_file(flags.room, flags.overwrite);
 
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;
@@ -183,14 +188,23 @@ void run(const Flags& flags) {
                       return exporting::export_png(source, place, pictures);
                   });
     }
-    if (!flags.k4a.empty())
-        export_as("k4a", flags.k4a,
-                  [&](exporting::ExportSource& source, const std::filesystem::path& place) {
-                      return exporting::export_k4a(source, place);
-                  });
+    if (!flags.k4a.empty()) {
+        Exported exported;
+        exporting::replace_files(
+            flags.k4a, calibrations, [&](const std::filesystem::path& draft, std::size_t n) {
+                exporting::ExportSource source = open_source(flags, recording, n);
+                if (!source.cameras.empty())
+                    exported.add(source, exporting::export_k4a(source, draft));
+            });
+        report("k4a", exported, flags.k4a);
+    }
     if (!flags.room.empty()) {
         capture::RecordedRoom::Figures figures;
-        const std::size_t lines = exporting::export_room(recording, flags.room, figures);
+        std::size_t lines = 0;
+        exporting::replace_files(flags.room, 1,
+                                 [&](const std::filesystem::path& draft, std::size_t) {
+                                     lines = exporting::export_room(recording, draft, figures);
+                                 });
         damaged |= figures.damaged + figures.undecodable > 0;
         if (flags.json)
             std::cout << files::json_text({{"format", "room"},

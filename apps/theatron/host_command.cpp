@@ -135,8 +135,10 @@ void run(Flags& flags) {
     flags.options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
-    if (!flags.summary.empty())
+    if (!flags.summary.empty()) {
         files::require_writable(flags.summary);
+        files::require_own_kind(flags.summary, "{", "a summary");
+    }
     cli::catch_stop_signals();
     host::Host host(flags.options, cli::show_progress());
     draw_regions(host, flags.regions);
@@ -186,12 +188,15 @@ void run(Flags& flags) {
     }
     if (live_line)
         std::cout << "\n";
+    const std::string room_problem = host.room_problem();
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);
         out << files::json_text(host::to_json(host.figures()), 2) << "\n";
         if (!out.flush())
             throw Error("Cannot write the summary to " + flags.summary + ".");
     }
+    if (!room_problem.empty())
+        throw Error("The room could not be saved and ends with this session. " + room_problem);
 }
 
 }  // namespace

@@ -180,6 +180,7 @@ void check_picture_file(const std::string& file) {
         if (ending == other)
             throw Error("Pictures are written as PNG; name '" + file + "' with the ending .png.");
     files::require_writable(file);
+    files::require_own_kind(file, files::png_beginning, "a PNG picture");
 }
 
 std::uint32_t to_kbit(double mbit) {

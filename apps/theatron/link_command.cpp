@@ -67,7 +67,7 @@ void print_list(const std::vector<host::KnownLink>& links, bool json) {
     }
     std::printf("%-10s %-10s %-26s %s\n", "link", "role", "until", "for");
     for (const host::KnownLink& link : links) {
-        const std::string until = !link.expires ? "revoked by hand"
+        const std::string until = !link.expires ? "no end"
                                   : link.has_expired(files::utc_now())
                                       ? "expired"
                                       : files::utc_text(*link.expires);

@@ -98,8 +98,18 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
                      found->second.room_from_object, found->second.scale};
         return "";
     }
+    if (const auto mine = mine_in(participant.room());
+        mine && (!held_ || held_->object != mine->object || held_->grip != mine->grip))
+        held_ = mine;
     return held_ ? change_held(what, words, participant)
                  : "Nothing is held; 'grab NUMBER' comes first.";
+}
+
+std::optional<RoomLines::Held> RoomLines::mine_in(const client::Participant::Room& room) {
+    for (const auto& [id, object] : room.objects)
+        if (object.grip.holder == room.self)
+            return Held{id, object.grip.number, object.room_from_object, object.scale};
+    return std::nullopt;
 }
 
 std::string RoomLines::change_held(const std::string& what, std::istream& words,

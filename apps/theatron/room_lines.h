@@ -29,19 +29,22 @@ public:
     void on_tick(client::Participant& participant);
 
 private:
-    // Both return one sentence about what is wrong; empty if nothing is.
-    std::string change(const std::string& what, std::istream& words,
-                       client::Participant& participant);
-    std::string change_held(const std::string& what, std::istream& words,
-                            client::Participant& participant);
-    void print_refusals(client::Participant& participant, TimePoint now);
-
     struct Held {
         session::ObjectId object{};
         std::uint32_t grip = 0;
         Pose room_from_object;
         double scale = 1;
     };
+
+    // Both return one sentence about what is wrong; empty if nothing is.
+    std::string change(const std::string& what, std::istream& words,
+                       client::Participant& participant);
+    std::string change_held(const std::string& what, std::istream& words,
+                            client::Participant& participant);
+    // The object that this participant holds, perhaps because somebody gave it.
+    static std::optional<Held> mine_in(const client::Participant::Room& room);
+    void print_refusals(client::Participant& participant, TimePoint now);
+
     wire::PersonPose pose_;
     TimePoint sent_, refusals_printed_;
     std::uint64_t refused_ = 0;  // not yet printed

@@ -102,17 +102,46 @@ void clear_folder(const fs::path& folder, bool overwrite) {
         clear(place_of(folder, n), overwrite);
 }
 
-void clear_file(const fs::path& file, bool overwrite) {
+void require_free(const fs::path& file, bool overwrite) {
     std::error_code ignored;
-    for (std::size_t n = 0; fs::exists(place_of(file, n), ignored); ++n) {
-        const fs::path one = place_of(file, n);
-        if (!overwrite)
-            throw Error("'" + one.string() +
-                        "' exists already; name another file, or give --overwrite.");
-        std::error_code problem;
-        if (!fs::remove(one, problem))
-            throw Error("Cannot remove '" + one.string() + "': " + problem.message() + ".");
+    if (!overwrite && fs::exists(file, ignored))
+        throw Error("'" + file.string() +
+                    "' exists already; name another file, or give --overwrite.");
+}
+
+void replace_files(const fs::path& file, std::size_t count,
+                   const std::function<void(const fs::path&, std::size_t)>& write) {
+    std::vector<fs::path> drafts;
+    const auto remove_drafts = [&] {
+        std::error_code ignored;
+        for (const fs::path& draft : drafts)
+            fs::remove(draft, ignored);
+    };
+    try {
+        for (std::size_t n = 0; n < count; ++n) {
+            const fs::path one = place_of(file, n);
+            drafts.push_back(one.parent_path() / (one.stem() += ".part"));
+            drafts.back() += one.extension();
+            std::error_code ignored;
+            fs::remove(drafts.back(), ignored);  // of an export that was killed
+            write(drafts.back(), n);
+        }
+    } catch (...) {
+        remove_drafts();
+        throw;
     }
+    for (std::size_t n = 0; n < count; ++n) {
+        std::error_code problem;
+        fs::rename(drafts[n], place_of(file, n), problem);
+        if (problem && fs::exists(drafts[n]))
+            throw Error("Cannot write '" + place_of(file, n).string() + "': " + problem.message() +
+                        "; its content is in '" + drafts[n].string() + "'.");
+    }
+    // Those of an earlier export that had more.
+    std::error_code ignored;
+    for (std::size_t n = std::max<std::size_t>(count, 1); fs::exists(place_of(file, n), ignored);
+         ++n)
+        fs::remove(place_of(file, n), ignored);
 }
 
 }  // namespace theatron::exporting

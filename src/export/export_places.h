@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace theatron::exporting {
 
@@ -10,9 +11,16 @@ namespace theatron::exporting {
 // and so on; "kinect.2.mkv".
 std::filesystem::path place_of(const std::filesystem::path& place, std::size_t calibration);
 
-// Prepare a place: Error with one sentence if an export is there already, unless `overwrite`, which
-// removes it and nothing else.
+// Prepares a folder: Error with one sentence if an export is there already, unless `overwrite`,
+// which removes it and nothing else.
 void clear_folder(const std::filesystem::path& folder, bool overwrite);
-void clear_file(const std::filesystem::path& file, bool overwrite);
+
+// Error with one sentence if the file is there already, unless `overwrite`.
+void require_free(const std::filesystem::path& file, bool overwrite);
+
+// Calls `write(draft, n)` for calibrations 0 to `count` - 1, then gives the drafts their names.
+// If a call throws, the files of an earlier export are as before.
+void replace_files(const std::filesystem::path& file, std::size_t count,
+                   const std::function<void(const std::filesystem::path&, std::size_t)>& write);
 
 }  // namespace theatron::exporting

@@ -76,4 +76,26 @@ void require_writable(const std::filesystem::path& path) {
         refuse("write", path, std::strerror(errno));
 }
 
+void require_own_kind(const std::filesystem::path& path, std::string_view beginning,
+                      const char* kind) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored) ||
+        std::filesystem::file_size(path, ignored) == 0)
+        return;
+    std::string found(beginning.size(), '\0');
+    const File file(std::fopen(path.c_str(), "rb"));
+    if (!file || std::fread(found.data(), 1, found.size(), file.get()) != found.size() ||
+        found != beginning)
+        throw Error("'" + path.string() + "' exists already and is not " + kind +
+                    "; name another file.");
+}
+
+void require_other_file(const std::filesystem::path& output, const std::filesystem::path& input) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(output, input, ignored))
+        throw Error("'" + output.string() +
+                    "' is read, so it cannot be written at the same time; "
+                    "name another file.");
+}
+
 }  // namespace theatron::files

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "base/bytes.h"
 
@@ -16,5 +17,14 @@ void write_file(const std::filesystem::path& path, ByteView bytes);
 
 // Throws Error if write_file() could not write there. Call it before long work.
 void require_writable(const std::filesystem::path& path);
+
+// Throws Error if `path` is a file with other content than an earlier output: one that does not
+// begin with `beginning`, "a PNG picture" or the like in `kind`. An empty file may be replaced.
+void require_own_kind(const std::filesystem::path& path, std::string_view beginning,
+                      const char* kind);
+inline constexpr std::string_view png_beginning = "\x89PNG";
+
+// Throws Error if the two paths name the same file.
+void require_other_file(const std::filesystem::path& output, const std::filesystem::path& input);
 
 }  // namespace theatron::files

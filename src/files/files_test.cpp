@@ -94,6 +94,7 @@ TEST(Png, SaysInOneSentenceWhatIsWrong) {
     EXPECT_EQ(reading(), "Cannot read " + name + ": there is no such file.");
     write_file(path, as_bytes("hello"));
     EXPECT_EQ(reading(), name + " is not a PNG picture.");
+    std::filesystem::remove(path);
     write_png(path, color_noise({3, 3}).view());
     EXPECT_EQ(reading(),
               name + " is a PNG picture of 8 bits in colour, but depth needs 16 bits grey.");
@@ -116,6 +117,30 @@ TEST(Png, RefusesPicturesBeyondTheLimit) {
     DepthImage out;
     EXPECT_EQ(decode_png(png, out), "is a damaged PNG picture");
     EXPECT_TRUE(out.empty());
+}
+
+TEST(Png, ReplacesAPictureButNoOtherFile) {
+    const theatron::testing::TemporaryFolder folder;
+    const auto path = folder.path() / "view.png";
+    const DepthImage image = noise({3, 3});
+    write_file(path, {});  // empty
+    write_png(path, image.view());
+    write_png(path, image.view());
+    const Bytes recording(64, std::byte{0x1a});
+    write_file(path, recording);
+    EXPECT_THAT(sentence([&] { write_png(path, image.view()); }),
+                HasSubstr("exists already and is not a PNG picture"));
+    EXPECT_EQ(read_file(path), recording);
+}
+
+TEST(FileBytes, AnOutputIsNotTheInputUnderAnotherName) {
+    const theatron::testing::TemporaryFolder folder;
+    const auto path = folder.path() / "a.mkv";
+    write_file(path, Bytes(5));
+    std::filesystem::create_symlink(path, folder.path() / "b.mkv");
+    for (const auto& same : {path, folder.path() / "." / "a.mkv", folder.path() / "b.mkv"})
+        EXPECT_THAT(sentence([&] { require_other_file(same, path); }), HasSubstr("is read"));
+    require_other_file(folder.path() / "c.mkv", path);
 }
 
 }  // namespace

@@ -212,10 +212,12 @@ Bytes encode_png(ColorView image) {
 }
 
 void write_png(const std::filesystem::path& path, DepthView image) {
+    require_own_kind(path, png_beginning, "a PNG picture");
     write_file(path, encode_png(image));
 }
 
 void write_png(const std::filesystem::path& path, ColorView image) {
+    require_own_kind(path, png_beginning, "a PNG picture");
     write_file(path, encode_png(image));
 }
 

@@ -39,8 +39,11 @@ std::string quoted(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const char* what, const fs::path& path) {
+    const char* const advice = errno == ENOSPC || errno == EDQUOT
+                                   ? "; delete files there or name another folder with --state."
+                                   : "; make its folder writable or name another with --state.";
     throw Error(std::string("Cannot ") + what + " " + quoted(path) + ": " + std::strerror(errno) +
-                "; make its folder writable or name another with --state.");
+                advice);
 }
 
 void require_own(const struct stat& info, const fs::path& path) {

@@ -16,6 +16,7 @@
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "base/utc.h"
+#include "files/file_bytes.h"
 #include "files/json_text.h"
 
 namespace theatron::host {
@@ -51,7 +52,9 @@ std::string audit_line(const session::AuditEvent& event, const std::string& time
 }
 
 AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)
-    : path_(std::move(path)), max_bytes_(max_bytes), file_(open_to_append(path_)) {
+    : path_(std::move(path)), max_bytes_(max_bytes) {
+    files::require_own_kind(path_, "{\"time\":", "an audit log");
+    file_ = open_to_append(path_);
     struct stat info {};
     if (file_ < 0 || fstat(file_, &info) != 0 || !S_ISREG(info.st_mode)) {
         const std::string why = file_ < 0 ? std::strerror(errno) : "it is no file";

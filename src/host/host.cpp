@@ -64,6 +64,9 @@ wire::Camera describe(const capture::CameraInfo& info) {
 }  // namespace
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
+    // First, since cameras may take long to open.
+    state = options.state.empty() ? default_state_folder() : options.state;
+    state_lock.emplace(state);
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     if (!options.places.empty())
         places = capture::load_places(options.places);
@@ -83,7 +86,6 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         check_background(loaded.back(), depth_sizes.back());
     }
 
-    state = options.state.empty() ? default_state_folder() : options.state;
     room_file = std::make_unique<RoomFile>(state / "room");
     certificate = net::load_or_make_certificate(state);
     session::HostSession::Config config;
@@ -308,6 +310,10 @@ std::string Host::status_line() const {
         line += text;
     }
     return line;
+}
+
+std::string Host::room_problem() const {
+    return impl_->room_file->problem();
 }
 
 }  // namespace theatron::host

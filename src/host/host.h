@@ -70,6 +70,8 @@ public:
     // One line of the same for people.
     std::string status_line() const;
     std::size_t participants() const { return participants_; }
+    // Why the room could not be saved; empty if it was.
+    std::string room_problem() const;
 
 private:
     struct Impl;

@@ -2,11 +2,18 @@
 #include "host/host_identity.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include "base/error.h"
@@ -70,6 +77,36 @@ std::string load_or_make_token(const std::filesystem::path& folder, const char* 
     token = net::random_token();
     files::write_private_file(path, token + "\n");
     return token;
+}
+
+StateLock::StateLock(const std::filesystem::path& folder) {
+    files::open_private_folder(folder);
+    const std::filesystem::path path = folder / "host.lock";
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+    if (file_ < 0)
+        throw Error("Cannot use '" + path.string() + "': " + std::strerror(errno) + ".");
+    char text[32] = "";
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+        const int error = errno;
+        const bool is_known = pread(file_, text, sizeof(text) - 1, 0) > 0;
+        close(file_);
+        if (error == EWOULDBLOCK)
+            throw Error(
+                "Another host" +
+                (is_known ? " (process " + std::to_string(std::atoi(text)) + ")" : std::string()) +
+                " uses the state folder '" + folder.string() +
+                "'; end it, or name another folder with --state.");
+        throw Error("Cannot lock '" + path.string() + "': " + std::strerror(error) + ".");
+    }
+    const int length = std::snprintf(text, sizeof(text), "%d\n", int(getpid()));
+    // The number is for people only.
+    if (ftruncate(file_, 0) == 0)
+        (void)!pwrite(file_, text, std::size_t(length), 0);
+}
+
+StateLock::~StateLock() {
+    if (file_ >= 0)
+        close(file_);
 }
 
 void write_address(const std::filesystem::path& folder, const net::Link& link) {

@@ -26,6 +26,19 @@ std::string read_token(const std::filesystem::path& path);
 // valid after a restart. Only its owner may read it. Throws Error.
 std::string load_or_make_token(const std::filesystem::path& folder, const char* name);
 
+// One host at a time uses a state folder. Throws Error, with the process that has it, if another
+// host does; also if the folder cannot be used. The lock ends with the object, or the process.
+class StateLock {
+public:
+    explicit StateLock(const std::filesystem::path& folder);
+    ~StateLock();
+    StateLock(const StateLock&) = delete;
+    StateLock& operator=(const StateLock&) = delete;
+
+private:
+    int file_ = -1;
+};
+
 // Notes the address of the host's links, for 'theatron link'. Throws Error.
 void write_address(const std::filesystem::path& folder, const net::Link& link);
 // Address and fingerprint of the host that last ran with this folder; no token. Throws Error if

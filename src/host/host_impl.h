@@ -14,6 +14,7 @@
 #include "host/case_shelf.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
+#include "host/host_identity.h"
 #include "host/link_book.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
@@ -65,8 +66,9 @@ struct Host::Impl {
     LineLimit strangers;       // the door's thread
     // The cameras with a region of interest; server's thread.
     std::set<std::size_t> with_region;
-    std::set<std::size_t> held;              // lanes; server's thread
-    session::PoseBoard poses;                // server's thread
+    std::set<std::size_t> held;  // lanes; server's thread
+    session::PoseBoard poses;    // server's thread
+    std::optional<StateLock> state_lock;
     std::unique_ptr<RoomFile> room_file;     // server's thread
     std::optional<TimePoint> poses_are_due;  // time of the server's alarm; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.

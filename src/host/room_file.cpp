@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/fault.h"
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "files/private_file.h"
@@ -16,6 +15,18 @@ namespace {
 constexpr std::uint32_t magic = 0x4d525448;  // "HTRM"
 constexpr std::uint32_t version = 2, version_without_times = 1;
 constexpr std::size_t max_file_bytes = 1 << 20;
+
+// Where a file that cannot be used is kept. Of many such files the last one takes the last name.
+std::filesystem::path free_name(const std::filesystem::path& path) {
+    constexpr int max_kept = 20;
+    std::filesystem::path kept = path;
+    kept += ".damaged";
+    for (int n = 2; n <= max_kept && std::filesystem::exists(kept); ++n) {
+        kept = path;
+        kept += ".damaged." + std::to_string(n);
+    }
+    return kept;
+}
 
 }  // namespace
 
@@ -47,9 +58,11 @@ Result<SavedRoom> decode_room(ByteView bytes) {
         saved.session_time = from_us(in.get<std::int64_t>());
         saved.utc = UtcTime(std::chrono::microseconds(in.get<std::int64_t>()));
     }
-    if (!known || !in.ok() ||
+    if (!in.ok() ||
         load_le<std::uint32_t>(bytes.data() + checked.size()) != record::crc32c(checked))
         return Status::malformed;
+    if (!known)
+        return is_room ? Status::unsupported : Status::malformed;
     auto objects = session::decode_objects(in.rest(), 2 * session::RoomState::max_objects);
     if (!objects)
         return objects.error();
@@ -64,35 +77,51 @@ RoomFile::RoomFile(std::filesystem::path path)
       }) {}
 
 RoomFile::~RoomFile() {
+    close();
+}
+
+void RoomFile::close() {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
     }
     changed_.notify_all();
-    thread_.join();
+    if (thread_.joinable())
+        thread_.join();
+}
+
+std::string RoomFile::problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_;
 }
 
 session::RoomSnapshot RoomFile::load() {
-    const auto text = files::read_private_file(path_, files::Privacy::secret, max_file_bytes);
-    if (!text)
+    std::error_code ignored;
+    const bool too_large = std::filesystem::file_size(path_, ignored) > max_file_bytes && !ignored;
+    const auto text = too_large
+                          ? std::nullopt
+                          : files::read_private_file(path_, files::Privacy::secret, max_file_bytes);
+    if (!text && !too_large)
         return {};
-    auto saved = decode_room(as_bytes(*text));
+    auto saved = too_large ? Result<SavedRoom>(Status::too_large) : decode_room(as_bytes(*text));
     if (saved) {
         saved_version_ = saved->room.revision;
         log::info("host", "the saved room is used",
                   {{"objects", saved->room.objects.size()}, {"saved", utc_text(saved->utc)}});
         return std::move(saved->room);
     }
-    const auto kept = std::filesystem::path(path_) += ".damaged";
-    std::error_code ignored;
+    const std::filesystem::path kept = free_name(path_);
     std::filesystem::rename(path_, kept, ignored);
-    log::warning("host", "the saved room is damaged; the session begins with an empty one",
+    log::warning("host",
+                 saved.error() == Status::unsupported
+                     ? "the saved room is of a newer version; the session begins with an empty one"
+                     : "the saved room is damaged; the session begins with an empty one",
                  {{"kept", kept.string()}});
     return {};
 }
 
 void RoomFile::on_tick(const session::HostRoom& room, TimePoint now) {
-    if (room.version() == saved_version_ || now - saved_ < interval)
+    if (now - saved_ < interval || (room.version() == saved_version_ && problem().empty()))
         return;
     saved_ = now;
     save(room, now);
@@ -116,10 +145,24 @@ void RoomFile::run() {
             return;
         const Bytes bytes = std::move(*std::exchange(waiting_, std::nullopt));
         lock.unlock();
-        (void)contain("room", [&] {
+        std::string problem;
+        try {
             files::write_private_file(path_,
                                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        });
+        } catch (const std::exception& error) {
+            problem = error.what();
+        }
+        lock.lock();
+        // Said once, not each second.
+        const bool is_new = !problem.empty() && problem_.empty();
+        const bool is_over = problem.empty() && !problem_.empty();
+        problem_ = problem;
+        lock.unlock();
+        if (is_new)
+            log::error("host", "the room cannot be saved and would be lost with this host",
+                       {{"why", problem}});
+        if (is_over)
+            log::info("host", "the room is saved again");
     }
 }
 

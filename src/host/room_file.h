@@ -23,7 +23,8 @@ struct SavedRoom {
     UtcTime utc;
 };
 Bytes encode_room(const SavedRoom& saved);
-// Safe for untrusted input. Status::malformed for damaged bytes and for a wrong checksum.
+// Safe for untrusted input. Status::malformed for damaged bytes and for a wrong checksum,
+// Status::unsupported for the file of a newer version.
 Result<SavedRoom> decode_room(ByteView bytes);
 
 class RoomFile {
@@ -36,9 +37,15 @@ public:
     // Writes a room that still waits.
     ~RoomFile();
 
-    // The saved room; an empty one without a file. A damaged file is logged and kept as
-    // `room.damaged`. Throws Error if the file cannot be read.
+    // The saved room; an empty one without a file. A file that cannot be used is logged and kept
+    // as `room.damaged`, `room.damaged.2` and so on. Throws Error if the file cannot be read.
     session::RoomSnapshot load();
+
+    // Why the newest room could not be written; empty if it could. A later one is tried again, and
+    // the last one when this object ends, which waits for that.
+    std::string problem() const;
+    // Waits until nothing waits to be written, and ends the thread.
+    void close();
 
     // From one thread, several times a second: writes the room if it has changed.
     void on_tick(const session::HostRoom& room, TimePoint now);
@@ -51,10 +58,11 @@ private:
     const std::filesystem::path path_;
     std::uint64_t saved_version_ = 0;
     TimePoint saved_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Bytes> waiting_;  // guarded by mutex_, as is stopping_
     bool stopping_ = false;
+    std::string problem_;  // guarded by mutex_
     std::thread thread_;
 };
 

@@ -52,12 +52,55 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
         flipped[at] ^= std::byte{1};
         EXPECT_FALSE(decode_room(flipped)) << at;
     }
-    bytes[20] ^= std::byte{4};
-    files::write_private_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    // A second one does not replace the first.
+    for (const char* const kept : {"room.damaged", "room.damaged.2", "room.damaged.3"}) {
+        bytes[20] ^= std::byte{4};
+        files::write_private_file(path,
+                                  {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        bytes[20] ^= std::byte{4};
+        RoomFile file(path);
+        EXPECT_TRUE(file.load().objects.empty());
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / kept));
+        EXPECT_FALSE(std::filesystem::exists(path));
+    }
+    // Neither does a file of another program, however large.
+    files::write_private_file(path, std::string(3 << 20, 'x'));
     RoomFile file(path);
     EXPECT_TRUE(file.load().objects.empty());
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / "room.damaged"));
-    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / "room.damaged.4"));
+}
+
+TEST(RoomFile, OfANewerVersionIsNotCalledDamaged) {
+    Bytes bytes = encode_room({});
+    bytes[4] = std::byte{9};
+    bytes.resize(bytes.size() - 4);
+    ByteWriter out(bytes);
+    out.put(record::crc32c(bytes));
+    EXPECT_EQ(decode_room(bytes).error(), Status::unsupported);
+}
+
+TEST(RoomFile, ThatCannotBeWrittenIsTriedAgainUntilItCan) {
+    const testing::TemporaryFolder folder;
+    const auto state = folder.path() / "state";
+    files::open_private_folder(state);
+    std::vector<session::Action> actions;
+    session::HostRoom room({}, actions);
+    room.join(anna, {{}, false, "Anna"}, true);
+    // A folder in the file's place.
+    std::filesystem::create_directories(state / "room" / "in the way");
+    RoomFile file(state / "room");
+    TimePoint now(10s);
+    const auto tick_until = [&](auto is_done) {
+        while (!is_done()) {
+            now += RoomFile::interval;
+            file.on_tick(room, now);
+            std::this_thread::yield();
+        }
+    };
+    tick_until([&] { return !file.problem().empty(); });
+    std::filesystem::remove_all(state / "room");
+    tick_until([&] { return file.problem().empty(); });
+    EXPECT_TRUE(std::filesystem::is_regular_file(state / "room"));
 }
 
 TEST(RoomFile, Version1HadNoTimes) {

@@ -104,6 +104,9 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             refuse(id, {TextCode::removed_by_operator});
             break;
         case ManageAction::revoke_link:
+            // It would remove the operator, too, perhaps the last one.
+            if (const Participant* own = admission_.find(by); own && own->link == person.link)
+                return ManageRefusal::yourself;
             actions_.push_back(action::RevokeLink{person.link});
             admission_.revoke(std::string(person.link));
             remove_without_link(by_name);

@@ -228,6 +228,14 @@ TEST_F(People, ARevokedLinkEndsTheConnectionsOfAllWhoCameByItAndOfNobodyElse) {
     EXPECT_NE(refusal_of(eve).find("token is wrong"), std::string::npos);
 }
 
+TEST_F(People, AnOperatorDoesNotRevokeTheLinkByWhichItCame) {
+    come(alice, "or");
+    come(bob, "or");
+    EXPECT_EQ(manage(alice, ManageAction::revoke_link, bob), ManageRefusal::yourself);
+    EXPECT_TRUE(is_in(alice) && is_in(bob));
+    EXPECT_TRUE(actions_of<action::RevokeLink>(taken).empty());
+}
+
 TEST_F(People, TokensThatTheHostNoLongerHasEndConnections) {
     come(alice, "secret");
     come(bob, "other");

@@ -189,6 +189,39 @@ class RecordingCare(unittest.TestCase):
         run("record", *camera, file, "--seconds", 1, "--overwrite")
         self.assertFalse(second.exists())
 
+    def test_no_output_replaces_a_recording(self):
+        path, _ = self.record("a.mkv")
+        link = self.folder / "link.mkv"
+        link.symlink_to(path)
+        before = path.read_bytes()
+        (self.folder / "earlier.mkv").write_bytes(b"kept")
+        state = self.folder / "state"
+        for arguments, says in (
+                (("export", path, "--room", path, "--overwrite"), "has no room"),
+                (("export", path, "--k4a", path, "--overwrite"), "is read"),
+                (("export", path, "--k4a", link, "--overwrite"), "is read"),
+                (("export", path, "--k4a", self.folder / "earlier.mkv", "--overwrite"), "Azure Kinect"),
+                (("join", DEAD_LINK, "--offscreen", path), "not a PNG picture"),
+                (("join", DEAD_LINK, "--depth", path), "not a PNG picture"),
+                (("host", "--camera", self.camera, "--state", state, "--summary", path), "not a summary"),
+                (("host", "--camera", self.camera, "--state", state, "--audit", path), "not an audit log")):
+            with self.subTest(arguments=arguments):
+                code, _, errors = run(*arguments)
+                self.assertEqual(code, 1, errors)
+                self.assertIn(says, errors)
+                self.assertEqual(path.read_bytes(), before)
+        self.assertEqual((self.folder / "earlier.mkv").read_bytes(), b"kept")
+        self.assertEqual([p.name for p in self.folder.glob("*part*")], [])
+
+    def test_a_second_host_on_one_state_folder_is_refused(self):
+        with host(self.folder / "state", self.camera + ",loop=1") as h:
+            code, _, errors = run("host", "--listen", "127.0.0.1:0", "--state", self.folder / "state", "--camera",
+                                  self.camera)
+            self.assertEqual(code, 1)
+            self.assertIn(f"Another host (process {h.process.pid}) uses the state folder", errors)
+        with host(self.folder / "state", self.camera + ",loop=1"):
+            pass  # the first one was killed
+
     def test_what_cannot_be_written_is_said(self):
         path, _ = self.record("a.mkv")
         for command in (("inspect", path), ("inspect", path, "--json"), ("cameras", "--json"),

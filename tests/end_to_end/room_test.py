@@ -104,10 +104,13 @@ class Room(unittest.TestCase):
             # The hash covers all objects: both have the same room.
             self.assertEqual(*(p.wait_for(lambda f: brick(f)["held_by"] == self.number(zoe), 10)["room"]["hash"]
                                for p in (anna, zoe)))
+            # Zoë holds what she was given, without a grab of her own.
+            zoe.say("move 0.5 1.25 0.25")
+            anna.wait_for(lambda f: brick(f)["position"][1] == 1.25, 10)
             zoe.process.kill()
             left = anna.wait_for(lambda f: people(f) == ["Anna"], 10)
             self.assertEqual(brick(left)["held_by"], 0)
-            self.assertEqual(brick(left)["position"], [0.5, 1.5, 0.25])
+            self.assertEqual(brick(left)["position"], [0.5, 1.25, 0.25])
 
     @staticmethod
     def number(person):
