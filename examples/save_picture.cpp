@@ -22,7 +22,7 @@ void save_picture(const char* link, const char* file) {
 
     viewer::OffscreenView view;
     const TimePoint deadline = steady_now() + 20s;
-    while (!view.has_picture()) {
+    while (!view.can_draw()) {
         const auto status = participant.status();
         if (status.phase == client::Participant::Phase::refused || steady_now() > deadline)
             throw Error("No picture came. " + status.problem);
