@@ -63,11 +63,11 @@ std::string checked_color(const std::string& text) {
 
 struct Flags {
     std::string link;
-    std::string name = "guest";
+    std::optional<std::string> name;  // none: the kept one in a window, else "guest"
     std::string depth_codec = "strata";
     std::string color_codec = best_color();
     std::string offscreen, depth_file;
-    std::string renderer = viewer::automatic;
+    std::optional<std::string> renderer;  // likewise, else viewer::automatic
     std::string size = "1280x720";
     std::string view = "camera:0";
     std::string room = "on", quality = "auto";
@@ -127,9 +127,9 @@ struct OffscreenPicture {
     explicit OffscreenPicture(const Flags& flags)
         : size(parse_size(flags.size)),
           view(viewer::parse_view(flags.view)),
-          renderer(flags.renderer),
+          renderer(flags.renderer.value_or(viewer::automatic)),
           scene(parse_room(flags), viewer::parse_seen_people(flags.people, flags.myself)) {
-        viewer::check_renderer_choice(flags.renderer);
+        viewer::check_renderer_choice(renderer.renderer());
     }
 
     // Takes over new cameras and frames, and the host's renderer command. The picture's viewpoint
@@ -262,7 +262,7 @@ nlohmann::json json_of(const client::Participant& participant) {
 void run(const Flags& flags) {
     client::Participant::Options options;
     options.link = parse_link_argument(flags.link);
-    options.name = flags.name;
+    options.name = flags.name.value_or("guest");
     const auto depth = video::parse_depth_setting(flags.depth_codec);
     for (const std::string& problem : {depth.problem, video::missing_depth_decoder(depth.setting)})
         if (!problem.empty())
@@ -283,12 +283,12 @@ void run(const Flags& flags) {
     }
 
     if (flags.window()) {
-        viewer::check_renderer_choice(flags.renderer);
-        ViewerWindow shown{options, publisher.get(), {}, {}, flags.seconds};
+        ViewerWindow shown{.join = options, .publisher = publisher.get()};
+        shown.seconds = flags.seconds;
         shown.viewer.view = viewer::parse_view(flags.view);
         shown.viewer.room = parse_room(flags);
         shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
-        shown.viewer.renderer = flags.renderer;
+        use_kept_settings(shown, flags.name, flags.renderer);
         shown.viewer.scale = parse_render_scale(flags.render_scale);
         cli::catch_stop_signals();
         xr::DesktopWindow window("Theatron", parse_size(flags.size));
@@ -402,7 +402,7 @@ void add_join_command(CLI::App& app) {
     command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
         ->required();
     command->add_option("--name", flags->name, "Your name, shown to the others")
-        ->capture_default_str();
+        ->default_str("that of your last window, else guest");
     command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")
@@ -428,7 +428,7 @@ void add_join_command(CLI::App& app) {
             join_names(viewer::renderer_choices()) +
                 "; auto is blend for two cameras and more, in a window whatever keeps up. The "
                 "host may set another")
-        ->capture_default_str();
+        ->default_str("that of your last window, else auto");
     command->add_option("--size", flags->size, "Size of the window or of the picture")
         ->capture_default_str();
     command

@@ -42,7 +42,7 @@ Pose towards(Vec3 place, Vec3 at) {
 }  // namespace
 
 const char* RoomLines::help() {
-    return "'stand X Y Z AT_X AT_Y AT_Z', 'point X Y Z AT_X AT_Y AT_Z', 'brick X Y Z',\n"
+    return "'stand X Y Z AT_X AT_Y AT_Z', 'point X Y Z AT_X AT_Y AT_Z', 'call', 'brick X Y Z',\n"
            "'grab NUMBER', 'move X Y Z [DEGREES]', 'release', 'give NAME', 'remove' (metres)";
 }
 
@@ -55,7 +55,7 @@ bool RoomLines::obey(const std::string& line, client::Participant& participant) 
     std::string what;
     words >> what;
     for (const char* known :
-         {"stand", "point", "brick", "grab", "move", "release", "give", "remove"})
+         {"stand", "point", "call", "brick", "grab", "move", "release", "give", "remove"})
         if (what == known) {
             if (const std::string problem = change(what, words, participant); !problem.empty())
                 log::say("'" + line + "': " + problem);
@@ -73,6 +73,13 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
         if (length(at - place) < same_place_m)
             return "The two places are the same.";
         (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
+        sent_ = {};
+        return "";
+    }
+    if (what == "call") {
+        if (!pose_.head)
+            return "Nobody knows where you are; 'stand' comes first.";
+        calls_until_ = steady_now() + viewer::Meeting::called_for;
         sent_ = {};
         return "";
     }
@@ -175,21 +182,25 @@ void RoomLines::on_tick(client::Participant& participant) {
         return;
     sent_ = now;
     pose_.time = participant.now();
+    pose_.calls = now < calls_until_;
     participant.send_pose(pose_);
 }
 
 nlohmann::json room_json(const client::Participant& participant) {
     const auto room = participant.room();
+    const auto poses = participant.poses();
     nlohmann::json people = nlohmann::json::array(), objects = nlohmann::json::array();
     for (const auto& [id, object] : room.objects) {
         if (object.kind == session::ObjectKind::person) {
             if (const auto facts = session::decode_person(object.properties))
-                people.push_back({{"id", std::uint32_t(object.creator)},
-                                  {"name", facts->name},
-                                  {"records", facts->records},
-                                  {"recorded", session::is_recorded(id)},
-                                  {"role", wire::text_of(facts->role)},
-                                  {"muted", facts->muted}});
+                people.push_back(
+                    {{"id", std::uint32_t(object.creator)},
+                     {"name", facts->name},
+                     {"records", facts->records},
+                     {"recorded", session::is_recorded(id)},
+                     {"calls", poses.contains(object.creator) && poses.at(object.creator).calls},
+                     {"role", wire::text_of(facts->role)},
+                     {"muted", facts->muted}});
             continue;
         }
         const Vec3& p = object.room_from_object.translation;

@@ -18,8 +18,8 @@ public:
     static const char* help();
 
     // Carries out a line: "stand X Y Z AT_X AT_Y AT_Z", "point X Y Z AT_X AT_Y AT_Z",
-    // "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "release", "give NAME", "remove".
-    // False if it is none of these. A sentence on a wrong line is printed.
+    // "call", "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "release", "give NAME",
+    // "remove". False if it is none of these. A sentence on a wrong line is printed.
     bool obey(const std::string& line, client::Participant& participant);
 
     // Gives the participant a head. Metres; y up, -z forward.
@@ -46,14 +46,14 @@ private:
     void print_refusals(client::Participant& participant, TimePoint now);
 
     wire::PersonPose pose_;
-    TimePoint sent_, refusals_printed_;
+    TimePoint calls_until_, sent_, refusals_printed_;
     std::uint64_t refused_ = 0;  // not yet printed
     std::string refusal_;        // the newest of these
     std::optional<Held> held_;
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","self","people":[{"id","name","records","role","muted"}],"objects":[{"id","kind","held_by","position",
+// {"hash","self","people":[{"id","name","records","role","muted","calls"}],"objects":[{"id","kind","held_by","position",
 // "scale"}]}; `position` in metres, `held_by` 0 if no participant holds the object.
 nlohmann::json room_json(const client::Participant& participant);
 

@@ -7,10 +7,13 @@
 #include <mutex>
 #include <utility>
 
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
+#include "files/state_folder.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
+#include "viewer/renderer_text.h"
 #include "xr/overlay_native.h"
 #include "xr/scaled_picture_native.h"
 
@@ -74,6 +77,32 @@ bool has_display() {
         if (const char* value = std::getenv(variable); value && *value != '\0')
             return true;
     return false;
+}
+
+void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& name,
+                       const std::optional<std::string>& renderer) {
+    if (renderer)
+        viewer::check_renderer_choice(*renderer);
+    const std::filesystem::path folder = files::state_folder();
+    std::string problem;
+    const client::Settings kept = client::load_settings(folder, problem);
+    if (!problem.empty())
+        log::say(problem);
+    const std::vector<std::string> known = viewer::renderer_choices();
+    const bool is_known = std::find(known.begin(), known.end(), kept.renderer) != known.end();
+    window.viewer.renderer = renderer.value_or(is_known ? kept.renderer : viewer::automatic);
+    window.viewer.sits = kept.sits;
+    window.viewer.shows_people = kept.shows_people;
+    window.viewer.shows_facts = kept.shows_facts;
+    window.join.name = name.value_or(kept.name);
+    window.settings = kept;
+    window.settings.name = window.join.name;
+    window.keep = [folder](const client::Settings& settings) {
+        if (const std::string trouble = client::save_settings(folder, settings); !trouble.empty())
+            log::say(trouble);
+    };
+    if (window.settings != kept)
+        window.keep(window.settings);
 }
 
 void show(xr::DesktopWindow& window, ViewerWindow options) {
@@ -148,6 +177,9 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
             texts_changed = content != texts;
             texts = std::move(content);
             next_texts = now + texts_every;
+            if (const auto settings = viewer.settings(options.settings);
+                options.keep && settings != options.settings)
+                options.keep(options.settings = settings);
             if (std::string newest = title_of(facts, address); newest != title)
                 window.set_title(title = std::move(newest));
         }

@@ -2,6 +2,10 @@
 // theatron join with a window: the loop around a viewer.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <string>
+
 #include "publish/camera_publisher.h"
 #include "viewer/viewer.h"
 #include "xr/desktop_window_native.h"
@@ -12,12 +16,21 @@ struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
     viewer::Viewer::Options viewer;
+    // Called with the person's settings whenever they have changed from `settings`.
+    client::Settings settings;
+    std::function<void(const client::Settings&)> keep;
     std::string greeting;  // shown for some seconds after the first picture
     double seconds = 0;    // end this long after the first picture; 0: never
 };
 
 // True where a desktop is named by the environment; a window may still fail to open there.
 bool has_display();
+
+// The window begins with the settings that the last one ended with, and keeps changes. `name` and
+// `renderer` of the command line come first, and are kept, too. Throws Error if there is no such
+// renderer.
+void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& name,
+                       const std::optional<std::string>& renderer);
 
 // Returns when the person leaves. Throws Error if the host refused to let the person in.
 void show(xr::DesktopWindow& window, ViewerWindow options);

@@ -20,13 +20,15 @@ net::PeerId peer_of(ParticipantId participant) {
     return net::PeerId(std::uint32_t(participant));
 }
 
-// The pose of a person with its hands removed; nullopt if it shows none.
-std::optional<Bytes> without_hands(const wire::State& state) {
+// The pose of a person who may not point: without hands, and it calls nobody. Nullopt if it is the
+// same.
+std::optional<Bytes> without_pointing(const wire::State& state) {
     auto pose = wire::decode_person_pose(state.body);
-    if (!pose || (!pose->left_hand && !pose->right_hand))
+    if (!pose || (!pose->left_hand && !pose->right_hand && !pose->calls))
         return std::nullopt;
     pose->left_hand.reset();
     pose->right_hand.reset();
+    pose->calls = false;
     return wire::encode_person_pose(*pose);
 }
 
@@ -340,7 +342,7 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
-    const auto without = without_hands(state);
+    const auto without = without_pointing(state);
     const bool hides = without && !session->allow(sender, session::Right::point);
     const wire::State shown{state.key, hides ? ByteView(*without) : state.body};
     if (poses.put(sender, shown, steady_now()) == session::PoseBoard::Answer::flood)

@@ -21,6 +21,7 @@ struct RoomPerson {
     bool is_stale = false;  // its poses are old: it is drawn half transparent
     // It is seen as a point cloud, in place of the head with a face.
     bool has_cloud = false;
+    bool calls = false;  // asks the others to come
 };
 
 // The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring

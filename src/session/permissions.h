@@ -13,7 +13,7 @@ using wire::Role;
 enum class Right : std::uint8_t {
     see,      // receive cameras and the room, and choose how
     speak,    // taken away by muting
-    point,    // show hands
+    point,    // show hands, call others to oneself
     handle,   // create, hold, change and remove objects
     record,   // join as a recorder
     publish,  // send cameras

@@ -103,6 +103,7 @@ std::optional<wire::PersonPose> PoseTrack::at(TimePoint now) const {
     const double share = to_seconds(time - from->time) / to_seconds(to->time - from->time);
     wire::PersonPose pose;
     pose.time = time;
+    pose.calls = to->calls;
     pose.head = between(from->head, to->head, share);
     pose.left_hand = between(from->left_hand, to->left_hand, share);
     pose.right_hand = between(from->right_hand, to->right_hand, share);

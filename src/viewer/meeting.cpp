@@ -17,7 +17,8 @@ std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
 
 bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
-           a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud;
+           a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
+           a.calls == b.calls;
 }
 
 }  // namespace
@@ -40,6 +41,8 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
             person.left_hand = pose_of(pose->second.left_hand);
             person.right_hand = pose_of(pose->second.right_hand);
             person.is_stale = now - pose->second.time > Meeting::stale_after;
+            person.calls =
+                pose->second.calls && !person.is_stale && !session::is_recorded(person.id);
         }
         people.push_back(std::move(person));
     }

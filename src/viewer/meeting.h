@@ -24,6 +24,8 @@ class Meeting {
 public:
     // The pose of a person is stale if it is older than this.
     static constexpr Duration stale_after = std::chrono::seconds(2);
+    // A call of a person to the others lasts this long.
+    static constexpr Duration called_for = std::chrono::seconds(20);
 
     // The people who are seen as point clouds, from the next take().
     void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }

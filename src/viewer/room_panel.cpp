@@ -39,6 +39,8 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
         add(text, "not in the room");
     else if (person.is_stale)
         add(text, "view is old");
+    if (person.calls)
+        add(text, "asks all to come");
     if (facts.followed == person.id)
         add(text, "you see through their eyes");
     return text;
@@ -84,6 +86,11 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                                            observes ? wire::Role::expert : wire::Role::observer}),
                              button("Remove", Decide{Action::remove, person.id, {}})}});
     }
+    if (!who.rows.empty() && facts.may_call)
+        who.rows.push_back({"",
+                            "",
+                            {facts.is_calling ? button("Stop calling", Call{false})
+                                              : button("Call all to me", Call{true})}});
     if (who.rows.empty())
         who.rows.push_back({"Nobody else is here", "", {}});
     panel.panels.push_back(std::move(who));
@@ -94,6 +101,33 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         where.rows.push_back({place.name, "", {button("Go", GoToPlace{place})}});
     panel.panels.push_back(std::move(where));
     return panel;
+}
+
+RoomPanel call_panel(const std::vector<room::RoomPerson>& callers) {
+    RoomPanel panel;
+    if (callers.empty())
+        return panel;
+    xr::Panel offer{"Calls you (J: go there)", {}};
+    for (const room::RoomPerson& person : callers) {
+        const int first = int(panel.commands.size());
+        panel.commands.push_back(AnswerCall{person.id, true});
+        panel.commands.push_back(AnswerCall{person.id, false});
+        offer.rows.push_back({person.name, "", {{"Go there", first}, {"Stay here", first + 1}}});
+    }
+    panel.panels.push_back(std::move(offer));
+    return panel;
+}
+
+RoomPanel joined(RoomPanel upper, const RoomPanel& lower) {
+    const int before = int(upper.commands.size());
+    for (xr::Panel panel : lower.panels) {
+        for (xr::PanelRow& row : panel.rows)
+            for (xr::PanelButton& button : row.buttons)
+                button.command += before;
+        upper.panels.push_back(std::move(panel));
+    }
+    upper.commands.insert(upper.commands.end(), lower.commands.begin(), lower.commands.end());
+    return upper;
 }
 
 }  // namespace theatron::viewer

@@ -34,8 +34,15 @@ struct OpenOffered {  // a case of the host
 struct ChangeCase {  // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase>;
+struct Call {  // the user asks the others to come, or no longer does
+    bool begins = false;
+};
+struct AnswerCall {
+    ParticipantId person{};  // who asks the user to come
+    bool comes = false;
+};
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
+                                 ChangeCase, Call, AnswerCall>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
@@ -49,7 +56,13 @@ struct RoomPanelFacts {
     std::optional<ParticipantId> followed;  // the person through whose eyes the user sees
     bool is_operator = false;               // the user decides on people
     std::vector<wire::Visitor> visitors;    // who wait for that
+    bool may_call = false, is_calling = false;
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
+
+// An offer to go to each of these people, who ask the user to come; comes before the others.
+RoomPanel call_panel(const std::vector<room::RoomPerson>& callers);
+// The panels of both, below each other.
+RoomPanel joined(RoomPanel upper, const RoomPanel& lower);
 
 }  // namespace theatron::viewer

@@ -86,6 +86,38 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
               wire::ManageAction::remove);
 }
 
+TEST(RoomPanel, OffersToGoToWhoeverCallsAndToCall) {
+    EXPECT_TRUE(call_panel({}).panels.empty());
+    room::RoomPerson anna, ben;
+    anna.id = ParticipantId{2};
+    anna.name = "Anna";
+    anna.calls = true;
+    anna.head = ben.head = Pose{};
+    ben.id = ParticipantId{3};
+    RoomPanelFacts facts;
+    facts.people = {anna, ben};
+    EXPECT_EQ(room_panel(facts).commands.size(), 4u) << "an observer calls nobody";
+    facts.may_call = true;
+    const RoomPanel panel = joined(call_panel({anna}), room_panel(facts));
+    ASSERT_EQ(panel.panels.size(), 2u);
+    const auto& offer = panel.panels[0].rows.at(0);
+    EXPECT_EQ(offer.text, "Anna");
+    for (const std::size_t answer : {0, 1}) {
+        const auto& answered =
+            std::get<AnswerCall>(panel.commands.at(offer.buttons.at(answer).command));
+        EXPECT_EQ(answered.person, anna.id);
+        EXPECT_EQ(answered.comes, answer == 0);
+    }
+    const auto& rows = panel.panels[1].rows;
+    EXPECT_EQ(rows.at(0).detail, "asks all to come");
+    EXPECT_EQ(std::get<GoToPerson>(panel.commands.at(rows.at(1).buttons.at(0).command)).person,
+              ben.id);
+    EXPECT_TRUE(std::get<Call>(panel.commands.at(rows.at(2).buttons.at(0).command)).begins);
+    facts.is_calling = true;
+    const RoomPanel calling = room_panel(facts);
+    EXPECT_FALSE(std::get<Call>(calling.commands.back()).begins);
+}
+
 TEST(RoomPanel, SaysThatNobodyIsHere) {
     const RoomPanel panel = room_panel({});
     ASSERT_EQ(panel.panels.size(), 1u);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "session/permissions.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 #include "viewer/case_actions.h"
@@ -38,7 +39,18 @@ Viewer::Viewer(Options options, client::Participant& participant)
       scene_(options_.room, options_.people),
       eye_(options_.view),
       choice_(options_.renderer),
-      pace_(xr::automatic_ways(1, options_.scale)) {}
+      pace_(xr::automatic_ways(1, options_.scale)),
+      sits_(options_.sits),
+      shows_panels_(options_.shows_people),
+      line_(options_.shows_facts) {}
+
+client::Settings Viewer::settings(client::Settings before) const {
+    before.renderer = options_.renderer;
+    before.sits = sits_;
+    before.shows_people = shows_panels_;
+    before.shows_facts = line_;
+    return before;
+}
 
 void Viewer::note(const std::string& text, TimePoint now) {
     notice_ = text;
@@ -107,18 +119,14 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             sits_ = !sits_;
             stop_following();
             scene_changed_ = true;
-            {
-                Pose eye = eye_.view(picture).room_from_eye;
-                eye.translation.y = sits_ ? room::sitting_eyes_m : room::standing_eyes_m;
-                eye_.go_to(eye);
-            }
+            { eye_.go_to(at_eye_height(eye_.view(picture).room_from_eye)); }
             note(sits_ ? "Sitting" : "Standing", now);
             break;
         case xr::Action::own_view:
         case xr::Action::view_camera: {
             stop_following();
             if (const auto place = meeting_place(); place && eye_.is_placed()) {
-                eye_.go_to(*place);
+                eye_.go_to(at_eye_height(*place));
                 scene_changed_ = true;
                 break;
             }
@@ -134,6 +142,15 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             }
             break;
         }
+        case xr::Action::call:
+            call(!is_calling(now), now);
+            break;
+        case xr::Action::come:
+            if (const auto people = callers(); !people.empty())
+                answer_call(people.front().id, true, now);
+            else
+                note("Nobody calls you.", now);
+            break;
         case xr::Action::admit:
             decide_on_visitor(wire::ManageAction::admit, now);
             break;
@@ -209,24 +226,63 @@ void Viewer::press(int command, TimePoint now) {
                   eye.translation);
         return;
     }
+    if (const auto* calls = std::get_if<Call>(&chosen))
+        return call(calls->begins, now);
+    if (const auto* answer = std::get_if<AnswerCall>(&chosen))
+        return answer_call(answer->person, answer->comes, now);
+    if (const auto* person = std::get_if<GoToPerson>(&chosen))
+        return go_to_person(person->person, now);
     stop_following();
     scene_changed_ = true;
     if (const auto* place = std::get_if<GoToPlace>(&chosen)) {
         eye_.go_to(place->place.room_from_eye);
         return note(place->place.name, now);
     }
-    const auto* through = std::get_if<LookThrough>(&chosen);
-    const ParticipantId id = through ? through->person : std::get<GoToPerson>(chosen).person;
+    const ParticipantId id = std::get<LookThrough>(chosen).person;
     const room::RoomPerson* person = scene_.meeting().person(id);
     if (!person)
         return note("This person has left", now);
-    if (through) {
-        followed_ = id;
-        note("You see through the eyes of " + person->name + "; move to leave", now);
-    } else {
-        eye_.go_to(beside(*person->head));
-        note("Beside " + person->name, now);
-    }
+    followed_ = id;
+    note("You see through the eyes of " + person->name + "; move to leave", now);
+}
+
+void Viewer::go_to_person(ParticipantId id, TimePoint now) {
+    const room::RoomPerson* person = scene_.meeting().person(id);
+    if (!person || !eye_.is_placed())
+        return note("This person has left", now);
+    stop_following();
+    scene_changed_ = true;
+    eye_.go_to(beside(*person->head));
+    note("Beside " + person->name, now);
+}
+
+void Viewer::call(bool begins, TimePoint now) {
+    if (begins && !session::may(participant_.status().standing.role, session::Right::point))
+        return note("Your role does not allow to call others.", now);
+    calls_until_ = begins ? now + Meeting::called_for : TimePoint{};
+    note(begins ? "You ask the others to come to you; they decide." : "You no longer call.", now);
+}
+
+void Viewer::answer_call(ParticipantId person, bool comes, TimePoint now) {
+    answered_.insert(person);
+    if (comes)
+        go_to_person(person, now);
+}
+
+std::vector<room::RoomPerson> Viewer::callers() const {
+    std::vector<room::RoomPerson> callers;
+    for (const room::RoomPerson& person : scene_.meeting().people())
+        if (person.calls && person.head && !answered_.contains(person.id))
+            callers.push_back(person);
+    return callers;
+}
+
+// The next call of the same person is offered again.
+void Viewer::forget_answered() {
+    std::erase_if(answered_, [&](ParticipantId id) {
+        const room::RoomPerson* person = scene_.meeting().person(id);
+        return !person || !person->calls;
+    });
 }
 
 void Viewer::stop_following() {
@@ -265,6 +321,7 @@ void Viewer::choose_depth_codec() {
 void Viewer::choose_next_renderer(TimePoint now) {
     if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
         return note("The host has set this way of drawing: " + choice_.renderer(), now);
+    options_.renderer = choice_.renderer();
     choose_pace();
     const bool as_drawn = choice_.renderer() == way().renderer;
     note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer), now);
@@ -314,9 +371,10 @@ bool Viewer::step(Size picture, TimePoint now) {
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
     if (const auto place = meeting_place(); place && !eye_.is_placed()) {
-        eye_.stand(*place);
+        eye_.stand(at_eye_height(*place));
         scene_changed_ = true;
     }
+    forget_answered();
     while (const auto answer = participant_.take_managed())
         if (answer->refusal != wire::ManageRefusal::none)
             note(wire::text_of(answer->refusal), now);
@@ -328,6 +386,11 @@ bool Viewer::step(Size picture, TimePoint now) {
         first_picture_at_ = now;
     participant_.tell_renderer(way().renderer);
     return scene_changed_ && eye_.is_placed();
+}
+
+Pose Viewer::at_eye_height(Pose room_from_eye) const {
+    room_from_eye.translation.y = sits_ ? room::sitting_eyes_m : room::standing_eyes_m;
+    return room_from_eye;
 }
 
 // In a meeting without cameras.
@@ -343,11 +406,15 @@ void Viewer::send_pose(Size picture, TimePoint now) {
     if (!eye_.is_placed())
         return;
     const Pose eye = eye_.view(picture).room_from_eye;
-    if (now - pose_sent_ < (eye == sent_pose_ ? pose_repeated_after : pose_interval))
+    const bool is_same = eye == sent_pose_ && is_calling(now) == sent_call_;
+    if (now - pose_sent_ < (is_same ? pose_repeated_after : pose_interval))
         return;
     pose_sent_ = now;
     sent_pose_ = eye;
-    participant_.send_pose(pose_of_eye(eye, participant_.session_time(now)));
+    sent_call_ = is_calling(now);
+    wire::PersonPose pose = pose_of_eye(eye, participant_.session_time(now));
+    pose.calls = sent_call_;
+    participant_.send_pose(pose);
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
@@ -414,23 +481,23 @@ Facts Viewer::facts(TimePoint now) {
     if (now < notice_until_)
         facts.notice = notice_;
     facts.help = help_;
-    commands_.clear();
+    RoomPanel panel = call_panel(callers());
     if (shows_panels_) {
-        RoomPanel panel = room_panel(
-            {scene_.meeting().room(), scene_.meeting().people(), places_of(cameras()), followed_,
-             facts.received.status.standing.role == wire::Role::operator_, facts.visitors});
-        facts.panels = std::move(panel.panels);
-        commands_ = std::move(panel.commands);
+        const wire::Role role = facts.received.status.standing.role;
+        panel = joined(
+            std::move(panel),
+            room_panel({scene_.meeting().room(), scene_.meeting().people(), places_of(cameras()),
+                        followed_, role == wire::Role::operator_, facts.visitors,
+                        session::may(role, session::Right::point), is_calling(now)}));
     }
     if (shows_case_) {
-        RoomPanel panel{std::move(facts.panels), std::move(commands_)};
         const CaseScene& scene = scene_.meeting().case_scene();
         add_case_panel({participant_.cases(), scene.in_room() ? &*scene.in_room() : nullptr,
                         scene.content(), scene.monitor().volume()},
                        panel);
-        facts.panels = std::move(panel.panels);
-        commands_ = std::move(panel.commands);
     }
+    facts.panels = std::move(panel.panels);
+    commands_ = std::move(panel.commands);
     facts.line = line_;
     return facts;
 }

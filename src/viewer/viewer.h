@@ -11,6 +11,7 @@
 
 #include "base/statistics.h"
 #include "client/participant.h"
+#include "client/settings.h"
 #include "session/renderer_choice.h"
 #include "viewer/eye.h"
 #include "viewer/facts.h"
@@ -31,6 +32,7 @@ public:
         RoomChoice room;
         std::vector<SeenPerson> people;
         std::string renderer = automatic;
+        bool sits = false, shows_people = false, shows_facts = true;  // as in client::Settings
         double scale = 0;  // of the target's pixels to draw; 0: chosen by drawing time
         std::string depth_codec, color_codec;  // that the participant requested
     };
@@ -63,6 +65,8 @@ public:
     Facts facts(TimePoint now);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
+    // `before` with this person's newest choices.
+    client::Settings settings(client::Settings before) const;
     // True while a fading camera or a moving person changes the picture by itself.
     bool is_animated() const { return fading_ || moving_; }
     // The first moment that the scene could be drawn; TimePoint{} before.
@@ -83,8 +87,15 @@ private:
     void aim_teleport(const xr::WindowInput& input, Size picture);
     void look_through_followed(TimePoint now);
     void stop_following();
+    void go_to_person(ParticipantId id, TimePoint now);
+    void call(bool begins, TimePoint now);
+    void answer_call(ParticipantId person, bool comes, TimePoint now);
+    void forget_answered();
+    std::vector<room::RoomPerson> callers() const;  // whom the user has not answered
+    bool is_calling(TimePoint now) const { return now < calls_until_; }
     std::optional<Pose> meeting_place() const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
+    Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
@@ -103,6 +114,9 @@ private:
     bool scene_changed_ = true;
     std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees
     std::optional<room::TeleportArc> arc_;   // while it is aimed
+    std::set<ParticipantId> answered_;       // those who still call
+    TimePoint calls_until_;
+    bool sent_call_ = false;
     bool sits_ = false;
     bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons

@@ -22,6 +22,7 @@ struct PartPose {
 struct PersonPose {
     TimePoint time;  // session time that the pose is for
     std::optional<PartPose> head, left_hand, right_hand;
+    bool calls = false;  // asks the others to come
     bool operator==(const PersonPose&) const = default;
 };
 

@@ -47,6 +47,16 @@ TEST(PersonPose, ComesBackNearly) {
     EXPECT_TRUE(decode_person_pose(encode_person_pose(PersonPose{}))) << "nothing is tracked";
 }
 
+TEST(PersonPose, TellsWhetherThePersonCalls) {
+    PersonPose pose = sample();
+    EXPECT_FALSE(decode_person_pose(encode_person_pose(pose))->calls);
+    pose.calls = true;
+    const auto back = decode_person_pose(encode_person_pose(pose));
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->calls);
+    EXPECT_EQ(back->head.has_value(), pose.head.has_value());
+}
+
 TEST(PersonPose, RefusesWhatIsNoPose) {
     const Bytes whole = encode_person_pose(sample());
     for (std::size_t n = 0; n < whole.size(); ++n)
@@ -66,7 +76,7 @@ TEST(PersonPose, RefusesWhatIsNoPose) {
     EXPECT_EQ(with(21, 0x2000'7fff), Status::malformed) << "one that is too long";
     EXPECT_EQ(with(4, 0x7000'0000), Status::malformed) << "a time beyond all sense";
     Bytes other_part = whole;
-    other_part[8] = std::byte{8};
+    other_part[8] = std::byte{16};
     EXPECT_EQ(decode_person_pose(other_part).error(), Status::malformed);
 }
 

@@ -82,6 +82,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::give};
         case SDLK_y:
             return KeyPress{Action::admit};
+        case SDLK_k:
+            return KeyPress{Action::call};
+        case SDLK_j:
+            return KeyPress{Action::come};
         case SDLK_u:
             return KeyPress{Action::turn_away};
         case SDLK_DELETE:

@@ -19,6 +19,7 @@ const std::vector<KeyHelp>& key_help() {
         {"Shift and left button on an organ", "Hold the part under the mouse; Delete hides it"},
         {"Wheel, left button on images", "Another slice; drag: another window"},
         {"I", "The slice through the place of the organ under the mouse"},
+        {"K, J", "Call the others to you; go to the person who calls you"},
         {"Y, U", "Operators: let in the person at the door, or refuse"},
         {"R or Home", "Back to the camera's own view"},
         {"1 to 9", "View of the first camera (0) to the ninth (8)"},

@@ -28,6 +28,8 @@ enum class Action {
     slice_here,   // moves the slice to the place of an organ under the mouse
     admit,        // for operators: lets in the person who has waited longest
     turn_away,    // the opposite
+    call,         // asks the others to come, or no longer does
+    come,         // goes to the person who asks for that
     own_view,     // back to the camera's own view
     view_camera,  // `camera` of the key press
 };

@@ -75,6 +75,11 @@ class People(unittest.TestCase):
             self.assertEqual(olga.wait_for(lambda f: f["cameras"], 10)["role"], "observer")
 
             # An observer changes nothing; an expert does, until it is one.
+            for person in (olga, anna):
+                person.say("stand 0 1.6 1 0 1 0")
+                person.say("call")
+            called = boss.wait_for(lambda f: any(p["calls"] for p in f["room"]["people"]), 10)
+            self.assertEqual([p["name"] for p in called["room"]["people"] if p["calls"]], ["Dr. Anna"])
             olga.say("brick 0 1 0")
             self.wait_for_error(olga, "role does not allow")
             anna.say("brick 0 1 0")

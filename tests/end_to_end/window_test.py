@@ -32,10 +32,11 @@ class Window(unittest.TestCase):
         cls.screen.__exit__()
         shutil.rmtree(cls.folder)
 
-    def window(self, link, *options):
+    def window(self, link, *options, home=None):
         # All pixels always: the machine's load must not change the picture.
+        home = home or tempfile.mkdtemp(dir=self.folder)
         return Process("join", link, "--size", f"{WIDTH}x{HEIGHT}", "--render-scale", "1", *options,
-                       env=self.screen.environment)
+                       env={**self.screen.environment, "XDG_STATE_HOME": str(home)})
 
     def picture(self):
         """The window's middle, without the notices above and the facts below."""
@@ -140,6 +141,24 @@ class Window(unittest.TestCase):
                 wait_until(lambda: len(self.buttons()) >= 3)  # two for Anna, then places
                 self.click(self.buttons()[0])
                 wait_until(lambda: self.repainted(before, beside_panel()) > 0.2)
+            with self.subTest("a call is an offer, and moves nobody"):
+                do("key", "p", "key", "r")
+                wait_until(lambda: not self.buttons())
+                before = beside_panel()
+                anna.say("call")
+                wait_until(lambda: len(self.buttons()) == 2)
+                time.sleep(0.5)
+                self.assertLess(self.repainted(before, beside_panel()), 0.05)
+                do("key", "j")
+                wait_until(lambda: self.repainted(before, beside_panel()) > 0.2)
+                wait_until(lambda: not self.buttons())
+            with self.subTest("and K calls the others"):
+                do("key", "k")
+                anna.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["calls"]] == ["Ben"], 10)
+                do("key", "k")
+                anna.wait_for(lambda f: not any(p["calls"] for p in f["room"]["people"]), 10)
+                do("key", "p")
+                wait_until(lambda: len(self.buttons()) >= 3)
             with self.subTest("through a person's eyes the view moves with them"):
                 self.click(self.buttons()[1])
                 time.sleep(0.5)
@@ -175,6 +194,33 @@ class Window(unittest.TestCase):
             self.assertEqual(demo.end(60), 0, demo.errors)
             self.assertIn("No window can be opened on this display.", "".join(demo.errors))
         self.assertTrue((folder / "from_between.png").exists())
+
+    def test_the_next_window_begins_as_the_last_one_ended(self):
+        home = self.folder / "home of Ben"
+        settings = home / "theatron" / "settings"
+        lines = lambda: settings.read_text().splitlines() if settings.exists() else []
+        with host(self.state, self.camera) as h, \
+                Process("join", h.greeting["link"], "--name", "Anna", "--every", "0.2") as anna:
+            anna.say("stand 1 1.6 -0.2 0 1.3 -1.2")
+            with self.window(h.greeting["link"], "--name", "Ben", "--renderer", "splat", home=home) as viewer:
+                self.wait_for_scene()
+                self.screen.do("key", "p")
+                wait_until(lambda: {"name Ben", "renderer splat", "people yes"} <= set(lines()))
+                viewer.send(signal.SIGTERM)
+                viewer.end()
+            self.assertNotIn("https", settings.read_text())
+            anna.wait_for(lambda f: len(f["room"]["people"]) == 1, 10)
+            with self.window(h.greeting["link"], home=home) as viewer:
+                wait_until(lambda: " splat " in self.screen.title())
+                wait_until(lambda: self.buttons())
+                anna.wait_for(lambda f: "Ben" in [p["name"] for p in f["room"]["people"]], 10)
+                viewer.send(signal.SIGTERM)
+                viewer.end()
+            settings.write_text("people perhaps\n")
+            with self.window(h.greeting["link"], home=home) as viewer:
+                self.wait_for_scene()
+                self.assertIn("'people perhaps'", "".join(viewer.errors))
+                self.assertFalse(self.buttons())
 
     def test_a_lost_host_is_told_and_found_again(self):
         with socket.socket() as probe:

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person's own settings, with which the next window begins: `settings` in the person's state
+// folder. Neither links nor tokens are among them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace theatron::client {
+
+struct Settings {
+    std::string name = "guest";
+    std::string renderer = "auto";
+    bool sits = false;          // the eyes' height after a teleport
+    bool shows_people = false;  // the panel of people and places
+    bool shows_facts = true;    // the line at the bottom
+    bool operator==(const Settings&) const = default;
+};
+
+// One line for each setting, its name and its value: "sits yes".
+std::string settings_text(const Settings& settings);
+
+struct ParsedSettings {
+    Settings settings;    // all usual ones if there is a problem
+    std::string problem;  // one clause; empty: none
+};
+// Settings that are missing keep their usual values; unknown ones, of a newer program, are ignored.
+// Safe for any text.
+ParsedSettings parse_settings(const std::string& text);
+
+// The settings in this folder; the usual ones if there are none there, or the folder's name is
+// empty. `problem` becomes one sentence if the file cannot be used, else empty.
+Settings load_settings(const std::filesystem::path& folder, std::string& problem);
+// Atomic. Returns one sentence about what is wrong; empty if nothing is.
+std::string save_settings(const std::filesystem::path& folder, const Settings& settings);
+
+}  // namespace theatron::client
