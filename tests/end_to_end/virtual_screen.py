@@ -19,7 +19,9 @@ class VirtualScreen:
         os.close(writer)
         with os.fdopen(reader) as pipe:
             self.display = ":" + pipe.readline().strip()
-        self.environment = {**os.environ, "DISPLAY": self.display, "SDL_VIDEODRIVER": "x11"}
+        # Windows neither read nor change the settings of the person who runs the test.
+        self.environment = {**os.environ, "DISPLAY": self.display, "SDL_VIDEODRIVER": "x11",
+                            "XDG_STATE_HOME": self.folder.name}
         self.environment.pop("WAYLAND_DISPLAY", None)
 
     def __enter__(self):
