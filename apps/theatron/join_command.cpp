@@ -39,6 +39,7 @@
 #include "viewer/offscreen_view_native.h"
 #include "viewer/renderer_text.h"
 #include "viewer_window.h"
+#include "voice_line.h"
 
 namespace theatron::app {
 namespace {
@@ -83,6 +84,8 @@ struct Flags {
     bool no_window = false;
     bool may_record = false;
     std::string render_scale = "auto";
+    std::string microphone, speaker;
+    int voice_frame_ms = 20;
 
     // Whoever asks for files or figures wants no window.
     bool window() const {
@@ -217,9 +220,10 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
 
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
-bool obey(client::Participant& participant, RoomLines& room, const std::string& line) {
-    if (obey_people_line(participant, line) || obey_case_line(participant, line) ||
-        room.obey(line, participant))
+bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
+          const std::string& line) {
+    if (voice.obey(line) || obey_people_line(participant, line) ||
+        obey_case_line(participant, line) || room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -240,9 +244,9 @@ bool obey(client::Participant& participant, RoomLines& room, const std::string& 
 }
 
 // Executes the lines that were typed so far. False if one of them ends the program.
-bool obey(client::Participant& participant, RoomLines& room, InputLines& input) {
+bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice, InputLines& input) {
     while (const auto line = input.next())
-        if (!obey(participant, room, *line))
+        if (!obey(participant, room, voice, *line))
             return false;
     return !input.closed_by_person();
 }
@@ -252,10 +256,11 @@ bool has_no_camera(const client::Participant& participant) {
     return participant.cameras(generation).empty();
 }
 
-nlohmann::json json_of(const client::Participant& participant) {
+nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
+    json["voice"] = voice.json();
     return json;
 }
 
@@ -274,6 +279,10 @@ void run(const Flags& flags) {
     options.remark = [](const std::string& text) { log::say(text); };
     options.keeps_room = true;
     options.keeps_cases = true;
+    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms});
+    options.voice = [&voice](ParticipantId speaker, ByteView packet) {
+        voice.hear(speaker, packet);
+    };
 
     std::unique_ptr<publish::CameraPublisher> publisher;
     if (!flags.cameras.empty()) {
@@ -284,6 +293,7 @@ void run(const Flags& flags) {
 
     if (flags.window()) {
         ViewerWindow shown{.join = options, .publisher = publisher.get()};
+        shown.voice = &voice;
         shown.seconds = flags.seconds;
         shown.viewer.view = viewer::parse_view(flags.view);
         shown.viewer.room = parse_room(flags);
@@ -307,6 +317,7 @@ void run(const Flags& flags) {
     std::optional<publish::Publishing> publishing;
     if (publisher)
         publishing.emplace(*publisher, participant);
+    const VoiceLine::Talking talking(voice, participant);
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
@@ -329,7 +340,7 @@ void run(const Flags& flags) {
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)
             break;
-        if (!obey(participant, room, input))
+        if (!obey(participant, room, voice, input))
             break;
         room.on_tick(participant);
         print_managed(participant);
@@ -350,7 +361,7 @@ void run(const Flags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(json_of(participant)) << std::endl;
+            std::cout << files::json_text(json_of(participant, voice)) << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -359,7 +370,7 @@ void run(const Flags& flags) {
     }
     if (live_line)
         std::cout << "\n";
-    const nlohmann::json figures = json_of(participant);
+    const nlohmann::json figures = json_of(participant, voice);
     if (picture)
         picture->write(flags);
     if (flags.json)
@@ -489,6 +500,19 @@ void add_join_command(CLI::App& app) {
             return "'" + text + "' is not a number of megabits: 0, or 0.001 and more";
         });
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
+    command->add_option("--microphone", flags->microphone,
+                        "Speak to the others: default, the name of a microphone, or a WAV file. "
+                        "Without it you only listen. In the window K closes and opens it, "
+                        "elsewhere the lines 'microphone off' and 'microphone on'");
+    command->add_option("--speaker", flags->speaker,
+                        "Hear the others: default, the name of a loudspeaker, or a WAV file that "
+                        "is written");
+    command
+        ->add_option("--voice-frame", flags->voice_frame_ms,
+                     "Milliseconds of voice in a packet, 10 or 20; 10 arrives sooner and needs "
+                     "more of the link")
+        ->capture_default_str()
+        ->check(CLI::IsMember({10, 20}));
     command->add_flag("--no-window", flags->no_window,
                       "Receive and tell the figures, draw nothing");
     command

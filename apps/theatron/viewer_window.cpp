@@ -123,6 +123,9 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
     std::optional<publish::Publishing> publishing;
     if (options.publisher)
         publishing.emplace(*options.publisher, participant);
+    std::optional<VoiceLine::Talking> talking;
+    if (options.voice)
+        talking.emplace(*options.voice, participant);
     viewer::Viewer viewer(std::move(options.viewer), participant);
 
     xr::OverlayContent texts;
@@ -145,6 +148,8 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
                 window.toggle_full_screen();
             else if (leave && leaving.pressed(participant.status(), now))
                 left = true;
+            else if (key.action == xr::Action::microphone && options.voice)
+                viewer.note(options.voice->toggle_microphone(), now);
             else if (leave)
                 viewer.note("Press Esc again to leave the session", now);
         }

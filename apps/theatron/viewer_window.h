@@ -8,6 +8,7 @@
 
 #include "publish/camera_publisher.h"
 #include "viewer/viewer.h"
+#include "voice_line.h"
 #include "xr/desktop_window_native.h"
 
 namespace theatron::app {
@@ -15,6 +16,7 @@ namespace theatron::app {
 struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
+    VoiceLine* voice = nullptr;                     // its packets must come by `join`; may be null
     viewer::Viewer::Options viewer;
     // Called with the person's settings whenever they have changed from `settings`.
     client::Settings settings;

@@ -147,6 +147,7 @@ void Participant::run() {
             shared_->is_asking_content = false;
             shared_->poses.clear();
             shared_->own_pose.reset();
+            shared_->voice.clear();
             shared_->visitors.clear();
             shared_->has_standing = false;
             shared_->status.standing = {};
@@ -207,6 +208,10 @@ net::Client::Handler Participant::handler() {
     h.control = [this](ByteView message) { on_control(message); };
     h.media = [this](Bytes& message) { return on_media(message); };
     h.state = [this](const wire::State& state) { on_state(state); };
+    h.voice = [this](const wire::Voice& voice) {
+        if (options_.voice)
+            options_.voice(voice.speaker, voice.packet);
+    };
     // Not the session's clock: it jumps when it becomes known, and acknowledgements would wait for
     // as long as it jumped back.
     h.now = steady_now;

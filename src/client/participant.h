@@ -59,6 +59,9 @@ public:
         // Another participant's pose has arrived; a pose without head and hands means that the
         // participant has left. Called from the participant's thread.
         std::function<void(ParticipantId, const wire::PersonPose&)> pose;
+        // A packet of voice (voice/packet.h) of another participant has arrived. Called from the
+        // participant's thread; the packet is valid during the call.
+        std::function<void(ParticipantId speaker, ByteView packet)> voice;
         // Called when a frame can be taken or the connection has changed, from the
         // participant's thread or a decoding thread.
         std::function<void()> news;
@@ -158,6 +161,10 @@ public:
     // The newest pose of each other participant that sent one.
     std::map<ParticipantId, wire::PersonPose> poses() const;
 
+    // Sends a packet of this participant's voice (voice/packet.h), from any thread. The oldest are
+    // dropped if they cannot be sent at once. The others get it with this participant's number.
+    void send_voice(ByteView packet);
+
     // The room, from any thread. A request or a move changes room() at once; a refusal of the host
     // takes that back. People are objects of kind `person` (session/room_bytes.h).
     struct Room {
@@ -208,6 +215,7 @@ private:
     void tell_taken();
     void on_state(const wire::State& state);
     void tell_pose();
+    void tell_voice();
     void on_room_message();
     void tell_content();
     void request_content();

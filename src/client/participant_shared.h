@@ -41,6 +41,7 @@ struct Participant::Shared {
     std::string renderer;
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
+    std::deque<Bytes> voice;                   // packets not yet sent
     session::MemberRoom room;
     bool is_telling_room = false;    // tell_room() has been posted
     bool is_asking_content = false;  // request_content() has been posted

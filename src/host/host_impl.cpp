@@ -53,6 +53,7 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
     };
     h.state = [this](net::PeerId peer, const wire::State& state) { take_state(peer, state); };
+    h.voice = [this](net::PeerId peer, const wire::Voice& voice) { forward_voice(peer, voice); };
     h.alarm = [this] { send_poses(); };
     h.frame_left = [this](net::PeerId) { release_lanes(); };
     h.control_lost = [this](net::PeerId peer) {
@@ -71,6 +72,7 @@ net::Server::Handler Host::Impl::handler() {
                       {{"id", int(peer)}, log::outside("why", why), {"left_out", *left_out}});
         session->on_closed(ParticipantId(std::uint32_t(peer)));
         poses.remove(ParticipantId(std::uint32_t(peer)), steady_now());
+        voices.remove(ParticipantId(std::uint32_t(peer)));
         wait_for_poses();
         carry_out();
         addresses.erase(peer);

@@ -26,6 +26,7 @@
 #include "send/media_queue.h"
 #include "session/host_session.h"
 #include "session/pose_board.h"
+#include "session/voice_floor.h"
 
 namespace theatron::host {
 
@@ -68,6 +69,7 @@ struct Host::Impl {
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;  // lanes; server's thread
     session::PoseBoard poses;    // server's thread
+    session::VoiceFloor voices;  // server's thread
     std::optional<StateLock> state_lock;
     std::unique_ptr<RoomFile> room_file;     // server's thread
     std::optional<TimePoint> poses_are_due;  // time of the server's alarm; server's thread
@@ -150,6 +152,7 @@ struct Host::Impl {
     // The peer is told why.
     void end_flood(net::PeerId peer, const std::string& why);
     void forward_object_pose(net::PeerId peer, const wire::State& state);
+    void forward_voice(net::PeerId peer, const wire::Voice& voice);
     void replay_room(const RoomReplay::Change& change);
     void wait_for_poses();
     void send_poses();

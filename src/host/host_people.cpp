@@ -133,4 +133,14 @@ void Host::Impl::carry_out(const session::action::RevokeLink& a) {
     }
 }
 
+// The speaker's number is that of the connection, whatever the packet says.
+void Host::Impl::forward_voice(net::PeerId peer, const wire::Voice& voice) {
+    const ParticipantId speaker{std::uint32_t(peer)};
+    const auto forward = voices.on_voice(speaker, *session, steady_now());
+    if (forward.is_flood)
+        end_flood(peer, "there was far more voice than a person speaks");
+    for (const ParticipantId receiver : forward.receivers)
+        server->send_voice(net::PeerId{std::uint32_t(receiver)}, {speaker, voice.packet});
+}
+
 }  // namespace theatron::host

@@ -99,6 +99,7 @@ struct Client::Impl {
             events.control = handler.control;
             events.media = handler.media;
             events.state = handler.state;
+            events.voice = handler.voice;
             events.closed = [this](const std::string& why) {
                 finish("The connection ended: " + why + ".");
             };
@@ -157,6 +158,11 @@ void Client::post(std::function<void()> work) {
 void Client::send_states(std::span<const wire::State> states) {
     if (impl_->connection)
         impl_->connection->send_states(states);
+}
+
+void Client::send_voice(const wire::Voice& voice) {
+    if (impl_->connection)
+        impl_->connection->send_voice(voice);
 }
 
 void Client::taken(std::size_t bytes) {

@@ -24,6 +24,7 @@ public:
         // See Connection::Events. May be empty.
         std::function<bool(Bytes&)> media;
         std::function<void(const wire::State&)> state;  // may be empty
+        std::function<void(const wire::Voice&)> voice;  // may be empty
         std::function<TimePoint()> now;                 // a steady clock of this machine
         std::function<void()> tick;                     // ten times a second
     };
@@ -47,6 +48,7 @@ public:
     // On the client's thread only.
     void send_control(ByteView control);
     void send_states(std::span<const wire::State> states);
+    void send_voice(const wire::Voice& voice);
     // A media message of this size that waited has been taken.
     void taken(std::size_t bytes);
     Outbox::Pushed send_media(Media media);

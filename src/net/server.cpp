@@ -87,6 +87,8 @@ void Server::Impl::enter(Door::Visitor visitor) {
     events.control = [this, peer](ByteView bytes) { handler.control(peer, bytes); };
     if (handler.state)
         events.state = [this, peer](const wire::State& state) { handler.state(peer, state); };
+    if (handler.voice)
+        events.voice = [this, peer](const wire::Voice& voice) { handler.voice(peer, voice); };
     if (handler.frame_left)
         events.frame_left = [this, peer] { handler.frame_left(peer); };
     if (handler.control_lost)
@@ -194,6 +196,14 @@ void Server::send_states(PeerId peer, std::span<const wire::State> states) {
         return;
     const auto connection = found->second;
     connection->send_states(states);
+}
+
+void Server::send_voice(PeerId peer, const wire::Voice& voice) {
+    const auto found = impl_->peers.find(peer);
+    if (found == impl_->peers.end())
+        return;
+    const auto connection = found->second;
+    connection->send_voice(voice);
 }
 
 void Server::set_alarm(TimePoint when) {

@@ -40,6 +40,7 @@ public:
         std::function<void(PeerId, const std::string& address, bool invited)> connected;
         std::function<void(PeerId, ByteView)> control;
         std::function<void(PeerId, const wire::State&)> state;  // may be empty
+        std::function<void(PeerId, const wire::Voice&)> voice;  // may be empty
         // A frame has begun to leave to a peer: is_behind() may have changed. May be empty.
         std::function<void(PeerId)> frame_left;
         // A peer did not read, and control for it was dropped: send it the session's state again.
@@ -71,6 +72,7 @@ public:
     // On the server's thread only. A peer that is gone is ignored.
     void send_control(PeerId peer, ByteView control);
     void send_states(PeerId peer, std::span<const wire::State> states);
+    void send_voice(PeerId peer, const wire::Voice& voice);
     Outbox::Pushed send_media(PeerId peer, Media media);
     // `content.offset` < `content.end`, both within its bytes. Dropped if too much waits already.
     void send_content(PeerId peer, Outbox::Content content);

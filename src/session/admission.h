@@ -52,7 +52,9 @@ public:
         bool closing = false;
         bool takes_part() const { return joined && !closing; }
         bool waits() const { return asked && !closing; }
-        bool may(Right right) const { return takes_part() && session::may(role, right); }
+        bool may(Right right) const {
+            return takes_part() && session::may(role, right) && !(muted && right == Right::speak);
+        }
         bool has(wire::Feature feature) const;
         TimePoint connected;
         std::uint16_t protocol = 0;

@@ -163,6 +163,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;  // of objects: handling.h
         case xr::Action::leave:
         case xr::Action::full_screen:
+        case xr::Action::microphone:
             break;  // of the window, not of the scene
     }
 }

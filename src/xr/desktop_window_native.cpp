@@ -92,6 +92,8 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::remove};
         case SDLK_x:
             return KeyPress{Action::sit_or_stand};
+        case SDLK_k:
+            return KeyPress{Action::microphone};
         case SDLK_p:
             return KeyPress{Action::people};
         case SDLK_o:

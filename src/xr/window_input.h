@@ -23,6 +23,7 @@ enum class Action {
     give,       // gives the held object to the nearest person
     remove,     // removes the held object
     sit_or_stand,
+    microphone,   // closes or opens it
     people,       // shows or hides the panel of people and places
     show_case,    // shows or hides the panel of the case
     slice_here,   // moves the slice to the place of an organ under the mouse

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Microphones and loudspeakers: devices of this machine by SDL, or WAV files at the same pace, for
+// tests and scripts. All samples are mono, 48 kHz, -1 to 1.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace theatron::sound {
+
+// Samples in a block of both; 10 ms.
+inline constexpr int block_samples = 480;
+
+// Delivers or takes blocks on a thread of its own until it is destroyed.
+class SoundDevice {
+public:
+    virtual ~SoundDevice() = default;
+};
+
+using Deliver = std::function<void(std::span<const float>)>;
+using Fill = std::function<void(std::span<float>)>;
+
+// `name`: "default", the name of a device, or a file that ends in .wav; behind the file's
+// end comes silence. Throws Error with a sentence that names the devices of
+// this machine.
+std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver);
+
+// The same for a loudspeaker; a file is written, of 16 bits, and complete when the device is
+// destroyed.
+std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill);
+
+}  // namespace theatron::sound

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sound/wav_device.h"
+
+#define SDL_MAIN_HANDLED
+#include <SDL.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "base/thread_name.h"
+#include "voice/packet.h"
+
+namespace theatron::sound {
+namespace {
+
+constexpr Duration block_time = std::chrono::milliseconds(10);
+
+// Calls a function every 10 ms, on the average exactly, until it is destroyed.
+class Pace {
+public:
+    explicit Pace(std::function<void()> block)
+        : thread_([this, block = std::move(block)] {
+              name_this_thread("sound");
+              TimePoint next = steady_now();
+              while (!ends_) {
+                  block();
+                  next += block_time;
+                  std::this_thread::sleep_for(next - steady_now());
+              }
+          }) {}
+    ~Pace() {
+        ends_ = true;
+        thread_.join();
+    }
+    Pace(const Pace&) = delete;
+    Pace& operator=(const Pace&) = delete;
+
+private:
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;
+};
+
+std::vector<float> read_wav(const std::string& path) {
+    SDL_AudioSpec spec{};
+    Uint8* bytes = nullptr;
+    Uint32 size = 0;
+    if (!SDL_LoadWAV(path.c_str(), &spec, &bytes, &size))
+        throw Error("The sound file '" + path + "' cannot be read (" + SDL_GetError() +
+                    "); it must be a WAV file.");
+    const std::unique_ptr<Uint8, void (*)(Uint8*)> owner(bytes, SDL_FreeWAV);
+    const std::unique_ptr<SDL_AudioStream, void (*)(SDL_AudioStream*)> stream(
+        SDL_NewAudioStream(spec.format, spec.channels, spec.freq, AUDIO_F32SYS, 1,
+                           voice::sample_rate),
+        SDL_FreeAudioStream);
+    if (!stream || size > Uint32(std::numeric_limits<int>::max()) ||
+        SDL_AudioStreamPut(stream.get(), bytes, int(size)) != 0 ||
+        SDL_AudioStreamFlush(stream.get()) != 0)
+        throw Error("The sound file '" + path + "' cannot be converted (" + SDL_GetError() + ").");
+    std::vector<float> samples(std::size_t(SDL_AudioStreamAvailable(stream.get())) / sizeof(float));
+    SDL_AudioStreamGet(stream.get(), samples.data(), int(samples.size() * sizeof(float)));
+    return samples;
+}
+
+class WavMicrophone : public SoundDevice {
+public:
+    WavMicrophone(const std::string& path, Deliver deliver)
+        : samples_(read_wav(path)), deliver_(std::move(deliver)), pace_([this] { next(); }) {}
+
+private:
+    void next() {
+        std::vector<float> block(block_samples);
+        const std::size_t count = std::min(block.size(), samples_.size() - done_);
+        std::copy_n(samples_.begin() + std::ptrdiff_t(done_), count, block.begin());
+        done_ += count;
+        deliver_(block);
+    }
+
+    const std::vector<float> samples_;
+    const Deliver deliver_;
+    std::size_t done_ = 0;
+    Pace pace_;
+};
+
+// The head of a WAV file of 16 bits; its sizes are those of `data_size` bytes of samples.
+Bytes wav_head(std::uint32_t data_size) {
+    Bytes head;
+    ByteWriter out(head);
+    out.put_bytes(as_bytes("RIFF"));
+    out.put(std::uint32_t(data_size + 36));
+    out.put_bytes(as_bytes("WAVEfmt "));
+    out.put(std::uint32_t(16));
+    out.put(std::uint16_t(1));  // PCM
+    out.put(std::uint16_t(1));  // channel
+    out.put(std::uint32_t(voice::sample_rate));
+    out.put(std::uint32_t(voice::sample_rate * 2));
+    out.put(std::uint16_t(2));
+    out.put(std::uint16_t(16));
+    out.put_bytes(as_bytes("data"));
+    out.put(data_size);
+    return head;
+}
+
+void write(std::ofstream& file, ByteView bytes) {
+    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+}
+
+class WavSpeaker : public SoundDevice {
+public:
+    WavSpeaker(const std::string& path, Fill fill)
+        : file_(path, std::ios::binary | std::ios::trunc), fill_(std::move(fill)) {
+        write(file_, wav_head(0));
+        if (!file_)
+            throw Error("The sound file '" + path + "' cannot be written; check its folder.");
+        pace_ = std::make_unique<Pace>([this] { next(); });
+    }
+    ~WavSpeaker() override {
+        pace_.reset();
+        file_.seekp(0);
+        write(file_, wav_head(size_));
+    }
+
+private:
+    void next() {
+        std::vector<float> block(block_samples);
+        fill_(block);
+        Bytes bytes;
+        ByteWriter out(bytes);
+        for (const float v : block)
+            out.put(std::int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767)));
+        write(file_, bytes);
+        size_ += std::uint32_t(bytes.size());
+    }
+
+    std::ofstream file_;
+    const Fill fill_;
+    std::uint32_t size_ = 0;
+    std::unique_ptr<Pace> pace_;
+};
+
+}  // namespace
+
+std::unique_ptr<SoundDevice> open_wav_microphone(const std::string& path, Deliver deliver) {
+    return std::make_unique<WavMicrophone>(path, std::move(deliver));
+}
+
+std::unique_ptr<SoundDevice> open_wav_speaker(const std::string& path, Fill fill) {
+    return std::make_unique<WavSpeaker>(path, std::move(fill));
+}
+
+}  // namespace theatron::sound

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Voice through real processes: what a listener's loudspeaker plays is what the speaker said, a muted person
+is silent at once, and nobody speaks as somebody else."""
+import array
+import math
+import os
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+import wave
+
+from raw_peer import VOICE, RawPeer
+from theatron_process import Process, host, make_recording, wait_until
+
+RATE = 48000
+
+
+def chirps(seconds):
+    """Speech-like: syllables of 0.3 s with 20 harmonics of a pitch that goes up and down."""
+    samples, phase = array.array("h"), 0.0
+    for i in range(int(seconds * RATE)):
+        t = i / RATE
+        phase += 2 * math.pi * (140 + 40 * math.sin(2 * math.pi * 0.37 * t)) / RATE
+        loud = (0.15 + 0.85 * abs(math.sin(math.pi * t / 0.3))) * (0.55 + 0.45 * math.sin(1.3 * t * t))
+        samples.append(int(4000 * loud * sum(math.sin(k * phase) / k for k in (1, 2, 3, 5, 8))))
+    return samples
+
+
+def write_wav(path, samples):
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(RATE)
+        file.writeframes(samples.tobytes())
+
+
+def read_wav(path):
+    with wave.open(str(path), "rb") as file:
+        assert (file.getframerate(), file.getnchannels(), file.getsampwidth()) == (RATE, 1, 2)
+        samples = array.array("h")
+        samples.frombytes(file.readframes(file.getnframes()))
+        return samples
+
+
+def loudness(samples, block=480):
+    return [math.sqrt(sum(v * v for v in samples[i:i + block]) / block)
+            for i in range(0, len(samples) - block + 1, block)]
+
+
+def best_correlation(a, b):
+    """Of a's course with each part of b that is as long."""
+    def normal(values):
+        mean = sum(values) / len(values)
+        values = [v - mean for v in values]
+        size = math.sqrt(sum(v * v for v in values)) or 1
+        return [v / size for v in values]
+    a = normal(a)
+    return max(sum(x * y for x, y in zip(a, normal(b[i:i + len(a)]))) for i in range(len(b) - len(a) + 1))
+
+
+class Person(RawPeer):
+    def __init__(self, link):
+        super().__init__(link)
+        self.join(depth_codec="raw", color_codec="raw")
+        self.number = self.receive_control("Welcome")[1]["participant"]
+
+    def speak(self, number, packet):
+        self.send(bytes([VOICE]) + struct.pack("<I", number) + packet)
+
+    def hear(self):
+        """The speaker and the packet of the next envelope of voice."""
+        while True:
+            envelope = self.receive()
+            if envelope[0] == VOICE:
+                return struct.unpack_from("<I", envelope, 1)[0], envelope[5:]
+
+
+class Voice(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_voice_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.said = chirps(20)
+        write_wav(self.folder / "said.wav", self.said)
+
+    def member(self, link, name, *options):
+        return Process("join", link, "--name", name, "--every", "0.1", *options,
+                       env={**os.environ, "XDG_STATE_HOME": str(self.folder / f"home of {name}")})
+
+    def start(self):
+        return host(self.folder / "state", f"folder:{make_recording(self.folder / 'box')},loop=1,preload=1")
+
+    def test_what_is_said_is_heard_and_a_muted_person_is_silent(self):
+        with self.start() as a_host:
+            links = a_host.greeting["links"]
+            with self.member(links["operator"], "Ada", "--speaker", self.folder / "ada.wav") as ada, \
+                    self.member(links["expert"], "Eve", "--speaker", self.folder / "eve.wav") as eve, \
+                    self.member(links["expert"], "Ben", "--microphone", self.folder / "said.wav") as ben:
+                spoken = ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5, 30)
+                voice = spoken["voice"]["voices"][0]
+                speaker = [p["id"] for p in spoken["room"]["people"] if p["name"] == "Ben"]
+                self.assertEqual([voice["id"]], speaker)
+                self.assertEqual(ben.newest_json()["voice"]["microphone"], "open")
+                ada.wait_for(lambda f: [s["id"] for s in f["voice"]["speaking"]] == speaker, 10)
+
+                ada.say("mute Ben")
+                ben.wait_for(lambda f: f["muted"], 10)
+                silent = ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
+                muted = silent["voice"]["voices"][0]["seconds"]
+                # Ben speaks on for a second, and no sample of it is heard.
+                later = ada.wait_for(lambda f: f["session_us"] > silent["session_us"] + 1e6, 10)
+                self.assertEqual(later["voice"]["speaking"], [])
+                self.assertLess(later["voice"]["voices"][0]["seconds"] - muted, 0.3)
+
+                ada.say("unmute Ben")
+                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                ben.say("microphone off")
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "closed", 10)
+                ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
+                for member in (ada, eve, ben):
+                    member.say("quit")
+                    self.assertEqual(member.end(), 0, member.errors)
+        said = loudness(self.said)
+        for name in ("ada", "eve"):
+            heard = loudness(read_wav(self.folder / f"{name}.wav"))
+            begin = next(i for i, v in enumerate(heard) if v > 300)
+            # 4 s of what was heard, compared with all that was said.
+            self.assertGreater(best_correlation(heard[begin + 20:begin + 420], said), 0.9, name)
+
+    def test_nobody_speaks_as_somebody_else_and_an_observer_does_not_speak(self):
+        with self.start() as a_host:
+            links = a_host.greeting["links"]
+            with Person(links["expert"]) as ada, Person(links["expert"]) as mallory, \
+                    Person(links["observer"]) as observer:
+                observer.speak(mallory.number, b"observer")
+                mallory.speak(ada.number, b"mallory")
+                self.assertEqual(ada.hear(), (mallory.number, b"mallory"))
+                self.assertEqual(observer.hear(), (mallory.number, b"mallory"))
+
+    def test_a_missing_microphone_does_not_block_entry(self):
+        with self.start() as a_host:
+            with self.member(a_host.greeting["links"]["expert"], "Ben", "--microphone",
+                             self.folder / "missing.wav") as ben:
+                figures = ben.wait_for(lambda f: f["phase"] == "joined", 20)
+                self.assertEqual(figures["voice"]["microphone"], "none")
+                wait_until(lambda: any("missing.wav" in line for line in ben.errors), 5)
+
+
+if __name__ == "__main__":
+    unittest.main()
