@@ -502,7 +502,7 @@ void add_join_command(CLI::App& app) {
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_option("--microphone", flags->microphone,
                         "Speak to the others: default, the name of a microphone, or a WAV file. "
-                        "Without it you only listen. In the window K closes and opens it, "
+                        "Without it you only listen. In the window L closes and opens it, "
                         "elsewhere the lines 'microphone off' and 'microphone on'");
     command->add_option("--speaker", flags->speaker,
                         "Hear the others: default, the name of a loudspeaker, or a WAV file that "

@@ -92,7 +92,7 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::remove};
         case SDLK_x:
             return KeyPress{Action::sit_or_stand};
-        case SDLK_k:
+        case SDLK_l:
             return KeyPress{Action::microphone};
         case SDLK_p:
             return KeyPress{Action::people};

@@ -14,7 +14,7 @@ const std::vector<KeyHelp>& key_help() {
         {"N; G; Delete", "A new brick; give what you hold to the nearest person; remove it"},
         {"T, held", "Aim at a place on the floor with the mouse; release to stand there"},
         {"X", "Sit or stand"},
-        {"K", "Close or open your microphone (join --microphone)"},
+        {"L", "Close or open your microphone (join --microphone)"},
         {"P", "People and places: go to somebody, see through their eyes"},
         {"O", "The case: open it, its parts, cuts and images"},
         {"Shift and left button on an organ", "Hold the part under the mouse; Delete hides it"},
