@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <memory>
 #include <optional>
 
@@ -16,7 +15,9 @@ struct ContentHash {
     static constexpr std::size_t size = 32;
     std::array<std::byte, size> bytes{};
 
-    auto operator<=>(const ContentHash&) const = default;
+    // em++'s library has no operator<=> of arrays.
+    bool operator==(const ContentHash&) const = default;
+    bool operator<(const ContentHash& other) const { return bytes < other.bytes; }
 };
 
 // nullopt for any other number of bytes.

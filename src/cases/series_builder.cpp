@@ -9,7 +9,6 @@ namespace theatron::cases {
 namespace {
 
 using medical::Volume;
-using medical::VolumeGrid;
 
 constexpr double same_direction = 1e-4, same_spacing_mm = 1e-3;
 constexpr double same_place_mm = 0.01;

@@ -107,9 +107,8 @@ THEATRON_HD inline int noise_at(const KalmanRule& rule, int depth) {
 // The update of a measured pixel that does not jump.
 THEATRON_HD inline KalmanPixel followed(const KalmanPixel& before, int difference, int noise,
                                         const KalmanRule& rule, int boost) {
-    // Both are signed numbers of 8 bits.
-    const int rest = std::int8_t(before.estimate >> 8);  // NOLINT(bugprone-signed-char-misuse)
-    int trend = std::int8_t(before.estimate & 0xff);     // NOLINT(bugprone-signed-char-misuse)
+    const int rest = std::int8_t(before.estimate >> 8);
+    int trend = std::int8_t(before.estimate & 0xff);
     int gain = smaller((before.gain & 0xff) + boost, 255);
     const int missing = (before.gain >> 8) & 0xf;
     int hold = before.gain >> 12;

@@ -92,7 +92,7 @@ FontAtlas load_font_atlas(std::span<const std::byte> font) {
             continue;
         FontAtlas::Glyph glyph;
         glyph.advance = double(face->glyph->advance.x) / 64;
-        const FT_GlyphSlot slot = face->glyph;
+        auto* const slot = face->glyph;
         if (FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL) == 0 && slot->bitmap.buffer) {
             glyph.left = slot->bitmap_left - spread;
             glyph.top = slot->bitmap_top + spread;

@@ -2,8 +2,8 @@
 #include "room/mark.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace theatron::room {
@@ -11,12 +11,18 @@ namespace {
 
 constexpr double normal_scale = 32767;
 
+// Without std::bit_cast, which em++'s library does not have.
 void put_f32(ByteWriter& writer, float value) {
-    writer.put(std::bit_cast<std::uint32_t>(value));
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    writer.put(bits);
 }
 
 float get_f32(ByteReader& reader) {
-    return std::bit_cast<float>(reader.get<std::uint32_t>());
+    const auto bits = reader.get<std::uint32_t>();
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
 }
 
 bool has_right_count(MarkKind kind, std::size_t points) {
@@ -46,7 +52,7 @@ bool is_valid(const Mark& mark) {
     return deviation_fits && !std::signbit(mark.deviation_m) &&
            mark.initials.size() <= most_initials_bytes &&
            has_right_count(mark.kind, mark.points.size()) &&
-           std::ranges::all_of(mark.points, [](const MarkPoint& point) {
+           std::all_of(mark.points.begin(), mark.points.end(), [](const MarkPoint& point) {
                const double n = length(point.normal);
                const Vec3 p = point.position;
                return n > 0.99 && n < 1.01 && std::abs(p.x) <= farthest_mark_point_m &&

@@ -11,7 +11,6 @@ namespace theatron::room {
 namespace {
 
 using render::MeshData;
-using render::SceneObject;
 
 // Distance between the cameras and the walls, and the smallest room.
 constexpr double margin_m = 1.5, least_side_m = 6, least_height_m = 2.8, above_cameras_m = 0.4;
