@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a session shares of a case folder: its description and the bytes of its surfaces and images,
-// each by its hash. The file of identifiers is never read.
+// The part of a case folder that a session shares: its description and the bytes of its surfaces
+// and images, each by its hash. The file of identifiers is never read.
 #pragma once
 
 #include <filesystem>

@@ -19,7 +19,7 @@ constexpr double bone = 420, marrow = 190, cord = 30, aorta = 170, vena_cava = 1
 constexpr double lung = -840, spleen = 122, kidney = 185, pancreas = 95;
 }  // namespace hu
 
-// What lies inside a surface replaces what was there; samples on the surface get a share of both.
+// The inside of a surface replaces the sample before; samples on the surface get a share of both.
 class Sample {
 public:
     explicit Sample(double edge_mm) : edge_mm_(edge_mm) {}

@@ -2,7 +2,7 @@
 // The cases of a session at a participant: those that the host offers, and the content of the one
 // that is open in the room, in memory only.
 //
-// What has come is decoded on a thread of its own.
+// Content that has come is decoded on a thread of its own.
 #pragma once
 
 #include <condition_variable>

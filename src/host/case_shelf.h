@@ -23,7 +23,7 @@ namespace theatron::host {
 class CaseShelf {
 public:
     static constexpr Duration interval = std::chrono::milliseconds(200);
-    // Of all cases together; a case beyond it is not offered.
+    // Bytes of all cases together; a case beyond it is not offered.
     static constexpr std::uint64_t max_content_bytes = std::uint64_t(2) << 30;
     // Folders of the directory that are read; the first ones by name.
     static constexpr std::size_t max_folders = 64;

@@ -190,7 +190,7 @@ void Host::Impl::carry_out(const session::action::Drawing& a) {
               {{"id", int(a.participant)}, log::outside("renderer", a.renderer)});
 }
 
-// Of a range that goes beyond the content, its beginning is sent.
+// A range that goes beyond the content is cut at its end.
 void Host::Impl::carry_out(const session::action::SendContent& a) {
     const auto bytes = cases ? cases->content(a.content) : nullptr;
     const bool is_here = bytes && a.offset < bytes->size();

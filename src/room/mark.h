@@ -35,9 +35,9 @@ struct Mark {
     std::uint8_t color = 0;    // drawn as room::color_of(ParticipantId{color})
     std::string initials;      // of the author
     std::uint16_t number = 0;  // of a pin, from 1; else 0
-    // Of a distance: the standard deviation of its length; 0: unknown. Else 0.
+    // For a distance the standard deviation of its length; 0: unknown. Else 0.
     float deviation_m = 0;
-    // Of a stroke 2 or more; of an arrow tail and tip; of a pin 1; of a distance both ends.
+    // A stroke has 2 or more; an arrow tail and tip; a pin 1; a distance both ends.
     std::vector<MarkPoint> points;
     bool operator==(const Mark&) const = default;
 };

@@ -18,7 +18,7 @@ struct MeasuredPoint {
     Vec3 in_camera;
     double deviation_m = 0;    // of the measured distance, along the ray, for this pixel
     double pixel_radians = 0;  // the angle between neighbouring pixels
-    // Of the camera's place, as in docs/formats/places.md: 6x6 row by row, a rotation about the
+    // The camera's place, as in docs/formats/places.md: 6x6 row by row, a rotation about the
     // camera's axes in radians, then a translation along them. Zeros: exact, or not known.
     std::array<double, 36> placement{};
 };

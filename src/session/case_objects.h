@@ -92,7 +92,7 @@ struct ScaledPose {
 ScaledPose part_in_room(const RoomObject& organ, const Pose& organ_from_part);
 Pose part_in_organ(const RoomObject& organ, const Pose& room_from_part);
 
-// What the host knows of a case that it offers.
+// The facts that the host has of a case that it offers.
 struct CaseFacts {
     static constexpr std::size_t max_parts = 256;
     static constexpr std::size_t max_series = 16;

@@ -59,7 +59,7 @@ public:
     const std::map<ContentHash, Failure>& failures() const { return failures_; }
     void retry() { failures_.clear(); }
 
-    // Of everything wanted since nothing was.
+    // Counts everything wanted since nothing was.
     struct Progress {
         std::uint64_t got = 0, all = 0;  // bytes
     };

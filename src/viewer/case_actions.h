@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person does with the case that is open in the room: each function sends requests to the
+// Actions of a person on the case that is open in the room: each function sends requests to the
 // host, whose effect is seen at once and undone if the host refuses.
 //
 // Functions that need an open case, or a part or a screen that it does not have, do nothing and

@@ -18,7 +18,7 @@ struct ViewableCameras {
     const std::map<CameraId, receive::CameraFramePtr>& newest;  // of cameras that sent a picture
 };
 
-// Of an eye that did not start from a camera.
+// For an eye that did not start from a camera.
 CameraModel usual_lens();
 
 // Reads no clock; from one thread. `picture` is the size of the picture in pixels.

@@ -23,7 +23,7 @@ public:
     // A closed microphone sends nothing; its frames are counted on.
     void set_open(bool open) { is_open_ = open; }
     bool is_open() const { return is_open_; }
-    // Of the last frame, -127 to 0, open or closed.
+    // Level of the last frame, -127 to 0, open or closed.
     int level_db() const { return level_db_; }
 
 private:

@@ -4,14 +4,13 @@
     python3 tests/end_to_end/care_run.py --minutes 10 --json care.json
 """
 import argparse
-import json
 import pathlib
 import shutil
 import tempfile
 import time
 
 from care_test import metrics
-from theatron_process import Process, host, make_recording
+from theatron_process import Process, host, make_recording, tell_result
 
 # The longest fault lasts 3 s, and a camera that returns is found at most 2 s later; the rest is for busy machines.
 LONGEST_STALE = 6.5
@@ -83,11 +82,7 @@ def main():
         problems.append("the viewer grows")
     if result["fps_of_slowest"] < 20:
         problems.append("a camera lost more than its faults explain")
-    result["problems"] = problems
-    print(json.dumps(result, indent=2))
-    if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(result, indent=2))
-    return 1 if problems else 0
+    return tell_result(result, problems, options.json)
 
 
 if __name__ == "__main__":

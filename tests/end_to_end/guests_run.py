@@ -15,7 +15,7 @@ import shutil
 import tempfile
 
 from strangers_test import Connections, seconds_to_join
-from theatron_process import Process, host, run
+from theatron_process import Process, host, run, tell_result
 
 EXPENSIVE = ["zstd:delta=1,level=19", "zstd:level=19", "zstd:delta=1,level=18", "lz4:level=12"]
 LOWEST_FPS = 29.5
@@ -66,11 +66,7 @@ def main():
                 measure("expensive_guests", link)
     finally:
         shutil.rmtree(folder)
-    result["problems"] = problems
-    print(json.dumps(result, indent=2))
-    if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(result, indent=2))
-    return 1 if problems else 0
+    return tell_result(result, problems, options.json)
 
 
 if __name__ == "__main__":

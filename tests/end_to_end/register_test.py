@@ -33,30 +33,38 @@ def position(degrees, radius=1.3):
     return radius * math.sin(a), 1.2, radius * math.cos(a)
 
 
-def make_camera(folder, degrees, size=1.0, board=True):
-    """A board that is turned by 9 degrees in itself before a wall; exact depth."""
+def make_depth_camera(folder, degrees, radius, depth_mm):
+    """A level camera around the room's middle; `depth_mm(place, ray)` is the exact depth of a pixel whose ray is 1 m deep."""
     (folder / "depth").mkdir(parents=True)
     (folder / "calibration.json").write_text(json.dumps({"depth": {
         "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
-    a, roll = math.radians(degrees), math.radians(9)
+    a = math.radians(degrees)
     forward, right = (-math.sin(a), -math.cos(a)), (math.cos(a), -math.sin(a))  # x and z in the room
-    px, _, pz = position(degrees)
+    place = position(degrees, radius)
     rows = []
     for y in range(HEIGHT):
         row = []
         for x in range(WIDTH):
             rx, ry = (x - 159.5) / FOCAL, (y - 143.5) / FOCAL
-            dx, dy, dz = right[0] * rx + forward[0], -ry, right[1] * rx + forward[1]
-            z = -pz / dz if dz < 0 else -1
-            u, v = px + dx * z, dy * z
-            turned = u * math.cos(roll) + v * math.sin(roll), v * math.cos(roll) - u * math.sin(roll)
-            hit = board and z > 0 and is_board(turned[0] / size, turned[1] / size)
-            row.append(round(1000 * z) if hit else 3000)
+            row.append(depth_mm(place, (right[0] * rx + forward[0], -ry, right[1] * rx + forward[1])))
         rows.append(struct.pack(f">{WIDTH}H", *row))
     write_png(folder / "depth" / "00000.png", WIDTH, HEIGHT, 16, 1, rows)
     for n in range(1, FRAMES):
         shutil.copy(folder / "depth" / "00000.png", folder / "depth" / f"{n:05}.png")
     return f"folder:{folder}"
+
+
+def make_camera(folder, degrees, size=1.0, board=True):
+    """A board that is turned by 9 degrees in itself before a wall; exact depth."""
+    roll = math.radians(9)
+
+    def depth_mm(place, ray):
+        z = -place[2] / ray[2] if ray[2] < 0 else -1
+        u, v = place[0] + ray[0] * z, ray[1] * z
+        turned = u * math.cos(roll) + v * math.sin(roll), v * math.cos(roll) - u * math.sin(roll)
+        hit = board and z > 0 and is_board(turned[0] / size, turned[1] / size)
+        return round(1000 * z) if hit else 3000
+    return make_depth_camera(folder, degrees, 1.3, depth_mm)
 
 
 def turned(quaternion, place):
@@ -75,34 +83,20 @@ def to_first(first, second, place):
 
 def make_room_camera(folder, degrees):
     """Exact depth of two walls, a floor and a table, seen by a level camera 1.2 m high."""
-    (folder / "depth").mkdir(parents=True)
-    (folder / "calibration.json").write_text(json.dumps({"depth": {
-        "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
-    a = math.radians(degrees)
-    forward, right = (-math.sin(a), -math.cos(a)), (math.cos(a), -math.sin(a))
-    px, py, pz = position(degrees, 2.2)
-    rows = []
-    for y in range(HEIGHT):
-        row = []
-        for x in range(WIDTH):
-            rx, ry = (x - 159.5) / FOCAL, (y - 143.5) / FOCAL
-            dx, dy, dz = right[0] * rx + forward[0], -ry, right[1] * rx + forward[1]
-            hits = [3.9]
-            if dy < 0:
-                hits.append(-py / dy)  # the floor
-                table = (0.7 - py) / dy
-                if abs(px + dx * table) < 0.5 and abs(pz + dz * table) < 0.4:
-                    hits.append(table)
-            for slope in (-0.5, 0.5):  # two walls with an edge between them: z = -0.9 - |x| / 2
-                wall = (-0.9 - pz - slope * px) / (dz + slope * dx)
-                if wall > 0 and slope * (px + dx * wall) >= 0:
-                    hits.append(wall)
-            row.append(round(1000 * min(hits)))
-        rows.append(struct.pack(f">{WIDTH}H", *row))
-    write_png(folder / "depth" / "00000.png", WIDTH, HEIGHT, 16, 1, rows)
-    for n in range(1, FRAMES):
-        shutil.copy(folder / "depth" / "00000.png", folder / "depth" / f"{n:05}.png")
-    return f"folder:{folder}"
+    def depth_mm(place, ray):
+        (px, py, pz), (dx, dy, dz) = place, ray
+        hits = [3.9]
+        if dy < 0:
+            hits.append(-py / dy)  # the floor
+            table = (0.7 - py) / dy
+            if abs(px + dx * table) < 0.5 and abs(pz + dz * table) < 0.4:
+                hits.append(table)
+        for slope in (-0.5, 0.5):  # two walls with an edge between them: z = -0.9 - |x| / 2
+            wall = (-0.9 - pz - slope * px) / (dz + slope * dx)
+            if wall > 0 and slope * (px + dx * wall) >= 0:
+                hits.append(wall)
+        return round(1000 * min(hits))
+    return make_depth_camera(folder, degrees, 2.2, depth_mm)
 
 
 class Register(unittest.TestCase):

@@ -111,6 +111,15 @@ def run(*arguments, timeout=60):
     return done.returncode, done.stdout, done.stderr
 
 
+def tell_result(result, problems, file):
+    """The end of a program that measures: prints and saves the figures; returns its exit code."""
+    text = json.dumps(result | {"problems": problems}, indent=2)
+    print(text)
+    if file:
+        pathlib.Path(file).write_text(text)
+    return 1 if problems else 0
+
+
 def wait_until(condition, timeout=60, every=0.1):
     """The condition's first true value; fails when there is none in time."""
     deadline = time.monotonic() + timeout
