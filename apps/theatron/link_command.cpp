@@ -85,12 +85,19 @@ void run(const Flags& flags) {
             throw Error("There is no link '" + flags.revoke +
                         "'; 'theatron link --list' lists "
                         "them.");
+        if (flags.json)
+            std::cout << files::json_text({{"revoked", flags.revoke}}) << "\n";
+        else
+            std::fprintf(stderr, "Link %s admits nobody any more.\n", flags.revoke.c_str());
         return;
     }
+    const host::KnownLinks book = host::load_links(state);
+    for (const std::string& problem : book.problems)
+        std::fprintf(stderr, "A link admits nobody. %s\n", problem.c_str());
     if (flags.list)
-        return print_list(host::load_links(state), flags.json);
+        return print_list(book.links, flags.json);
     if (!flags.show.empty()) {
-        for (const host::KnownLink& link : host::load_links(state))
+        for (const host::KnownLink& link : book.links)
             if (link.name == flags.show)
                 return print(link, address, flags);
         throw Error("There is no link '" + flags.show + "'; 'theatron link --list' lists them.");

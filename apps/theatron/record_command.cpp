@@ -36,6 +36,7 @@ struct Flags {
     std::vector<std::string> cameras;
     std::string depth_codec = "strata";
     std::string color_codec = "jpeg:quality=85";
+    std::string name = "recorder";
     double seconds = 0, wait = 0;  // 0: not given
     int buffer_mb = int(record::Recorder::Options{}.buffer_bytes >> 20);
     bool raw = false;
@@ -83,7 +84,7 @@ std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
                 "Say what to record: 'theatron record LINK FILE.mkv' or 'theatron record "
                 "--camera SPEC FILE.mkv'.");
         return client::record_session(
-            parse_link_argument(flags.names[0]), file, codecs, options,
+            parse_link_argument(flags.names[0]), flags.name, file, codecs, options,
             flags.wait > 0 ? std::optional(seconds_to_duration(flags.wait)) : std::nullopt);
     }
     if (flags.names.size() != 1)
@@ -388,6 +389,8 @@ void add_record_command(CLI::App& app) {
     command->add_flag("--raw", flags->raw,
                       "Insist on depth exactly as the cameras give it: refuse a lossy depth codec");
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
+    command->add_option("--name", flags->name, "Name of this recording, shown in the session")
+        ->capture_default_str();
     cli::add_seconds_option(
         *command, flags->wait,
         "How long to wait for a host that is not there (at the beginning 15, after a "

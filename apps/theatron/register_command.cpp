@@ -204,6 +204,13 @@ void run(const Flags& flags) {
     for (const std::string& file : {flags.output.places, flags.output.report})
         if (!file.empty())
             files::require_writable(file);
+    files::require_own_kind(flags.output.places, "{", "a file of places");
+    if (!flags.output.report.empty()) {
+        files::require_own_kind(flags.output.report, "<!doctype html>", "a report");
+        if (std::filesystem::weakly_canonical(flags.output.report) ==
+            std::filesystem::weakly_canonical(flags.output.places))
+            throw Error("--output and --report name the same file; name two.");
+    }
     const std::unique_ptr<DepthSource> source = open(flags);
     const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);

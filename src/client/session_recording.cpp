@@ -45,13 +45,13 @@ record::Recorder::Options with_room(record::Recorder::Options options) {
 
 class SessionRecording final : public record::RecordSource {
 public:
-    SessionRecording(const net::Link& link, const std::string& file,
+    SessionRecording(const net::Link& link, const std::string& name, const std::string& file,
                      const record::RecordCodecs& codecs, const record::Recorder::Options& recorder,
                      std::optional<Duration> patience)
         : created_(steady_now()), patience_(patience), intake_(file, with_room(recorder)) {
         Participant::Options options;
         options.link = link;
-        options.name = "recorder";
+        options.name = name;
         options.depth_codec = codecs.depth;
         options.color_codec = codecs.color;
         options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
@@ -376,11 +376,12 @@ private:
 
 }  // namespace
 
-std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& file,
+std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& name,
+                                                     const std::string& file,
                                                      const record::RecordCodecs& codecs,
                                                      const record::Recorder::Options& options,
                                                      std::optional<Duration> patience) {
-    return std::make_unique<SessionRecording>(link, file, codecs, options, patience);
+    return std::make_unique<SessionRecording>(link, name, file, codecs, options, patience);
 }
 
 }  // namespace theatron::client

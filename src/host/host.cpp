@@ -67,6 +67,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     // First, since cameras may take long to open.
     state = options.state.empty() ? default_state_folder() : options.state;
     state_lock.emplace(state);
+    net::require_free(options.listen);
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     if (!options.places.empty())
         places = capture::load_places(options.places);
@@ -97,7 +98,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         roles_expire = steady_now() + options.link_lifetime;
     // Monitoring systems need not be able to join.
     metrics_token = load_or_make_token(state, "metrics.token");
-    (void)load_links(state);  // makes files
+    (void)load_links(state);  // makes files, whose times the watch reads
     link_watch.emplace(state);
     config.admission.tokens = load_tokens();
     config.admission.asks = options.asks;

@@ -57,10 +57,16 @@ nlohmann::json status_of_host(const net::Link& link) {
     return json_of_host(link, "/status", "status");
 }
 
-nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what) {
-    const net::HttpsAnswer answer = net::https_get(link, target);
+void require_known_token(const net::HttpsAnswer& answer) {
+    if (answer.status == 410)
+        throw Error("This link has expired; ask for a new one.");
     if (answer.status == 401)
         throw Error("The host does not know the link's token; ask for its current link.");
+}
+
+nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what) {
+    const net::HttpsAnswer answer = net::https_get(link, target);
+    require_known_token(answer);
     bool too_deep = false;
     const auto figures = nlohmann::json::parse(
         answer.body,

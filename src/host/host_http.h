@@ -9,6 +9,7 @@
 
 #include "host/host_figures.h"
 #include "net/http.h"
+#include "net/https_get.h"
 #include "net/link.h"
 
 namespace theatron::host {
@@ -24,6 +25,8 @@ net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<s
 inline constexpr int max_status_depth = 16;
 inline constexpr std::size_t max_status_text = 1000;  // characters of one text in it
 nlohmann::json status_of_host(const net::Link& link);
+// Throws Error if a host's answer says that it does not know the token, or that it has expired.
+void require_known_token(const net::HttpsAnswer& answer);
 // The same for another page with JSON. `what` of Error's sentence: "status".
 nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what);
 

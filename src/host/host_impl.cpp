@@ -89,6 +89,10 @@ net::Server::Handler Host::Impl::handler() {
         room_file->on_tick(session->room(), steady_now());
     };
     h.http = [this](const net::HttpRequest& request) {
+        if (const auto token = find_token(net::shown_token(request));
+            token && token->expires && steady_now() >= *token->expires)
+            return net::HttpAnswer{.status = 410,
+                                   .body = "This link has expired; ask for a new one.\n"};
         if (is_lobby(request))
             return answer_lobby(request);
         return answer_http(request, http_tokens(), [this] { return figures(); });

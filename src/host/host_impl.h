@@ -173,7 +173,7 @@ struct Host::Impl {
     bool pass_on(wire::CameraState state);
     bool is_invited(ByteView first) const;
     std::vector<std::string> http_tokens() const;
-    // The link whose token this is, if it is valid now. On any thread.
+    // The link whose token this is; it may have expired. On any thread.
     std::optional<session::Admission::Token> find_token(const std::string& secret) const;
     // True if a participant with this role waits for admission.
     bool must_ask(wire::Role role) const;

@@ -14,12 +14,14 @@ namespace theatron::host {
 using What = session::AuditEvent::What;
 
 std::vector<session::Admission::Token> Host::Impl::load_tokens() {
-    const std::vector<KnownLink> links = load_links(state);
+    const KnownLinks book = load_links(state);
+    for (const std::string& problem : book.problems)
+        log::warning("host", "a link admits nobody", {{"problem", problem}});
     const TimePoint now = steady_now();
     const files::UtcSeconds utc = files::utc_now();
     std::vector<session::Admission::Token> loaded;
     const std::lock_guard lock(tokens_mutex);
-    for (const KnownLink& link : links) {
+    for (const KnownLink& link : book.links) {
         const bool is_of_role = wire::parse_role(link.name).has_value();
         std::optional<TimePoint> expires = is_of_role ? roles_expire : std::nullopt;
         if (link.expires)

@@ -66,46 +66,53 @@ KnownLink read_link(const fs::path& path, const std::string& text) {
     return link;
 }
 
-std::vector<KnownLink> load_made_links(const fs::path& folder) {
-    std::vector<KnownLink> links;
+KnownLinks load_made_links(const fs::path& folder) {
+    KnownLinks book;
+    std::vector<KnownLink>& links = book.links;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(made_links(folder), none)) {
         if (!is_name(entry.path().filename().string()))
             continue;
-        // Another program may delete it meanwhile.
-        if (const auto text = files::read_private_file(entry.path(), files::Privacy::secret))
-            links.push_back(read_link(entry.path(), *text));
-        if (links.size() > max_made_links)
+        try {
+            // Another program may delete it meanwhile.
+            if (const auto text = files::read_private_file(entry.path(), files::Privacy::secret))
+                links.push_back(read_link(entry.path(), *text));
+        } catch (const Error& error) {
+            book.problems.emplace_back(error.what());
+        }
+        if (links.size() + book.problems.size() > max_made_links)
             throw Error("'" + made_links(folder).string() + "' has more than " +
                         std::to_string(max_made_links) +
                         " links; delete some with 'theatron link --revoke'.");
     }
     std::ranges::sort(links, {}, &KnownLink::name);
-    return links;
+    std::ranges::sort(book.problems);
+    return book;
 }
 
 }  // namespace
 
-std::vector<KnownLink> load_links(const fs::path& folder) {
+KnownLinks load_links(const fs::path& folder) {
     std::vector<KnownLink> links;
     for (const wire::Role role : wire::roles)
         links.push_back({wire::text_of(role), role, load_or_make_token(folder, token_file(role)),
                          std::nullopt, ""});
-    for (KnownLink& link : load_made_links(folder))
-        links.push_back(std::move(link));
-    return links;
+    KnownLinks made = load_made_links(folder);
+    links.insert(links.end(), std::make_move_iterator(made.links.begin()),
+                 std::make_move_iterator(made.links.end()));
+    return {std::move(links), std::move(made.problems)};
 }
 
 KnownLink make_link(const fs::path& folder, wire::Role role,
                     std::optional<files::UtcSeconds> expires, const std::string& label) {
     files::open_private_folder(made_links(folder));
-    std::vector<KnownLink> present = load_made_links(folder);
+    std::vector<KnownLink> present = load_made_links(folder).links;
     const files::UtcSeconds now = files::utc_now();
     if (present.size() >= max_made_links) {
         for (const KnownLink& link : present)
             if (link.has_expired(now))
                 (void)revoke_link(folder, link.name);
-        present = load_made_links(folder);
+        present = load_made_links(folder).links;
     }
     if (present.size() >= max_made_links)
         throw Error("There are " + std::to_string(max_made_links) +

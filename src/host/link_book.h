@@ -28,8 +28,14 @@ struct KnownLink {
     bool has_expired(files::UtcSeconds now) const { return expires && now >= *expires; }
 };
 
+struct KnownLinks {
+    std::vector<KnownLink> links;
+    // A sentence for each file of a made link that cannot be used. Its link admits nobody.
+    std::vector<std::string> problems;
+};
+
 // All links. The one of each role is made where there is none yet.
-std::vector<KnownLink> load_links(const std::filesystem::path& folder);
+KnownLinks load_links(const std::filesystem::path& folder);
 
 // Makes a link. Deletes expired ones first where there are too many.
 KnownLink make_link(const std::filesystem::path& folder, wire::Role role,

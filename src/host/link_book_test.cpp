@@ -20,7 +20,7 @@ using wire::Role;
 class LinkBook : public ::testing::Test {
 protected:
     std::optional<KnownLink> find(const std::string& name) const {
-        for (const KnownLink& link : load_links(folder.path()))
+        for (const KnownLink& link : load_links(folder.path()).links)
             if (link.name == name)
                 return link;
         return std::nullopt;
@@ -29,7 +29,7 @@ protected:
 };
 
 TEST_F(LinkBook, HasOneLinkOfEachRoleThatStays) {
-    const auto first = load_links(folder.path()), again = load_links(folder.path());
+    const auto first = load_links(folder.path()).links, again = load_links(folder.path()).links;
     ASSERT_EQ(first.size(), 4u);
     for (std::size_t i = 0; i < first.size(); ++i) {
         EXPECT_EQ(first[i].name, wire::text_of(wire::roles[i]));
@@ -75,18 +75,22 @@ TEST_F(LinkBook, NoticesLinksThatOtherProgramsMakeAndRevoke) {
     EXPECT_TRUE(watch.changed());
 }
 
-TEST_F(LinkBook, NamesAFileThatIsNoLinkAndDoesNotTakeDrafts) {
+TEST_F(LinkBook, NamesFilesThatAreNoLinksAndKeepsTheOthers) {
     const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
     const auto links = folder.path() / "links";
     files::write_private_file(links / "0badcafe", "expert tomorrow 0123456789abcdef0123\n");
-    try {
-        (void)load_links(folder.path());
-        ADD_FAILURE();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("0badcafe"));
-    }
-    std::filesystem::rename(links / "0badcafe", links / "0badcafe.part");
+    const auto others_may_read = links / "0badbeef";
+    files::write_private_file(others_may_read, "expert - 0123456789abcdef0123\n");
+    ASSERT_EQ(chmod(others_may_read.c_str(), 0644), 0);
+    const KnownLinks known = load_links(folder.path());
+    ASSERT_EQ(known.problems.size(), 2u);
+    EXPECT_THAT(known.problems[0] + known.problems[1],
+                AllOf(HasSubstr("0badcafe"), HasSubstr("0badbeef")));
     EXPECT_TRUE(find(made.name));
+    EXPECT_FALSE(find("0badcafe") || find("0badbeef"));
+    std::filesystem::remove(others_may_read);
+    std::filesystem::rename(links / "0badcafe", links / "0badcafe.part");
+    EXPECT_TRUE(load_links(folder.path()).problems.empty()) << "a draft of another program";
 }
 
 TEST_F(LinkBook, MakesRoomForNewLinksByDeletingExpiredOnes) {

@@ -63,6 +63,12 @@ void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
 
 }  // namespace
 
+void require_free(const Endpoint& endpoint) {
+    asio::io_context io;
+    tcp::acceptor acceptor(io);
+    listen(acceptor, endpoint);
+}
+
 struct Door::Impl {
     asio::io_context io{1};
     asio::io_context& inside;

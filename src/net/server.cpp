@@ -72,8 +72,8 @@ void Server::Impl::tick() {
 }
 
 void Server::Impl::enter(Door::Visitor visitor) {
-    if (visitor.invited && peers.size() - uninvited.size() >= max_participants) {
-        log::warning("net", "participant refused, the room is full",
+    if (visitor.invited && peers.size() - uninvited.size() >= max_invited) {
+        log::warning("net", "participant refused, too many connections",
                      {{"address", visitor.address}});
         return;
     }

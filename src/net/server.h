@@ -18,10 +18,14 @@ namespace theatron::net {
 // One accepted connection, numbered from 1.
 enum class PeerId : std::uint32_t {};
 
+// Throws Error, as Server does, if the address or port cannot be had now.
+void require_free(const Endpoint& endpoint);
+
 class Server {
 public:
-    // Participants at once; a room holds fewer people.
-    static constexpr std::size_t max_participants = 128;
+    // Connections that have shown the token; more than the session admits, so that it can say why
+    // it refuses one.
+    static constexpr std::size_t max_invited = 192;
     // Connections without the token that are still being refused; a new one closes the oldest.
     static constexpr std::size_t max_uninvited = 16;
 

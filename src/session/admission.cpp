@@ -8,8 +8,16 @@ namespace {
 
 using wire::TextCode;
 
-std::string shown_name(const std::string& name) {
-    return name.find_first_not_of(' ') == std::string::npos ? "guest" : name;
+// Without spaces around it, and without the mark of people in a replay, who are not there.
+std::string shown_name(std::string name) {
+    constexpr std::string_view replayed = "(recorded)";
+    const auto trim = [&] {
+        name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
+        name.erase(name.find_last_not_of(' ') + 1);
+    };
+    for (trim(); name.ends_with(replayed); trim())
+        name.resize(name.size() - replayed.size());
+    return name.empty() ? "guest" : name;
 }
 
 }  // namespace
@@ -53,7 +61,24 @@ Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) cons
         [](const auto& entry) { return entry.second.takes_part() && entry.second.records; });
     if (hello.records && recorders >= max_recorders)
         return {{}, "", {TextCode::too_many_recordings, {std::to_string(max_recorders)}}};
-    return {shown->role, shown->link, {}};
+    return {shown->role, shown->link, full(hello, shown->role)};
+}
+
+wire::Text Admission::full(const wire::Join& hello, Role role) const {
+    int all = 0, by_this_link = 0;
+    for (const auto& [id, there] : participants_) {
+        const bool is_the_same_person = !hello.person.empty() && there.person == hello.person;
+        if ((!there.takes_part() && !there.waits()) || is_the_same_person)
+            continue;
+        ++all;
+        by_this_link += there.token == hello.token;
+    }
+    const bool manages = may(role, Right::manage);
+    if (all >= max_participants - (manages ? 0 : kept_for_operators))
+        return {TextCode::all_places_taken, {std::to_string(max_participants)}};
+    if (!manages && by_this_link >= max_by_one_link)
+        return {TextCode::link_full, {std::to_string(max_by_one_link)}};
+    return {};
 }
 
 bool Admission::knows(const Participant& participant) const {

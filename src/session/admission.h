@@ -43,6 +43,10 @@ public:
     static constexpr Duration join_deadline = std::chrono::seconds(5);
     // Recorders at once; one more is refused. Each may use net::Outbox::max_kept_bytes.
     static constexpr int max_recorders = 4;
+    // Participants at once, with those who wait to be let in. The last places are for operators,
+    // and one link admits no more than half of all, so that a link in foreign hands shuts out
+    // nobody who has another one. Somebody who comes back does not count twice.
+    static constexpr int max_participants = 128, kept_for_operators = 8, max_by_one_link = 64;
 
     struct Participant {
         // `streams`: number of streams in the session.
@@ -116,6 +120,9 @@ public:
     static void keep_for_later(Participant& participant, wire::ToHost message);
 
 private:
+    // Why there is no place for the bearer of this token; empty if there is one.
+    wire::Text full(const wire::Join& hello, Role role) const;
+
     std::vector<Token> tokens_;
     const std::function<bool(std::string_view, std::string_view)> equal_secrets_;
     std::map<ParticipantId, Participant> participants_;

@@ -21,6 +21,62 @@ TEST_F(Host, RefusesMoreRecordersThanItKeepsPicturesFor) {
     EXPECT_EQ(sent<wire::Welcome>(carol, session.take_actions()).size(), 1u);
 }
 
+TEST_F(Host, ANameHasNoMarkOfAReplayAndNoSpacesAroundIt) {
+    const auto shown = [&](ParticipantId id, const std::string& name) {
+        session.on_connected(id, now);
+        wire::Join hello;
+        hello.token = "secret";
+        hello.name = name;
+        hello.depth_codec = "trvl";
+        hello.color_codec = "jpeg";
+        say(id, hello);
+        return session.participants().at(id).name;
+    };
+    EXPECT_EQ(shown(alice, "  Ben (recorded) "), "Ben");
+    EXPECT_EQ(shown(bob, "(recorded)(recorded)"), "guest");
+    EXPECT_EQ(shown(carol, "Dr. Ada  Bee"), "Dr. Ada  Bee");
+    EXPECT_EQ(shown(dave, "   "), "guest");
+}
+
+TEST_F(Host, OneLinkShutsOutNobodyWithAnotherOne) {
+    HostSession::Config of_three = config();
+    of_three.admission.tokens = {{"watch", Role::observer, {}, "observer"},
+                                 {"secret", Role::expert, {}, "expert"},
+                                 {"third", Role::expert, {}, "third"},
+                                 {"operate", Role::operator_, {}, "operator"}};
+    HostSession session(std::move(of_three));
+    std::uint32_t next = 100;
+    const auto refusal = [&](const std::string& token, Bytes person = {}) {
+        const ParticipantId id{next++};
+        session.on_connected(id, now);
+        wire::Join hello;
+        hello.token = token;
+        hello.depth_codec = "trvl";
+        hello.color_codec = "jpeg";
+        hello.person = std::move(person);
+        session.on_control(id, wire::encode(hello), now);
+        const auto refused = messages_to<wire::Refused>(id, session.take_actions());
+        return refused.empty() ? wire::TextCode::none : refused.front().reason.code;
+    };
+    using enum wire::TextCode;
+    const Bytes ann(16, std::byte{7});
+    EXPECT_EQ(refusal("watch", ann), none);
+    for (int i = 1; i < Admission::max_by_one_link; ++i)
+        ASSERT_EQ(refusal("watch"), none) << i;
+    EXPECT_EQ(refusal("watch"), link_full);
+    EXPECT_EQ(refusal("watch", ann), none) << "her lost connection has not been noticed yet";
+    const int others = Admission::max_participants - Admission::kept_for_operators -
+                       Admission::max_by_one_link - 1;
+    for (int i = 0; i < others; ++i)
+        ASSERT_EQ(refusal("secret"), none) << i;
+    EXPECT_EQ(refusal("third"), all_places_taken);
+    for (int i = 0; i < Admission::kept_for_operators; ++i)
+        EXPECT_EQ(refusal("operate"), none) << i;
+    EXPECT_EQ(refusal("operate"), all_places_taken);
+    session.on_closed(ParticipantId(101));
+    EXPECT_EQ(refusal("operate"), none) << "somebody has left";
+}
+
 TEST_F(Host, FramesWaitOnlyWhileAllAreBehindWhoDoNotAdapt) {
     std::set<ParticipantId> behind;
     const auto all_wait = [&] {

@@ -42,6 +42,12 @@ constexpr Row rows[] = {
     {TextCode::session_has_ended, "The session has ended; an operator must begin another one."},
     {TextCode::observer_records, "An observer cannot record; ask for a link of an expert."},
     {TextCode::too_many_visitors, "Too many people wait to be let in; try again later."},
+    {TextCode::all_places_taken,
+     "All {0} places of this session are taken; the last ones are kept for operators. Try again "
+     "when somebody has left."},
+    {TextCode::link_full,
+     "{0} participants are in by this link, which is as many as one link admits; ask for a link "
+     "of your own."},
 
     {TextCode::camera_silent, "It sends no pictures."},
     {TextCode::camera_repeating, "It sends the same picture again and again."},

@@ -35,6 +35,8 @@ enum class TextCode : std::uint16_t {
     session_has_ended = 117,
     observer_records = 118,
     too_many_visitors = 119,
+    all_places_taken = 120,  // {0}: how many there can be
+    link_full = 121,         // {0}: how many can be in by one link
 
     // Cameras. With a name in {0}: the camera is left out.
     camera_silent = 200,

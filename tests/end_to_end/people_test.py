@@ -141,7 +141,8 @@ class People(unittest.TestCase):
             other.wait_for(lambda f: f["phase"] == "joined", 20)
             self.assertIn({"name": made["name"], "role": "observer", "until": made["until"], "expired": False,
                            "for": "Olga"}, self.link("--list"))
-            self.assertEqual(run("link", "--state", self.state, "--revoke", made["name"]), (0, "", ""))
+            self.assertEqual(run("link", "--state", self.state, "--revoke", made["name"], "--json"),
+                             (0, json.dumps({"revoked": made["name"]}, separators=(",", ":")) + "\n", ""))
             self.assert_ends_with(olga, "The link by which you came is no longer valid")
             late = stack.enter_context(self.member(made["link"], "Late"))
             self.assert_ends_with(late, "The join token is wrong")
@@ -165,6 +166,9 @@ class People(unittest.TestCase):
             wait_until(lambda: "links changed" in "".join(h.errors), 10)
             late = stack.enter_context(self.member(short["link"], "Late"))
             self.assert_ends_with(late, "This link has expired")
+            for command in ("lobby", "status"):
+                code, _, errors = run(command, short["link"])
+                self.assertEqual((code, "This link has expired" in errors), (1, True), errors)
 
     def test_a_link_is_shown_as_a_qr_code(self):
         with self.start():

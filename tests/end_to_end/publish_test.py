@@ -143,7 +143,7 @@ class Publishing(unittest.TestCase):
                         for codec in ("strata", "zstd")]
             for one in watching:
                 one.wait_for(lambda f: f["fps"] > 0, 15)
-            recorder = stack.enter_context(Process("record", h.greeting["link"], file))
+            recorder = stack.enter_context(Process("record", h.greeting["link"], file, "--name", "OR recorder"))
             stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"],
                                               "--may-record"))
             # A setting that is new may leave out frames until its cost is known.
@@ -166,7 +166,7 @@ class Publishing(unittest.TestCase):
                     self.assertGreater(camera(figures, number)["fps"], 1)
             figures = stay.newest_json()
             self.assertEqual(figures["joins"], 1)
-            self.assertEqual([one["name"] for one in figures["recordings"]], ["recorder"], "all see who records")
+            self.assertEqual([one["name"] for one in figures["recordings"]], ["OR recorder"], "all see who records")
             self.assertGreater(figures["recordings"][0]["seconds"], 1)
             recorder.process.terminate()
             # When a camera joins, a segment begins, with key frames; pictures before them are missing (exit code 3).

@@ -147,7 +147,7 @@ class Register(unittest.TestCase):
 
     def test_a_session_of_one_camera_and_a_link_that_leads_nowhere_are_refused(self):
         file = self.folder / "kept.json"
-        file.write_text("as it was")
+        file.write_text("{as it was")
         with host(self.folder / "state", self.left + ",loop=1") as h:
             link = h.greeting["link"]
             code, _, errors = run("register", link, "--output", file)
@@ -157,7 +157,7 @@ class Register(unittest.TestCase):
             code, _, errors = run("register", *arguments, "--output", file)
             self.assertEqual(code, 1)
             self.assertIn("Say which cameras", errors)
-        self.assertEqual(file.read_text(), "as it was")
+        self.assertEqual(file.read_text(), "{as it was")
 
     def test_cameras_whose_place_nobody_knows_are_named(self):
         with host(self.folder / "state", self.left + ",loop=1", self.right + ",loop=1,place=1:1.5:2:30") as h:
@@ -166,11 +166,11 @@ class Register(unittest.TestCase):
 
     def refused(self, *cameras, says, options=()):
         file = self.folder / "kept.json"
-        file.write_text("as it was")
+        file.write_text("{as it was")
         code, _, errors = self.register(*cameras, output=file, options=options)
         self.assertEqual(code, 1)
         self.assertIn(says, errors)
-        self.assertEqual(file.read_text(), "as it was")
+        self.assertEqual(file.read_text(), "{as it was")
 
     def test_bad_input_ends_in_a_sentence_and_changes_no_file(self):
         blind = make_camera(self.folder / "blind", 0, board=False)
@@ -192,8 +192,15 @@ class Register(unittest.TestCase):
         self.refused(self.left, self.right, options=("--touches", touches), says="Line 2 of the touches is not")
         touches.write_text("A 0 1 0\nB 2.8 1 0\nC 0.8 0.4 0\n")
         self.refused(self.left, self.right, options=("--touches", touches), says="mm off the board's corners")
+        self.refused(self.left, self.right, options=("--report", file), says="name the same file")
+        foreign = self.folder / "letter.txt"
+        foreign.write_text("Dear Ann")
+        self.refused(self.left, self.right, options=("--report", foreign), says="is not a report")
+        code, _, errors = self.register(self.left, self.right, output=foreign)
+        self.assertEqual((code, "is not a file of places" in errors), (1, True), errors)
+        self.assertEqual(foreign.read_text(), "Dear Ann")
         self.refused(self.left, self.right, options=("--refine", self.folder / "kept.json"), says="The file of places")
-        self.assertEqual(file.read_text(), "as it was")
+        self.assertEqual(file.read_text(), "{as it was")
 
     def test_a_controllers_tip_at_the_boards_corners_gives_the_rooms_frame_and_a_report_is_drawn(self):
         # The board's middle is at 1.2 m in make_camera's room, turned by 9 degrees in itself.

@@ -179,7 +179,7 @@ class Session(unittest.TestCase):
             self.refused("'banana' does not exist", "join", link, "--depth-codec", "banana", "--seconds", "1")
             self.refused("no renderer", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
             self.refused("link", "join", "nonsense", "--seconds", "1")
-            self.refused("is in use", "host", "--state", self.folder / "other", "--camera", self.camera, "--listen",
+            self.refused("is in use", "host", "--state", self.folder / "other", "--camera", "folder:/opens-later", "--listen",
                          f"127.0.0.1:{h.greeting['port']}")
             # Nothing of this disturbed the host.
             code, out, _ = run("join", link, "--seconds", "1", "--json")
