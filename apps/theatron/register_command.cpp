@@ -196,21 +196,24 @@ std::vector<registration::FrameMean> still_images(DepthSource& source, const Fla
     return means;
 }
 
+void check_outputs(const RigOutput& output) {
+    for (const std::string& file : {output.places, output.report})
+        if (!file.empty())
+            files::require_writable(file);
+    if (!output.report.empty() && std::filesystem::weakly_canonical(output.report) ==
+                                      std::filesystem::weakly_canonical(output.places))
+        throw Error("--output and --report name the same file; name two.");
+    files::require_own_kind(output.places, "{", "a file of places");
+    if (!output.report.empty())
+        files::require_own_kind(output.report, "<!doctype html>", "a report");
+}
+
 void run(const Flags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
     capture::CameraPlaces earlier;
     if (!flags.refine.empty())
         earlier = capture::load_places(flags.refine);
-    for (const std::string& file : {flags.output.places, flags.output.report})
-        if (!file.empty())
-            files::require_writable(file);
-    files::require_own_kind(flags.output.places, "{", "a file of places");
-    if (!flags.output.report.empty()) {
-        files::require_own_kind(flags.output.report, "<!doctype html>", "a report");
-        if (std::filesystem::weakly_canonical(flags.output.report) ==
-            std::filesystem::weakly_canonical(flags.output.places))
-            throw Error("--output and --report name the same file; name two.");
-    }
+    check_outputs(flags.output);
     const std::unique_ptr<DepthSource> source = open(flags);
     const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);
