@@ -10,6 +10,7 @@
 #include "cases/case_folder.h"
 #include "cases/case_pictures.h"
 #include "cases/import_case.h"
+#include "cases/new_folder.h"
 #include "cases/synth_case.h"
 #include "cli/progress.h"
 #include "commands.h"
@@ -228,6 +229,15 @@ struct SynthArguments {
 };
 
 void synth(const SynthArguments& arguments) {
+    cases::require_new_folder(arguments.folder);
+    if (!arguments.dicom.empty()) {
+        cases::require_new_folder(arguments.dicom);
+        const auto in_case =
+            std::filesystem::weakly_canonical(arguments.dicom)
+                .lexically_relative(std::filesystem::weakly_canonical(arguments.folder));
+        if (!in_case.empty() && *in_case.begin() != "..")
+            throw Error("--dicom names a folder in the case; name one beside it.");
+    }
     const cases::Progress progress = cli::show_progress();
     const cases::SynthCase made = cases::make_synth_case(arguments.options, progress);
     cases::write_synth_case(made, arguments.folder, arguments.dicom, progress);

@@ -82,11 +82,17 @@ std::vector<std::string> filters_of(const record::RecordingFile& recording,
     return lines;
 }
 
-void say_unregistered(const exporting::ExportSource& source) {
-    std::string names;
+void say_places(const exporting::ExportSource& source) {
+    std::string names, of_people;
     for (const auto& camera : source.cameras)
-        if (!camera->info().calibration.registered)
+        if (camera->info().calibration.person != 0)
+            of_people += (of_people.empty() ? "" : ", ") + camera->info().name;
+        else if (!camera->info().calibration.registered)
             names += (names.empty() ? "" : ", ") + camera->info().name;
+    if (!of_people.empty())
+        std::cerr << "Not merged, because they see people who move: " << of_people
+                  << ". Without --merged their points are exported in the person's frame."
+                  << std::endl;
     if (!names.empty() && source.cameras.size() > 1)
         std::cerr << "Nobody knows where these cameras were in the room: " << names
                   << ". Their points lie on each other as if all had stood at one place; "
@@ -176,7 +182,7 @@ void run(const Flags& flags) {
         export_as("ply", flags.ply,
                   [&](exporting::ExportSource& source, const std::filesystem::path& place) {
                       if (flags.merged)
-                          say_unregistered(source);
+                          say_places(source);
                       return exporting::export_ply(source, place, flags.merged);
                   });
     if (!flags.png.empty()) {

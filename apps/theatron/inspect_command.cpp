@@ -108,6 +108,8 @@ Json describe_calibration(const Bytes& bytes) {
         json["color"] = describe(calibration->color);
         json["baseline_mm"] = length(calibration->color_from_depth.translation) * 1000;
     }
+    if (calibration->person != 0)
+        json["person"] = calibration->person;
     if (calibration->depth_offset_mm)
         json["depth_offset_mm"] = *calibration->depth_offset_mm;
     if (const auto& gain = calibration->color_gain)

@@ -14,6 +14,7 @@ public:
         Calibration& calibration = info_.calibration;
         calibration.room_from_camera = entry.room_from_camera;
         calibration.registered = true;
+        calibration.person = 0;
         calibration.registration = registration;
         calibration.covariance = entry.covariance;
         if (entry.depth_offset_mm)

@@ -253,6 +253,11 @@ private:
             r.name = d.name;
             r.frames_per_second = d.frames_per_second;
             r.calibration = d.calibration;
+            if (d.frame == wire::CameraFrame::person) {
+                Calibration before_person = camera.calibration;
+                before_person.person = std::uint32_t(d.publisher);
+                r.calibration = encode_calibration(before_person);
+            }
             r.depth = {codec_of(d.depth_stream, depth_stream(*number)), depth.width, depth.height};
             if (d.has_color)
                 r.color = record::RecordedStream{codec_of(d.color_stream, color_stream(*number)),

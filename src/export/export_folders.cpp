@@ -171,8 +171,14 @@ private:
     std::size_t frames_ = 0, done_ = 0;
 };
 
-// One file for each moment, with all cameras that have a frame of it.
+// Its points are not in the room: they move with the person.
+bool sees_a_person(const capture::RecordedFrames& camera) {
+    return camera.info().calibration.person != 0;
+}
+
+// One file for each moment, with all cameras of the room that have a frame of it.
 std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
+    std::erase_if(source.cameras, [](const auto& camera) { return sees_a_person(*camera); });
     std::deque<PointMaker> makers;  // they stay where they are
     for (const auto& camera : source.cameras)
         makers.emplace_back(camera->info().calibration, source.undecoded_color);

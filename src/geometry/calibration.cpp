@@ -19,7 +19,9 @@ enum class Field : std::uint8_t {
     covariance = 7,
     depth_offset_mm = 8,
     color_gain = 9,
+    person = 10,
 };
+constexpr Field last_field = Field::person;
 
 void put_camera(ByteWriter& out, const CameraModel& c) {
     out.put(std::uint16_t(c.size.width));
@@ -158,6 +160,9 @@ bool read_field(Field field, ByteReader& in, Calibration& c) {
                 *v = in.get_f64();
             return true;
         }
+        case Field::person:
+            c.person = in.get<std::uint32_t>();
+            return c.person != 0;
     }
     return true;  // of a newer program
 }
@@ -174,7 +179,7 @@ Status read_version_2(ByteReader& in, Calibration& c) {
         last = field;
         ByteReader content(in.get_bytes(size));
         const bool is_value = read_field(Field(field), content, c);
-        const bool is_known = field <= std::uint8_t(Field::color_gain);
+        const bool is_known = field <= std::uint8_t(last_field);
         if (is_known && (!is_value || !content.ok() || !content.rest().empty()))
             return Status::malformed;
     }
@@ -228,7 +233,21 @@ Bytes encode_calibration(const Calibration& c) {
         for (const double v : {c.color_gain->x, c.color_gain->y, c.color_gain->z})
             out.put_f64(v);
     }
+    if (c.person != 0) {
+        put_field(out, Field::person, sizeof(c.person));
+        out.put(c.person);
+    }
     return bytes;
+}
+
+Calibration without_person(Calibration calibration) {
+    if (calibration.person == 0)
+        return calibration;
+    const Calibration usual;
+    calibration.person = usual.person;
+    calibration.room_from_camera = usual.room_from_camera;
+    calibration.registered = usual.registered;
+    return calibration;
 }
 
 Result<Calibration> decode_calibration(ByteView bytes) {

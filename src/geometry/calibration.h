@@ -26,6 +26,10 @@ struct Calibration {
     Pose room_from_camera{Quat{0, 1, 0, 0}, Vec3{0, 1.5, 0}};
     bool registered = false;
 
+    // In recordings: if it is not 0, the camera sees this participant of the recorded session, who
+    // moves, and "the room" above is this person's frame (wire::CameraFrame::person).
+    std::uint32_t person = 0;
+
     // The number of one registration; cameras with the same number were placed together. 0:
     // unknown.
     std::uint64_t registration = 0;
@@ -47,6 +51,9 @@ inline constexpr std::size_t max_color_pixels = 4096 * 3072;
 
 // Larger corrections are refused.
 inline constexpr double max_depth_offset_mm = 100, max_color_gain = 4;  // gains: also 1 / 4
+
+// The camera where there is no such person: its place in the room is unknown.
+Calibration without_person(Calibration calibration);
 
 // The distance of a depth pixel along the camera's axis, in metres; 0 where nothing was measured.
 inline double depth_m(const Calibration& calibration, std::uint16_t units) {

@@ -120,6 +120,7 @@ Calibration corrected() {
             (*c.covariance)[6 * i + j] = 1e-6 * double((i + 1) * (j + 1));
     c.depth_offset_mm = -3.5;
     c.color_gain = {1.25, 1, 0.5};
+    c.person = 7;
     return c;
 }
 

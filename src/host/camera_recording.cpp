@@ -27,7 +27,7 @@ record::RecordedCamera describe(CameraId id, const capture::CameraInfo& info,
     camera.id = id;
     camera.name = info.name;
     camera.frames_per_second = info.frames_per_second;
-    camera.calibration = encode_calibration(info.calibration);
+    camera.calibration = encode_calibration(without_person(info.calibration));
     const auto [depth, color] = std::pair(info.calibration.depth.size, info.calibration.color.size);
     camera.depth = {codecs.depth, depth.width, depth.height};
     if (color != Size{})

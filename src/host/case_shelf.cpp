@@ -101,8 +101,10 @@ void CaseShelf::look() {
     for (fs::directory_iterator entry(directory_, failed), end; !failed && entry != end;
          entry.increment(failed)) {
         std::error_code ignored;
-        if (entry->is_directory(ignored))
-            names.insert(entry->path().filename().string());
+        std::string name = entry->path().filename().string();
+        // An import works in a hidden folder until the case is whole.
+        if (!name.starts_with('.') && entry->is_directory(ignored))
+            names.insert(std::move(name));
         if (names.size() > max_folders)
             names.erase(std::prev(names.end()));
     }

@@ -52,12 +52,14 @@ void check_places(const std::string& file, const capture::CameraPlaces& places,
                     "); register these with 'theatron register'.");
 }
 
-wire::Camera describe(const capture::CameraInfo& info) {
+// `people_are_replayed`: the people whom the recording has are in the room.
+wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed) {
     wire::Camera camera;
     camera.name = info.name;
     camera.has_color = info.calibration.color.size != Size{};
     camera.frames_per_second = info.frames_per_second;
-    camera.calibration = encode_calibration(info.calibration);
+    camera.calibration = encode_calibration(people_are_replayed ? info.calibration
+                                                                : without_person(info.calibration));
     return camera;
 }
 
@@ -115,8 +117,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     const session::ViewerSession::Wishes usual;
     config.streams.usual = {check_depth(usual.depth_codec).codec,
                             check_color(usual.color_codec).codec};
-    for (const auto& camera : cameras)
-        config.cameras.push_back(describe(camera->info()));
+    std::optional<ReplayedRoom> replayed = find_replayed_room(options.cameras);
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        config.cameras.push_back(
+            describe(cameras[i]->info(), replayed && plays(*replayed, options.cameras[i])));
 
     link = {options.link_host, 0, "", certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
@@ -149,18 +153,17 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });
     });
-    start_replay(options.cameras);
+    if (replayed)
+        start_replay(*std::move(replayed));
 }
 
-// Takes the room of the first recording that has one.
-void Host::Impl::start_replay(const std::vector<std::string>& specifications) {
-    for (std::size_t i = 0; i < specifications.size() && !replay; ++i)
-        if (auto room = replayed_room(specifications[i]))
-            replay = std::make_unique<RoomReplay>(
-                *std::move(room), [this, i] { return lanes[i]->figures().frames > 0; },
-                [this](RoomReplay::Change change) {
-                    server->post([this, change = std::move(change)] { replay_room(change); });
-                });
+void Host::Impl::start_replay(ReplayedRoom room) {
+    const std::size_t camera = room.camera;
+    replay = std::make_unique<RoomReplay>(
+        std::move(room), [this, camera] { return lanes[camera]->figures().frames > 0; },
+        [this](RoomReplay::Change change) {
+            server->post([this, change = std::move(change)] { replay_room(change); });
+        });
 }
 
 void Host::Impl::start_lanes(const std::vector<std::string>& specifications,

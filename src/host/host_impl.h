@@ -119,7 +119,7 @@ struct Host::Impl {
     std::vector<session::Admission::Token> load_tokens();
     std::string token_of(wire::Role role) const;
     net::Server::Handler handler();
-    void start_replay(const std::vector<std::string>& specifications);
+    void start_replay(ReplayedRoom room);
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);
 

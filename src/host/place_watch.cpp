@@ -20,7 +20,7 @@ constexpr int niceness = 15;
 std::vector<std::size_t> with_place(const std::vector<capture::CameraInfo>& cameras) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        if (cameras[i].calibration.registered)
+        if (cameras[i].calibration.registered && cameras[i].calibration.person == 0)
             numbers.push_back(i);
     return numbers;
 }

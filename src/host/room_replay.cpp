@@ -10,12 +10,13 @@
 #include "capture/playback.h"
 
 namespace theatron::host {
+namespace {
 
 std::optional<ReplayedRoom> replayed_room(const std::string& specification) {
     Options options = Options::parse(specification);
     if (options.kind() != "recording")
         return std::nullopt;
-    ReplayedRoom room{record::RecordingFile::open(options.value()), {}, {}};
+    ReplayedRoom room{record::RecordingFile::open(options.value()), options.value(), 0, {}, {}};
     const auto& cameras = room.recording->cameras();
     const auto camera = std::size_t(options.take_int("camera", 0, 0, 1000));
     const capture::PlaybackOptions playback = capture::take_playback_options(options);
@@ -28,6 +29,22 @@ std::optional<ReplayedRoom> replayed_room(const std::string& specification) {
         room.round =
             room.recording->duration() + seconds_to_duration(1 / cameras[camera].frames_per_second);
     return room;
+}
+
+}  // namespace
+
+std::optional<ReplayedRoom> find_replayed_room(const std::vector<std::string>& specifications) {
+    for (std::size_t i = 0; i < specifications.size(); ++i)
+        if (auto room = replayed_room(specifications[i])) {
+            room->camera = i;
+            return room;
+        }
+    return std::nullopt;
+}
+
+bool plays(const ReplayedRoom& room, const std::string& specification) {
+    const Options options = Options::parse(specification);
+    return options.kind() == "recording" && options.value() == room.file;
 }
 
 RoomReplay::RoomReplay(ReplayedRoom room, std::function<bool()> has_begun,

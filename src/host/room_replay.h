@@ -15,15 +15,19 @@
 
 namespace theatron::host {
 
-// A camera specification's recording, if its room was recorded.
+// The recording of a host's camera, if its room was recorded.
 struct ReplayedRoom {
     std::shared_ptr<const record::RecordingFile> recording;
+    std::string file;               // as the camera's specification names it
+    std::size_t camera = 0;         // the first of the host's cameras that plays it
     Duration begin{};               // of the recording, at the camera's first picture
     std::optional<Duration> round;  // of a loop; else the recording is played once
 };
-// Empty for other cameras and for recordings without a room. Throws Error for a file that cannot be
-// read.
-std::optional<ReplayedRoom> replayed_room(const std::string& specification);
+// Of the first of these camera specifications that plays a recording with a room; empty if there is
+// none. Throws Error for a file that cannot be read.
+std::optional<ReplayedRoom> find_replayed_room(const std::vector<std::string>& specifications);
+// True for a camera of the same recording.
+bool plays(const ReplayedRoom& room, const std::string& specification);
 
 class RoomReplay {
 public:

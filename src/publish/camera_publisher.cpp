@@ -82,7 +82,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
     std::vector<Calibration> calibrations;
     for (const std::string& specification : specifications_) {
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
-        calibrations.push_back(cameras.back()->info().calibration);
+        calibrations.push_back(without_person(cameras.back()->info().calibration));
     }
     if (sharing.frame == wire::CameraFrame::person && !cameras.empty())
         place_before_person(*cameras.front(), calibrations);

@@ -6,6 +6,7 @@
 
 #include "base/camera_names.h"
 #include "base/error.h"
+#include "session/room_object.h"
 #include "wire/condition_text.h"
 #include "xr/font_native.h"
 
@@ -18,6 +19,16 @@ constexpr double fading_seconds = 0.5;
 
 LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
     return {camera.description.session, camera.description.name};
+}
+
+// The person whom the camera sees and moves with, if it is no camera of the room. In a replay the
+// host's cameras see people of the recording.
+std::optional<ParticipantId> person_of(const client::Participant::Camera& camera) {
+    if (camera.description.frame == wire::CameraFrame::person)
+        return camera.description.publisher;
+    if (camera.calibration.person != 0)
+        return ParticipantId(camera.calibration.person | session::recorded_bit);
+    return std::nullopt;
 }
 
 }  // namespace
@@ -73,9 +84,9 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         }
     for (const auto& camera : cameras) {
         const CameraId id = camera.description.id;
-        if (camera.description.frame == wire::CameraFrame::person) {
+        if (const auto person = person_of(camera)) {
             origins_[id] = origin_of(camera);
-            person_clouds_.set_camera(camera.description.publisher, id, camera.calibration);
+            person_clouds_.set_camera(*person, id, camera.calibration);
             continue;
         }
         const auto known = calibrations_.find(id);
@@ -127,7 +138,7 @@ void LiveScene::cut_people(const std::vector<client::Participant::Camera>& camer
 void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {
     std::vector<room::RoomCamera> marks;
     for (const auto& camera : cameras) {
-        if (camera.description.frame == wire::CameraFrame::person)
+        if (person_of(camera))
             continue;
         std::string label = camera.description.name;
         if (camera.state.condition != wire::CameraCondition::live)

@@ -7,7 +7,7 @@ import tempfile
 import time
 import unittest
 
-from room_test import brick, member, people
+from room_test import FACE, WALL, brick, count, make_face, member, people
 from theatron_process import Process, host, make_recording, read_png, run, wait_until
 
 
@@ -170,6 +170,39 @@ class RoomRecording(unittest.TestCase):
         beside_name = [place for place in different(live, replayed) if place[1] > max(head_top, 0) + 40]
         self.assertLess(len(beside_name), 20, beside_name[:50])
         self.assertGreater(len(different(live, empty)), 2000, "the person and the brick can be seen")
+
+    def test_the_cloud_of_a_recorded_person_is_where_the_person_was(self):
+        face = make_face(self.folder / "face")
+        recording = self.folder / "meeting.mkv"
+        with self.host(f"folder:{self.camera},loop=1,preload=1", "live") as h, \
+                member(h.greeting["publish_link"], "Anna", "--publish", f"folder:{face},loop=1,preload=1",
+                       "--may-record") as anna:
+            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+            anna.say("stand 0.25 1.6 -0.75 0.25 1.6 0")
+            time.sleep(0.5)  # her pose is in the room before the recording begins
+            recorder = self.record(h.greeting["link"], recording)
+            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096, 20)
+            time.sleep(2)
+            self.stop(recorder)
+        code, out, errors = run("inspect", recording, "--json")
+        self.assertEqual(code, 0, errors)
+        seen = [camera["calibration"].get("person", 0) for camera in json.loads(out)["cameras"]]
+        self.assertEqual([person > 0 for person in seen], [False, True])
+
+        with host(self.folder / "replay", f"recording:{recording},loop=1", f"recording:{recording},camera=1,loop=1") as h, \
+                member(h.greeting["link"], "Ben") as ben:
+            ben.wait_for(lambda f: any(p["recorded"] and p["name"] == "Anna" for p in f["room"]["people"]), 20)
+            drawn = self.folder / "replayed.png"
+            with Process("join", h.greeting["link"], "--offscreen", drawn, "--size", "320x240", "--seconds", "1.5",
+                         "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+                self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+        drawn = read_png(drawn)
+        self.assertGreater(count(drawn, FACE, 1), 400)
+        self.assertEqual((count(drawn, FACE, 0), count(drawn, WALL, 0) + count(drawn, WALL, 1)), (0, 0))
+
+        code, out, errors = run("export", recording, "--ply", self.folder / "points", "--merged")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("Not merged, because they see people who move: face.", errors)
 
 
 if __name__ == "__main__":
