@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "base/error.h"
+#include "base/float_bytes.h"
 #include "base/newest_slot.h"
 #include "base/options.h"
 #include "base/statistics.h"
@@ -15,6 +16,18 @@ TEST(Bytes, AreLittleEndian) {
     ByteWriter(bytes).put(std::uint32_t(0x01020304));
     EXPECT_EQ(bytes, (Bytes{std::byte{4}, std::byte{3}, std::byte{2}, std::byte{1}}));
     EXPECT_EQ(load_le<std::int16_t>(Bytes{std::byte{0xfe}, std::byte{0xff}}.data()), -2);
+}
+
+TEST(Bytes, FloatsAreTheirBits) {
+    Bytes bytes;
+    ByteWriter out(bytes);
+    put_f32(out, -2.5f);
+    EXPECT_EQ(bytes, (Bytes{std::byte(0), std::byte(0), std::byte(0x20), std::byte(0xc0)}));
+    ByteReader whole(bytes);
+    EXPECT_EQ(get_f32(whole), -2.5f);
+    ByteReader cut(ByteView(bytes).first(3));
+    EXPECT_EQ(get_f32(cut), 0);
+    EXPECT_FALSE(cut.ok());
 }
 
 TEST(Bytes, ReaderFailsPastTheEndAndStaysFailed) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/float_bytes.h"
+
 namespace theatron {
 namespace {
 
@@ -19,12 +21,6 @@ Rgb color_of(Vec3 point, ColorView color, const Calibration& calibration) {
     if (!(x >= 0 && x < color.size.width && y >= 0 && y < color.size.height))
         return unseen_color;
     return color.row(int(y))[int(x)];
-}
-
-void put_float(std::byte* out, float value) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    store_le(out, bits);
 }
 
 }  // namespace
@@ -66,9 +62,9 @@ Bytes encode_ply(std::span<const ColoredPoint> points) {
     bytes.resize(text.size() + points.size() * point_size);
     std::byte* at = bytes.data() + text.size();
     for (const ColoredPoint& p : points) {
-        put_float(at, p.x);
-        put_float(at + 4, p.y);
-        put_float(at + 8, p.z);
+        store_f32(at, p.x);
+        store_f32(at + 4, p.y);
+        store_f32(at + 8, p.z);
         at[12] = std::byte(p.color.r);
         at[13] = std::byte(p.color.g);
         at[14] = std::byte(p.color.b);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/float_bytes.h"
 #include "medical/volume.h"
 
 namespace theatron::medical {
@@ -16,29 +17,18 @@ constexpr std::uint8_t version = 1;
 constexpr std::size_t header_size = 16;
 constexpr std::size_t vertex_size = 24, triangle_size = 12;
 
-std::byte* put(std::byte* out, float value) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    store_le(out, bits);
-    return out + 4;
-}
-
 std::byte* put(std::byte* out, const std::vector<Vec3f>& list) {
     for (const Vec3f v : list)
-        out = put(put(put(out, v.x), v.y), v.z);
+        for (const float coordinate : {v.x, v.y, v.z}) {
+            store_f32(out, coordinate);
+            out += sizeof(coordinate);
+        }
     return out;
-}
-
-float get(const std::byte* in) {
-    const auto bits = load_le<std::uint32_t>(in);
-    float value;
-    std::memcpy(&value, &bits, sizeof(value));
-    return value;
 }
 
 const std::byte* get(const std::byte* in, std::vector<Vec3f>& list) {
     for (Vec3f& v : list) {
-        v = {get(in), get(in + 4), get(in + 8)};
+        v = {load_f32(in), load_f32(in + 4), load_f32(in + 8)};
         in += 12;
     }
     return in;

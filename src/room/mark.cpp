@@ -3,27 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
+
+#include "base/float_bytes.h"
 
 namespace theatron::room {
 namespace {
 
 constexpr double normal_scale = 32767;
-
-// Without std::bit_cast, which em++'s library does not have.
-void put_f32(ByteWriter& writer, float value) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof(bits));
-    writer.put(bits);
-}
-
-float get_f32(ByteReader& reader) {
-    const auto bits = reader.get<std::uint32_t>();
-    float value = 0;
-    std::memcpy(&value, &bits, sizeof(value));
-    return value;
-}
 
 bool has_right_count(MarkKind kind, std::size_t points) {
     switch (kind) {

@@ -4,7 +4,8 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstring>
+
+#include "base/float_bytes.h"
 
 namespace theatron::wire {
 namespace {
@@ -17,18 +18,6 @@ constexpr std::int64_t max_pose_us = std::int64_t(1) << 60;
 // A quaternion whose length is further from 1 is no rotation that was rounded.
 constexpr double length_tolerance = 0.01;
 
-std::uint32_t bits_of(float value) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    return bits;
-}
-
-float float_of(std::uint32_t bits) {
-    float value;
-    std::memcpy(&value, &bits, sizeof(value));
-    return value;
-}
-
 double length_of(const std::array<float, 4>& q) {
     double sum = 0;
     for (const float v : q)
@@ -39,7 +28,7 @@ double length_of(const std::array<float, 4>& q) {
 void put_part(const PartPose& part, ByteWriter& out) {
     for (const float v : part.position) {
         assert(std::abs(v) <= max_pose_distance);
-        out.put(bits_of(v));
+        put_f32(out, v);
     }
     const double length = length_of(part.rotation);
     assert(length > 0);
@@ -49,7 +38,7 @@ void put_part(const PartPose& part, ByteWriter& out) {
 
 bool get_part(ByteReader& in, PartPose& part) {
     for (float& v : part.position) {
-        v = float_of(in.get<std::uint32_t>());
+        v = get_f32(in);
         if (!(std::abs(v) <= max_pose_distance))
             return false;
     }
