@@ -28,6 +28,7 @@
 #include "files/state_folder.h"
 #include "input_lines.h"
 #include "link_argument.h"
+#include "mark_lines.h"
 #include "participant_json.h"
 #include "people_lines.h"
 #include "published_cameras.h"
@@ -223,7 +224,8 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           const std::string& line) {
     if (voice.obey(line) || obey_people_line(participant, line) ||
-        obey_case_line(participant, line) || room.obey(line, participant))
+        obey_case_line(participant, line) || obey_mark_line(participant, line) ||
+        room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -236,10 +238,11 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
                                 std::sscanf(value.c_str(), "%lf", &number) == 1 && number >= 0)
         choose_delivery(participant, what == "latency", number);
     else if (!what.empty())
-        std::fprintf(stderr,
-                     "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-                     "MBIT', 'quit', in the room %s, on cases %s, or as an operator %s.\n",
-                     RoomLines::help(), case_lines_help(), people_help());
+        std::fprintf(
+            stderr,
+            "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
+            "MBIT', 'quit', in the room %s, on cases %s, on marks %s, or as an operator %s.\n",
+            RoomLines::help(), case_lines_help(), mark_lines_help(), people_help());
     return true;
 }
 

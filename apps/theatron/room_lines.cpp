@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "export/mark_json.h"
 #include "room/bricks.h"
 #include "session/case_objects.h"
 #include "session/room_text.h"
@@ -73,6 +74,7 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
         if (length(at - place) < same_place_m)
             return "The two places are the same.";
         (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
+        pose_.points = pose_.points || what == "point";
         sent_ = {};
         return "";
     }
@@ -207,9 +209,13 @@ nlohmann::json room_json(const client::Participant& participant) {
         objects.push_back({{"id", std::uint32_t(id)},
                            {"kind", session::text_of(object.kind)},
                            {"recorded", session::is_recorded(id)},
+                           {"creator", std::uint32_t(object.creator)},
                            {"held_by", std::uint32_t(object.grip.holder)},
                            {"position", {p.x, p.y, p.z}},
                            {"scale", object.scale}});
+        if (object.kind == session::ObjectKind::mark)
+            if (const auto mark = session::decode_mark(object.properties))
+                objects.back()["mark"] = exporting::mark_json(*mark);
     }
     return {{"hash", session::hash_text(room.objects)},
             {"recorded_hash", session::hash_text(session::as_recorded(room.objects))},

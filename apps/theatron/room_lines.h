@@ -53,8 +53,9 @@ private:
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","self","people":[{"id","name","records","role","muted","calls"}],"objects":[{"id","kind","held_by","position",
-// "scale"}]}; `position` in metres, `held_by` 0 if no participant holds the object.
+// {"hash","self","people":[{"id","name","records","role","muted","calls"}],"objects":[{"id","kind","creator","held_by",
+// "position","scale","mark"}]}; `position` in metres, `held_by` 0 if no participant holds the
+// object.
 nlohmann::json room_json(const client::Participant& participant);
 
 }  // namespace theatron::app

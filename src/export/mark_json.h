@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "room/mark.h"
+#include "session/mark.h"
 
 namespace theatron::exporting {
 
 // A mark as `theatron export --room` writes it (docs/formats/mark.md).
-nlohmann::json mark_json(const room::Mark& mark);
+nlohmann::json mark_json(const session::Mark& mark);
 
 }  // namespace theatron::exporting

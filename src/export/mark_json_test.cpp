@@ -7,9 +7,9 @@ namespace theatron::exporting {
 namespace {
 
 TEST(MarkJson, APinHasItsNumberAuthorAndOrgan) {
-    room::Mark mark;
-    mark.kind = room::MarkKind::pin;
-    mark.surface = room::MarkedSurface::organ;
+    session::Mark mark;
+    mark.kind = session::MarkKind::pin;
+    mark.surface = session::MarkedSurface::organ;
     mark.object = 7;
     mark.number = 3;
     mark.initials = "AB";
@@ -19,8 +19,8 @@ TEST(MarkJson, APinHasItsNumberAuthorAndOrgan) {
 }
 
 TEST(MarkJson, ADistanceHasItsLengthAndItsDeviationIfKnown) {
-    room::Mark mark;
-    mark.kind = room::MarkKind::distance;
+    session::Mark mark;
+    mark.kind = session::MarkKind::distance;
     mark.points = {{{0, 0, 0}, {0, 1, 0}}, {{0, 3, 4}, {0, 1, 0}}};
     EXPECT_EQ(mark_json(mark).at("length_m"), 5.0);
     EXPECT_FALSE(mark_json(mark).contains("deviation_m"));

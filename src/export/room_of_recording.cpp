@@ -34,12 +34,13 @@ Json describe(session::ObjectId id, const session::RoomObject& object) {
     const auto& [q, p] = object.room_from_object;
     Json json{{"id", std::uint32_t(id)},
               {"kind", session::text_of(object.kind)},
+              {"creator", std::uint32_t(object.creator)},
               {"held_by", std::uint32_t(object.grip.holder)},
               {"position", {p.x, p.y, p.z}},
               {"rotation", {q.w, q.x, q.y, q.z}},
               {"scale", object.scale}};
     if (object.kind == session::ObjectKind::mark)
-        if (const std::optional<room::Mark> mark = room::decode_mark(object.properties))
+        if (const std::optional<session::Mark> mark = session::decode_mark(object.properties))
             json["mark"] = mark_json(*mark);
     return json;
 }

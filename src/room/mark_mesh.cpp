@@ -8,6 +8,11 @@
 #include "room/mesh_parts.h"
 
 namespace theatron::room {
+
+using session::Mark;
+using session::MarkKind;
+using session::MarkPoint;
+
 namespace {
 
 constexpr double tube_radius_m = 0.0012;

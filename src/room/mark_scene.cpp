@@ -10,6 +10,10 @@
 #include "room/people.h"
 
 namespace theatron::room {
+
+using session::Mark;
+using session::MarkPoint;
+
 namespace {
 
 // Labels have about the same size in the picture, within limits.
@@ -42,9 +46,17 @@ void MarkScene::add_to(render::SceneFrame& frame, const std::vector<PlacedMark>&
                 known = meshes_.emplace(key, render::SceneMesh(make_mark_mesh(mark))).first;
         }
         const Vec3 color = color_of(ParticipantId{mark.color});
-        frame.objects.push_back({&known->second, placed.room_from_points, {color, 0, 0.6}});
+        frame.objects.push_back({&known->second,
+                                 placed.room_from_points,
+                                 {color, 0, 0.6},
+                                 false,
+                                 render::ObjectId::none,
+                                 1,
+                                 placed.cut});
 
         const Vec3 at = placed.room_from_points * label_place(mark);
+        if (placed.cut && dot(placed.cut->normal, at) > placed.cut->distance_m)
+            continue;
         const double height =
             std::clamp(label_per_distance * length(at - eye), least_label_m, largest_label_m);
         // The length in the organ, also where that is shown larger.

@@ -3,18 +3,20 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "render/camera_view.h"
 #include "render/scene_frame.h"
-#include "room/mark.h"
+#include "session/mark.h"
 
 namespace theatron::room {
 
 struct PlacedMark {
-    Mark mark;
+    session::Mark mark;
     Pose room_from_points;
-    double scale = 1;  // of the points
+    double scale = 1;                // of the points
+    std::optional<render::Cut> cut;  // of the surface that it sticks to
 };
 
 // Needs the GL context current in which its first marks were added.

@@ -10,6 +10,10 @@
 namespace theatron::room {
 namespace {
 
+using session::Mark;
+using session::MarkKind;
+using session::MarkPoint;
+
 class MarkSceneTest : public ::testing::Test {
 protected:
     MarkSceneTest() { render::test_context(); }

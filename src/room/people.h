@@ -21,7 +21,8 @@ struct RoomPerson {
     bool is_stale = false;  // its poses are old: it is drawn half transparent
     // It is seen as a point cloud, in place of the head with a face.
     bool has_cloud = false;
-    bool calls = false;  // asks the others to come
+    bool calls = false;   // asks the others to come
+    bool points = false;  // with the right hand
 };
 
 // The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/mark_rules.h"
+
 namespace theatron::session {
 
 namespace {
@@ -20,10 +22,22 @@ bool names_recorded(const Request& request) {
 
 }  // namespace
 
-void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now) {
+void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now,
+                    const Bytes& person) {
     tell(state_.on_joined(id, encode_person(facts), now));
-    members_[id].keeps_room = keeps_room;
-    members_[id].role = facts.role;
+    Member& member = members_[id];
+    member.keeps_room = keeps_room;
+    member.role = facts.role;
+    member.name = facts.name;
+    member.person = person;
+    std::erase_if(authors_,
+                  [&](const auto& mark) { return !state_.objects().contains(mark.first); });
+    std::vector<ObjectId> own;
+    for (const auto& [mark, author] : authors_)
+        if (author == person)
+            own.push_back(mark);
+    for (const RoomChange& change : state_.set_creator(own, id))
+        tell(change);
     if (keeps_room)
         send_snapshot(id);
 }
@@ -33,6 +47,7 @@ void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {
     if (member == members_.end())
         return;
     member->second.role = facts.role;
+    member->second.name = facts.name;
     if (!may(facts.role, Right::handle))
         for (const RoomChange& change : state_.release_all(id))
             tell(change);
@@ -74,6 +89,8 @@ void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
         decision.refusal = Refusal::role;
     else if (auto on_case = request ? decide_on_case(id, message.number, *request) : std::nullopt)
         decision = std::move(*on_case);
+    else if (auto on_mark = request ? decide_on_mark(id, message.number, *request) : std::nullopt)
+        decision = std::move(*on_mark);
     else if (request)
         decision = state_.on_request(id, message.number, *request, true);
     for (const RoomChange& change : decision.changes)
@@ -111,6 +128,43 @@ std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, st
         for (RoomChange& change : state_.replace_case(id, {}).changes)
             decision.changes.push_back(std::move(change));
     return decision;
+}
+
+std::optional<RoomState::Decision> HostRoom::decide_on_mark(ParticipantId id, std::uint32_t number,
+                                                            const Request& request) {
+    const Member& member = members_.at(id);
+    const bool decides_on_others = may(member.role, Right::manage);
+    if (const auto* create = std::get_if<request::Create>(&request)) {
+        if (create->kind != ObjectKind::mark)
+            return std::nullopt;
+        request::Create mark = *create;
+        const Refusal refusal = judge_new_mark(state_.objects(), id, member.name, mark);
+        if (refusal != Refusal::none)
+            return RoomState::Decision{refusal, {}};
+        RoomState::Decision decision = state_.on_request(id, number, mark, true);
+        if (decision.refusal == Refusal::none && !member.person.empty())
+            authors_[decision.changes.front().object] = member.person;
+        return decision;
+    }
+    if (const auto* clear = std::get_if<request::ClearMarks>(&request))
+        return clear->of_all && !decides_on_others
+                   ? std::optional(RoomState::Decision{Refusal::role, {}})
+                   : std::nullopt;
+    const auto named = std::visit(
+        [](const auto& wanted) {
+            if constexpr (requires { wanted.object; })
+                return wanted.object;
+            return ObjectId{};
+        },
+        request);
+    const auto found = state_.objects().find(named);
+    if (found == state_.objects().end() || found->second.kind != ObjectKind::mark)
+        return std::nullopt;
+    if (!std::holds_alternative<request::Remove>(request))
+        return RoomState::Decision{Refusal::mark_stays, {}};
+    if (found->second.creator != id && !decides_on_others)
+        return RoomState::Decision{Refusal::of_another, {}};
+    return std::nullopt;
 }
 
 RoomState::Decision HostRoom::open_case(ParticipantId id, const request::Create& request) {

@@ -29,7 +29,9 @@ public:
         : state_(restored), actions_(actions) {}
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
-    void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {});
+    // `person`: as in wire::Join; somebody who comes back is the author of their marks again.
+    void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {},
+              const Bytes& person = {});
     // Its role or another fact has changed.
     void set_person(ParticipantId id, const PersonFacts& facts);
     void leave(ParticipantId id);
@@ -69,6 +71,8 @@ private:
     struct Member {
         bool keeps_room = false;
         Role role{};
+        std::string name;
+        Bytes person;               // as in wire::Join
         std::uint32_t decided = 0;  // its newest request
         TokenBucket poses{pose_limit.per_second, pose_limit.at_once};
     };
@@ -77,6 +81,9 @@ private:
     // The decision on a request that concerns the objects of a case; nullopt: it is an ordinary
     // one.
     std::optional<RoomState::Decision> decide_on_case(ParticipantId id, std::uint32_t number,
+                                                      const Request& request);
+    // The same of marks.
+    std::optional<RoomState::Decision> decide_on_mark(ParticipantId id, std::uint32_t number,
                                                       const Request& request);
     RoomState::Decision open_case(ParticipantId id, const request::Create& request);
     void tell(const RoomChange& change);
@@ -88,6 +95,7 @@ private:
     RoomObjects replayed_;  // with recorded_bit
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
+    std::map<ObjectId, Bytes> authors_;  // the persons who made these marks
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

@@ -160,7 +160,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, {participant.role, participant.records, participant.name, participant.muted},
-                   participant.has(wire::Feature::room), participant.connected);
+                   participant.has(wire::Feature::room), participant.connected, participant.person);
     if (!room_.cases().empty())
         tell_cases(id);
     if (participant.may(Right::manage))

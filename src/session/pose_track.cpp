@@ -104,6 +104,7 @@ std::optional<wire::PersonPose> PoseTrack::at(TimePoint now) const {
     wire::PersonPose pose;
     pose.time = time;
     pose.calls = to->calls;
+    pose.points = to->points;
     pose.head = between(from->head, to->head, share);
     pose.left_hand = between(from->left_hand, to->left_hand, share);
     pose.right_hand = between(from->right_hand, to->right_hand, share);

@@ -20,7 +20,8 @@ enum class RequestKind : std::uint8_t {
     grab,
     release,
     hand_over,
-    set_properties
+    set_properties,
+    clear_marks
 };
 
 void put_place(ByteWriter& out, const Pose& pose, double scale) {
@@ -84,6 +85,11 @@ void put(ByteWriter& out, const request::SetProperties& request) {
     put_properties(out, request.properties);
 }
 
+void put(ByteWriter& out, const request::ClearMarks& request) {
+    out.put(std::uint8_t(RequestKind::clear_marks));
+    out.put(std::uint8_t(request.of_all));
+}
+
 ObjectId get_object(ByteReader& in) {
     return ObjectId(in.get<std::uint32_t>());
 }
@@ -121,6 +127,12 @@ Result<Request> get_request(ByteReader& in, bool& finite) {
             r.object = get_object(in);
             r.properties = get_properties(in);
             return Request(std::move(r));
+        }
+        case RequestKind::clear_marks: {
+            const auto of_all = in.get<std::uint8_t>();
+            if (of_all > 1)
+                return Status::malformed;
+            return Request(request::ClearMarks{of_all == 1});
         }
     }
     return Status::malformed;

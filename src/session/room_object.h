@@ -99,9 +99,13 @@ struct SetProperties {
     ObjectId object{};
     Bytes properties;
 };
+// Removes the marks of the participant, or of all.
+struct ClearMarks {
+    bool of_all = false;
+};
 }  // namespace request
 using Request = std::variant<request::Create, request::Remove, request::Grab, request::Release,
-                             request::HandOver, request::SetProperties>;
+                             request::HandOver, request::SetProperties, request::ClearMarks>;
 
 // The pose of an object that is held. Only the newest one of a grip counts, so it may be lost.
 struct ObjectPose {
@@ -137,6 +141,8 @@ enum class Refusal : std::uint8_t {
     too_often,     // more requests than a host answers
     recorded,      // the object is part of a recording that is replayed
     part_of_case,  // it cannot be removed alone
+    of_another,    // a mark of another author
+    mark_stays,    // marks cannot be held or changed
 };
 
 // FNV-1a over all fields; equal rooms have equal hashes on every machine.

@@ -19,7 +19,12 @@ void predict(RoomObjects& objects, ParticipantId self, std::uint32_t number,
     std::visit(
         [&](const auto& wanted) {
             using Wanted = std::decay_t<decltype(wanted)>;
-            if constexpr (!std::is_same_v<Wanted, request::Create>) {
+            if constexpr (std::is_same_v<Wanted, request::ClearMarks>) {
+                std::erase_if(objects, [&](const auto& entry) {
+                    return entry.second.kind == ObjectKind::mark && !is_recorded(entry.first) &&
+                           (wanted.of_all || entry.second.creator == self);
+                });
+            } else if constexpr (!std::is_same_v<Wanted, request::Create>) {
                 const auto found = objects.find(wanted.object);
                 if (found == objects.end())
                     return;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "session/mark_rules.h"
+
 namespace theatron::session {
 namespace {
 
@@ -27,6 +29,8 @@ RoomState::RoomState(const RoomSnapshot& snapshot)
                   [](const auto& entry) { return entry.second.kind == ObjectKind::person; });
     for (auto& [id, object] : objects_) {
         object.grip = {};
+        if (object.kind == ObjectKind::mark)
+            object.creator = {};
         newest_id_ = std::max(newest_id_, std::uint32_t(id));
     }
 }
@@ -75,11 +79,25 @@ std::vector<RoomChange> RoomState::clear() {
     for (const auto& [id, object] : objects_)
         if (object.kind != ObjectKind::person)
             gone.push_back(id);
+    return remove(gone);
+}
+
+std::vector<RoomChange> RoomState::remove(const std::vector<ObjectId>& gone) {
     std::vector<RoomChange> changes;
-    for (const ObjectId id : gone) {
-        objects_.erase(id);
-        changes.push_back(changed(id));
-    }
+    for (const ObjectId id : gone)
+        if (objects_.erase(id) > 0)
+            changes.push_back(changed(id));
+    return changes;
+}
+
+std::vector<RoomChange> RoomState::set_creator(const std::vector<ObjectId>& objects,
+                                               ParticipantId to) {
+    std::vector<RoomChange> changes;
+    for (const ObjectId id : objects)
+        if (const auto found = objects_.find(id); found != objects_.end()) {
+            found->second.creator = to;
+            changes.push_back(changed(id));
+        }
     return changes;
 }
 
@@ -113,7 +131,11 @@ RoomState::Decision RoomState::on_request(ParticipantId from, std::uint32_t numb
     else
         decision.refusal =
             std::visit([&](const auto& wanted) { return apply(from, number, wanted); }, request);
-    if (decision.refusal == Refusal::none)
+    if (decision.refusal != Refusal::none)
+        return decision;
+    if (const auto* clear = std::get_if<request::ClearMarks>(&request))
+        decision.changes = remove(marks_of(objects_, from, clear->of_all));
+    else
         decision.changes.push_back(changed(touched_));
     return decision;
 }
@@ -141,10 +163,9 @@ RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomOb
         all - old_bytes > max_property_bytes_of_all)
         return {Refusal::too_many, {}};
     Decision decision;
-    for (const ObjectId id : old) {
-        objects_.erase(id);
-        decision.changes.push_back(changed(id));
-    }
+    decision.changes = remove(old);
+    for (RoomChange& change : remove(marks_without_surface(objects_)))
+        decision.changes.push_back(std::move(change));
     for (RoomObject& object : objects) {
         const ObjectId id{++newest_id_};
         object.creator = by;
@@ -245,6 +266,10 @@ Refusal RoomState::apply(ParticipantId, std::uint32_t, const request::SetPropert
         return Refusal::too_many;
     object.properties = request.properties;
     touched_ = request.object;
+    return Refusal::none;
+}
+
+Refusal RoomState::apply(ParticipantId, std::uint32_t, const request::ClearMarks&) {
     return Refusal::none;
 }
 

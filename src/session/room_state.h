@@ -22,7 +22,8 @@ public:
     static constexpr double max_coordinate_m = 1000;
 
     RoomState() = default;
-    // Continues from a snapshot, for example after a restart of the host. No object is held.
+    // Continues from a snapshot, for example after a restart of the host. No object is held, and
+    // marks have no creator: numbers of participants begin again.
     explicit RoomState(const RoomSnapshot& snapshot);
 
     // Creates the participant's person object with these properties; `joined`, session time,
@@ -34,6 +35,9 @@ public:
     std::vector<RoomChange> release_all(ParticipantId participant);
     // Removes all objects but people.
     std::vector<RoomChange> clear();
+    // Removes these objects, or makes another participant their creator.
+    std::vector<RoomChange> remove(const std::vector<ObjectId>& objects);
+    std::vector<RoomChange> set_creator(const std::vector<ObjectId>& objects, ParticipantId to);
     // As release_all(), and removes its person object.
     std::vector<RoomChange> on_left(ParticipantId participant);
 
@@ -45,7 +49,7 @@ public:
     Decision on_request(ParticipantId from, std::uint32_t number, const Request& request,
                         bool may_change);
 
-    // Removes all organs and screens and adds these objects, all or none.
+    // Removes all organs and screens, the marks on them, and adds these objects, all or none.
     Decision replace_case(ParticipantId by, std::vector<RoomObject> objects);
 
     // Applies a pose. True, and it must be forwarded, if it belongs to the object's present grip,
@@ -70,6 +74,7 @@ private:
     Refusal apply(ParticipantId from, std::uint32_t number, const request::Release& request);
     Refusal apply(ParticipantId from, std::uint32_t number, const request::HandOver& request);
     Refusal apply(ParticipantId from, std::uint32_t number, const request::SetProperties& request);
+    Refusal apply(ParticipantId from, std::uint32_t number, const request::ClearMarks& request);
 
     std::uint64_t revision_ = 0;
     std::uint32_t newest_id_ = 0;

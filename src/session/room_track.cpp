@@ -70,9 +70,12 @@ void add_words(ByteReader& in, std::span<std::byte> words) {
 constexpr std::size_t time_bytes = 8, parts_at = 8, pose_head = 9, part_position = 12,
                       part_bytes = 20;
 
+// The lower bits of `parts` say which parts there are, the others something of the person.
+constexpr unsigned part_bits = 7, known_bits = 31;
+
 // An encoded pose with these parts, all zero.
 Bytes empty_pose(std::uint8_t parts) {
-    Bytes body(pose_head + part_bytes * std::size_t(std::popcount(parts)));
+    Bytes body(pose_head + part_bytes * std::size_t(std::popcount(parts & part_bits)));
     body[parts_at] = std::byte(parts);
     return body;
 }
@@ -354,8 +357,7 @@ Status RoomTrackReader::read_moved(ByteReader& in) {
 Status RoomTrackReader::read_pose(ByteReader& in) {
     const auto person = ParticipantId(get_varint(in));
     const auto parts = in.get<std::uint8_t>();
-    constexpr std::uint8_t all_parts = 7;
-    if (!in.ok() || parts == 0 || parts > all_parts ||
+    if (!in.ok() || (parts & part_bits) == 0 || parts > known_bits ||
         (poses_.size() == max_poses && !poses_.contains(person)))
         return Status::malformed;
     Bytes body = poses_[person];

@@ -73,6 +73,8 @@ struct Meeting {
                 wire::PersonPose pose;
                 if (!chance(1))
                     pose = pose_at(now, person, (step / 100 + person) % 2 == 0);
+                pose.calls = pose.head && chance(10);
+                pose.points = pose.right_hand && chance(30);
                 if (!chance(80))
                     continue;
                 writer.note_pose(id, pose, now);

@@ -71,12 +71,11 @@ void CaseScene::add_to(render::SceneFrame& frame, const render::CameraView& view
     const medical::SharedCase* about = description();
     if (!room_ || !about || content_->id != room_->organ.of_case)
         return;
-    const std::optional<render::Cut> cut =
-        room_->organ.cut ? monitor_.plane_in(*room_, about->middle_mm) : std::nullopt;
+    const std::optional<render::Cut> cut = this->cut();
     for (const session::CaseInRoom::Part& part : room_->parts) {
-        const Drawn* mesh = drawn(part.facts.part);
-        if (!mesh || !part.facts.shown || part.facts.opacity == 0)
+        if (!is_drawn(part))
             continue;
+        const Drawn* mesh = drawn(part.facts.part);
         const session::ScaledPose place =
             session::part_in_room(room_->organ_object, exploded(part));
         render::SurfaceLook look{room::linear_color(about->parts[part.facts.part].color), 0,
@@ -86,6 +85,21 @@ void CaseScene::add_to(render::SceneFrame& frame, const render::CameraView& view
                                  render::ObjectId(std::uint32_t(part.id)), place.scale, cut});
     }
     monitor_.add_to(frame, *room_, about->middle_mm, view);
+}
+
+bool CaseScene::is_drawn(const session::CaseInRoom::Part& part) const {
+    return drawn(part.facts.part) && part.facts.shown && part.facts.opacity > 0;
+}
+
+std::optional<render::Cut> CaseScene::cut() const {
+    const medical::SharedCase* about = description();
+    return room_ && about && room_->organ.cut ? monitor_.plane_in(*room_, about->middle_mm)
+                                              : std::nullopt;
+}
+
+std::optional<Monitor::SliceFrame> CaseScene::slice_frame() const {
+    const medical::SharedCase* about = description();
+    return room_ && about ? monitor_.slice_frame(*room_, about->middle_mm) : std::nullopt;
 }
 
 std::optional<Pose> CaseScene::shown_pose(session::ObjectId object) const {

@@ -34,6 +34,12 @@ public:
     // The patient coordinates of a place of the room on this part.
     std::optional<Vec3> patient_point(session::ObjectId part, Vec3 place) const;
 
+    // A part whose surface is here, shown, and not quite transparent.
+    bool is_drawn(const session::CaseInRoom::Part& part) const;
+    // What is cut away of the organ, if it is cut.
+    std::optional<render::Cut> cut() const;
+    std::optional<Monitor::SliceFrame> slice_frame() const;
+
     Monitor& monitor() { return monitor_; }
     const Monitor& monitor() const { return monitor_; }
 

@@ -148,12 +148,45 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
     room_.set_cameras(marks);
 }
 
+std::vector<CloudCamera> LiveScene::cloud() const {
+    std::vector<CloudCamera> cameras;
+    for (const auto& [id, frame] : newest_)
+        if (const auto known = calibrations_.find(id); known != calibrations_.end())
+            cameras.push_back({std::uint32_t(id), &known->second, frame->depth.view()});
+    return cameras;
+}
+
+void LiveScene::add_pointers(const render::CameraView& view) {
+    std::vector<room::Pointer> pointers;
+    for (const room::RoomPerson& person : meeting_.people())
+        if (person.points && !person.is_stale)
+            pointers.push_back({person.id, person.name, person.right_hand->translation,
+                                rotate(person.right_hand->rotation, {0, 0, -1}), std::nullopt});
+    if (own_pointer_)
+        pointers.push_back(*own_pointer_);
+    if (pointers.empty())
+        return;
+    const std::vector<CloudCamera> cameras = cloud();
+    for (room::Pointer& pointer : pointers) {
+        const render::PickRay ray{pointer.from, pointer.direction};
+        if (const auto picked = render::pick(frame_, ray))
+            pointer.reach_m = picked->distance_m;
+        if (const auto point = pick_cloud(cameras, ray);
+            point && point->distance_m < pointer.reach_m.value_or(farthest_pick_m))
+            pointer.reach_m = point->distance_m;
+    }
+    if (!pointers_)
+        pointers_ = std::make_unique<room::Pointers>();
+    pointers_->add_to(frame_, pointers, view);
+}
+
 const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
     if (choice_.shown) {
         room_.add_to(frame_, view);
         meeting_.add_to(frame_, view);
+        add_pointers(view);
     }
     if (frame_.empty())
         return nullptr;

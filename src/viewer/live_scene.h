@@ -8,7 +8,9 @@
 
 #include "client/participant.h"
 #include "render/room_picture.h"
+#include "room/pointers.h"
 #include "room/virtual_room.h"
+#include "viewer/cloud_pick.h"
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
 #include "viewer/person_clouds.h"
@@ -53,6 +55,12 @@ public:
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
     const std::optional<room::RoomExtent>& walls() const { return room_.extent(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
+    // The newest pictures of these, for cloud_pick.h; valid until take().
+    std::vector<CloudCamera> cloud() const;
+    // A ray of this person, as the others see it; from the next picture on.
+    void set_own_pointer(std::optional<room::Pointer> pointer) {
+        own_pointer_ = std::move(pointer);
+    }
     // The last frame of each of these that sent one.
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
 
@@ -69,6 +77,7 @@ private:
     std::vector<render::DrawnClouds> clouds(const std::string& renderer);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
+    void add_pointers(const render::CameraView& view);
     // Everything in the picture except the clouds; null if nothing.
     const render::SceneFrame* scene_for(const render::CameraView& view);
 
@@ -78,6 +87,8 @@ private:
     PersonClouds person_clouds_;
     room::VirtualRoom room_;
     Meeting meeting_;
+    std::optional<room::Pointer> own_pointer_;
+    std::unique_ptr<room::Pointers> pointers_;     // made for the first one
     render::SceneFrame frame_;                     // of the picture that is drawn
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;

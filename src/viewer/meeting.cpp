@@ -5,6 +5,7 @@
 
 #include "room/facing.h"
 #include "session/room_bytes.h"
+#include "viewer/placed_marks.h"
 
 namespace theatron::viewer {
 namespace {
@@ -18,7 +19,7 @@ std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
 bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
            a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
-           a.calls == b.calls;
+           a.calls == b.calls && a.points == b.points;
 }
 
 }  // namespace
@@ -40,6 +41,7 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
             person.head = pose_of(pose->second.head);
             person.left_hand = pose_of(pose->second.left_hand);
             person.right_hand = pose_of(pose->second.right_hand);
+            person.points = pose->second.points && person.right_hand;
             person.is_stale = now - pose->second.time > Meeting::stale_after;
             person.calls =
                 pose->second.calls && !person.is_stale && !session::is_recorded(person.id);
@@ -121,6 +123,10 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
                                  render::ObjectId(std::uint32_t(id))});
     }
     case_.add_to(frame, view);
+    std::vector<room::PlacedMark> marks = placed_marks(room_.objects, case_);
+    if (new_mark_)
+        append_placed(*new_mark_, false, case_, marks);
+    mark_scene_.add_to(frame, marks, view);
     add_teleports(frame);
     if (people_.empty())
         return;

@@ -12,6 +12,7 @@
 #include "client/participant.h"
 #include "render/pick.h"
 #include "room/bricks.h"
+#include "room/mark_scene.h"
 #include "room/people.h"
 #include "room/teleport_marks.h"
 #include "session/pose_track.h"
@@ -39,6 +40,9 @@ public:
 
     // The arc of this person's own teleport, while it is aimed.
     void set_arc(std::optional<room::TeleportArc> arc) { arc_ = std::move(arc); }
+
+    // A mark that this person is making, before the host has it.
+    void set_new_mark(std::optional<session::Mark> mark) { new_mark_ = std::move(mark); }
 
     // The nearest object that can be held on a ray.
     struct Hit {
@@ -87,6 +91,8 @@ private:
     std::unique_ptr<room::People> avatars_;       // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;
     CaseScene case_;
+    room::MarkScene mark_scene_;
+    std::optional<session::Mark> new_mark_;
 };
 
 // All people of the room except room.self, with these poses. `now` is session time.

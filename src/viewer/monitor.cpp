@@ -170,16 +170,38 @@ void Monitor::add_to(render::SceneFrame& frame, const session::CaseInRoom& room,
     if (!room.organ.cut)
         return;
     // The slice in the organ.
+    const session::ScaledPose inside =
+        session::part_in_room(room.organ_object, organ_from_picture(middle_mm));
+    frame.objects.push_back(
+        {&*inside_, inside.pose, look, false, render::ObjectId::none, inside.scale});
+}
+
+Pose Monitor::organ_from_picture(Vec3 middle_mm) const {
     const Vec3 right = in_organ(plane_.right), down = in_organ(plane_.down);
     const Vec3 away = cross(right, down);
     const Quat turned = quat_from_matrix(
         {{{right.x, down.x, away.x}, {right.y, down.y, away.y}, {right.z, down.z, away.z}}});
     const Vec3 middle = room::organ_from_patient(
         plane_.point_at((plane_.size.width - 1) / 2.0, (plane_.size.height - 1) / 2.0), middle_mm);
-    const session::ScaledPose inside =
-        session::part_in_room(room.organ_object, Pose{turned, middle});
-    frame.objects.push_back(
-        {&*inside_, inside.pose, look, false, render::ObjectId::none, inside.scale});
+    return {turned, middle};
+}
+
+std::optional<Monitor::SliceFrame> Monitor::slice_frame(const session::CaseInRoom& room,
+                                                        Vec3 middle_mm) const {
+    if (!volume_ || !shown_ || !room.screen)
+        return std::nullopt;
+    SliceFrame frame;
+    frame.picture_from_organ = inverse(organ_from_picture(middle_mm));
+    const session::RoomObject& screen = room.screen->object;
+    const double life_size_m = plane_.size.width * plane_.mm_per_pixel * 0.001;
+    frame.screen_scale = screen.scale * panel_size_.x / life_size_m;
+    Pose screen_from_points = frame.picture_from_organ;
+    screen_from_points.translation = screen_from_points.translation * frame.screen_scale;
+    frame.screen_from_organ = screen.room_from_object * object_from_picture * screen_from_points;
+    const auto range =
+        medical::slice_range(volume_->grid, medical::Orientation(shown_->orientation));
+    frame.half_step_m = 0.0005 * range.step_mm;
+    return frame;
 }
 
 std::optional<render::Cut> Monitor::plane_in(const session::CaseInRoom& room,

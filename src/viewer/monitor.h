@@ -33,6 +33,17 @@ public:
     void add_to(render::SceneFrame& frame, const session::CaseInRoom& room, Vec3 middle_mm,
                 const render::CameraView& view);
 
+    // The slice that is shown, for what is drawn on it. In the picture's frame x points right, y
+    // down, z away from the reader; its origin is the picture's middle, lengths are life size.
+    struct SliceFrame {
+        Pose picture_from_organ;  // from the frame of the organ, metres
+        // Where it is on the screen: so many metres of the room are a metre of the organ.
+        Pose screen_from_organ;
+        double screen_scale = 1;
+        double half_step_m = 0;  // half of the distance between two slices
+    };
+    std::optional<SliceFrame> slice_frame(const session::CaseInRoom& room, Vec3 middle_mm) const;
+
     // The slice's plane in the room: its normal points to the viewer of the picture.
     std::optional<render::Cut> plane_in(const session::CaseInRoom& room, Vec3 middle_mm) const;
     // The patient coordinates of a place of the room on the picture; nullopt beside it.
@@ -43,6 +54,7 @@ public:
 private:
     void update();
     Vec2 size_m() const;
+    Pose organ_from_picture(Vec3 middle_mm) const;
 
     std::shared_ptr<const medical::Volume> volume_;
     std::optional<session::CaseScreen> wanted_, shown_;

@@ -25,6 +25,8 @@ static_assert(code_of(session::Refusal::malformed) == wire::TextCode::beyond_roo
 static_assert(code_of(session::Refusal::too_often) == wire::TextCode::room_too_often);
 static_assert(code_of(session::Refusal::recorded) == wire::TextCode::part_of_recording);
 static_assert(code_of(session::Refusal::part_of_case) == wire::TextCode::part_of_case);
+static_assert(code_of(session::Refusal::of_another) == wire::TextCode::of_another);
+static_assert(code_of(session::Refusal::mark_stays) == wire::TextCode::mark_stays);
 
 // Part of a sentence, without a full stop; empty where nothing was refused.
 inline std::string text_of(session::Refusal refusal) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "session/mark.h"
 #include "viewer/meeting.h"
 #include "viewer/places.h"
 #include "xr/overlay_content.h"
@@ -34,6 +35,12 @@ struct OpenOffered {  // a case of the host
 struct ChangeCase {  // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
+struct ChooseMarkTool {
+    session::MarkKind tool{};
+};
+struct ChangeMarks {  // false: there is no such mark
+    std::function<bool(client::Participant&)> change;
+};
 struct Call {  // the user asks the others to come, or no longer does
     bool begins = false;
 };
@@ -42,7 +49,7 @@ struct AnswerCall {
     bool comes = false;
 };
 using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
-                                 ChangeCase, Call, AnswerCall>;
+                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

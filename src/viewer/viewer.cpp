@@ -10,6 +10,8 @@
 #include "video/depth_codecs.h"
 #include "viewer/case_actions.h"
 #include "viewer/case_panel.h"
+#include "viewer/mark_actions.h"
+#include "viewer/mark_panel.h"
 #include "viewer/screen_handling.h"
 #include "wire/manage_text.h"
 
@@ -59,6 +61,8 @@ void Viewer::note(const std::string& text, TimePoint now) {
 
 void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
                       TimePoint now) {
+    mark(input, picture);
+    point(input, picture);
     if (eye_.is_placed())
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
                            eye_.view(picture), scene_.meeting(), participant_, now);
@@ -110,6 +114,16 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::show_case:
             shows_case_ = !shows_case_;
+            break;
+        case xr::Action::marks:
+            marking_.choose(
+                marking_.tool() ? std::nullopt : std::optional(session::MarkKind::stroke),
+                scene_.meeting());
+            scene_changed_ = true;
+            break;
+        case xr::Action::undo_mark:
+            if (!undo_mark(participant_))
+                note("You have made no mark", now);
             break;
         case xr::Action::slice_here:
             break;  // needs the mouse: show_slice_at()
@@ -218,6 +232,13 @@ void Viewer::press(int command, TimePoint now) {
     if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
         if (!change->change(participant_))
             note("This is not in the room any more", now);
+        return;
+    }
+    if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
+        return marking_.choose(tool->tool, scene_.meeting());
+    if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
+        if (!change->change(participant_))
+            note("There is no such mark", now);
         return;
     }
     if (const auto* offer = std::get_if<OpenOffered>(&chosen)) {
@@ -368,7 +389,8 @@ void Viewer::send_pose(Size picture, TimePoint now) {
     if (!eye_.is_placed())
         return;
     const Pose eye = eye_.view(picture).room_from_eye;
-    const bool is_same = eye == sent_pose_ && is_calling(now) == sent_call_;
+    const bool is_same =
+        eye == sent_pose_ && is_calling(now) == sent_call_ && !pointer_ && !sent_pointing_;
     if (now - pose_sent_ < (is_same ? pose_repeated_after : pose_interval))
         return;
     pose_sent_ = now;
@@ -376,6 +398,7 @@ void Viewer::send_pose(Size picture, TimePoint now) {
     sent_call_ = is_calling(now);
     wire::PersonPose pose = pose_of_eye(eye, participant_.session_time(now));
     pose.calls = sent_call_;
+    add_pointing(pose);
     participant_.send_pose(pose);
 }
 
@@ -458,6 +481,9 @@ Facts Viewer::facts(TimePoint now) {
                         scene.content(), scene.monitor().volume()},
                        panel);
     }
+    if (marking_.tool())
+        add_mark_panel(marking_.tool(),
+                       facts.received.status.standing.role == wire::Role::operator_, panel);
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);
     facts.line = line_;

@@ -17,6 +17,7 @@
 #include "viewer/facts.h"
 #include "viewer/handling.h"
 #include "viewer/live_scene.h"
+#include "viewer/marking.h"
 #include "viewer/renderer_text.h"
 #include "viewer/room_panel.h"
 #include "xr/drawing_pace.h"
@@ -94,6 +95,9 @@ private:
     std::vector<room::RoomPerson> callers() const;  // whom the user has not answered
     bool is_calling(TimePoint now) const { return now < calls_until_; }
     std::optional<Pose> meeting_place() const;
+    void mark(xr::WindowInput& input, Size picture);
+    void point(const xr::WindowInput& input, Size picture);
+    void add_pointing(wire::PersonPose& pose);
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
@@ -104,6 +108,8 @@ private:
     LiveScene scene_;
     Eye eye_;
     Handling handling_;
+    Marking marking_;
+    std::optional<room::Pointer> pointer_;  // while this person points
     TimePoint pose_sent_;
     Pose sent_pose_;
 
@@ -117,6 +123,7 @@ private:
     std::set<ParticipantId> answered_;       // those who still call
     TimePoint calls_until_;
     bool sent_call_ = false;
+    bool sent_pointing_ = false;
     bool sits_ = false;
     bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t part_size = 20;
 constexpr std::size_t pose_header_size = 9;  // time, parts
-constexpr unsigned all_parts = 7, calls_bit = 8;
+constexpr unsigned all_parts = 7, calls_bit = 8, points_bit = 16;
 constexpr float rotation_unit = 32767;
 constexpr std::int64_t max_pose_us = std::int64_t(1) << 60;
 // A quaternion whose length is further from 1 is no rotation that was rounded.
@@ -65,7 +65,7 @@ Bytes encode_person_pose(const PersonPose& pose) {
         present |= *part ? bit : 0;
         bit <<= 1;
     }
-    out.put(std::uint8_t(present | (pose.calls ? calls_bit : 0)));
+    out.put(std::uint8_t(present | (pose.calls ? calls_bit : 0) | (pose.points ? points_bit : 0)));
     for (const auto* part : parts)
         if (*part)
             put_part(**part, out);
@@ -78,7 +78,7 @@ Result<PersonPose> decode_person_pose(ByteView bytes) {
     ByteReader in(bytes);
     const auto us = in.get<std::int64_t>();
     const unsigned flags = in.get<std::uint8_t>(), present = flags & all_parts;
-    if (us > max_pose_us || us < -max_pose_us || flags > (all_parts | calls_bit))
+    if (us > max_pose_us || us < -max_pose_us || flags > (all_parts | calls_bit | points_bit))
         return Status::malformed;
     const std::size_t size = pose_header_size + part_size * std::size_t(std::popcount(present));
     if (bytes.size() != size)
@@ -86,6 +86,7 @@ Result<PersonPose> decode_person_pose(ByteView bytes) {
     PersonPose pose;
     pose.time = from_us(us);
     pose.calls = (flags & calls_bit) != 0;
+    pose.points = (flags & points_bit) != 0;
     unsigned bit = 1;
     for (auto* part : {&pose.head, &pose.left_hand, &pose.right_hand}) {
         if (present & bit && !get_part(in, part->emplace()))

@@ -22,7 +22,8 @@ struct PartPose {
 struct PersonPose {
     TimePoint time;  // session time that the pose is for
     std::optional<PartPose> head, left_hand, right_hand;
-    bool calls = false;  // asks the others to come
+    bool calls = false;   // asks the others to come
+    bool points = false;  // the right hand, if there is one, points at something
     bool operator==(const PersonPose&) const = default;
 };
 

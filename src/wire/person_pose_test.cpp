@@ -57,6 +57,16 @@ TEST(PersonPose, TellsWhetherThePersonCalls) {
     EXPECT_EQ(back->head.has_value(), pose.head.has_value());
 }
 
+TEST(PersonPose, TellsWhetherTheRightHandPoints) {
+    PersonPose pose = sample();
+    EXPECT_FALSE(decode_person_pose(encode_person_pose(pose))->points);
+    pose.points = true;
+    const auto back = decode_person_pose(encode_person_pose(pose));
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->points);
+    EXPECT_FALSE(back->calls);
+}
+
 TEST(PersonPose, RefusesWhatIsNoPose) {
     const Bytes whole = encode_person_pose(sample());
     for (std::size_t n = 0; n < whole.size(); ++n)
@@ -76,7 +86,7 @@ TEST(PersonPose, RefusesWhatIsNoPose) {
     EXPECT_EQ(with(21, 0x2000'7fff), Status::malformed) << "one that is too long";
     EXPECT_EQ(with(4, 0x7000'0000), Status::malformed) << "a time beyond all sense";
     Bytes other_part = whole;
-    other_part[8] = std::byte{16};
+    other_part[8] = std::byte{32};
     EXPECT_EQ(decode_person_pose(other_part).error(), Status::malformed);
 }
 

@@ -114,6 +114,8 @@ constexpr Row rows[] = {
     {TextCode::room_too_often, "That was too much at once; try again"},
     {TextCode::part_of_recording, "Only the recording moves this"},
     {TextCode::part_of_case, "This belongs to the case; hide it, or close the case"},
+    {TextCode::of_another, "Somebody else made this"},
+    {TextCode::mark_stays, "A mark stays as it was made; it can only be removed"},
 
     {TextCode::operators_decide, "Only operators decide on others."},
     {TextCode::decided_person_gone, "That person has left."},

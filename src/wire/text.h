@@ -90,6 +90,8 @@ enum class TextCode : std::uint16_t {
     room_too_often = 507,
     part_of_recording = 508,
     part_of_case = 509,
+    of_another = 510,
+    mark_stays = 511,
 
     // Decisions on people.
     operators_decide = 600,

@@ -100,6 +100,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::show_case};
         case SDLK_i:
             return KeyPress{Action::slice_here};
+        case SDLK_z:
+            return KeyPress{Action::marks};
+        case SDLK_BACKSPACE:
+            return KeyPress{Action::undo_mark};
         case SDLK_r:
         case SDLK_HOME:
             return KeyPress{Action::own_view};
@@ -211,7 +215,9 @@ WindowInput DesktopWindow::poll() {
         SDL_GetMouseState(&x, &y);
         input.pointer = parts_->shares_of(x, y);
     }
-    input.aims_teleport = SDL_GetKeyboardState(nullptr)[SDL_SCANCODE_T] != 0;
+    const Uint8* held = SDL_GetKeyboardState(nullptr);
+    input.aims_teleport = held[SDL_SCANCODE_T] != 0;
+    input.points = held[SDL_SCANCODE_F] != 0;
     return input;
 }
 

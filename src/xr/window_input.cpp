@@ -20,6 +20,8 @@ const std::vector<KeyHelp>& key_help() {
         {"Shift and left button on an organ", "Hold the part under the mouse; Delete hides it"},
         {"Wheel, left button on images", "Another slice; drag: another window"},
         {"I", "The slice through the place of the organ under the mouse"},
+        {"Z; Backspace", "Marks: draw, point at places, measure; remove your newest mark"},
+        {"F, held", "Point at what is under the mouse: the others see it with your name"},
         {"K, J", "Call the others to you; go to the person who calls you"},
         {"Y, U", "Operators: let in the person at the door, or refuse"},
         {"R or Home", "Back to the camera's own view"},

@@ -26,6 +26,8 @@ enum class Action {
     microphone,   // closes or opens it
     people,       // shows or hides the panel of people and places
     show_case,    // shows or hides the panel of the case
+    marks,        // begins or ends marking, and shows or hides its panel
+    undo_mark,    // removes this person's newest mark
     slice_here,   // moves the slice to the place of an organ under the mouse
     admit,        // for operators: lets in the person who has waited longest
     turn_away,    // the opposite
@@ -53,6 +55,7 @@ struct WindowInput {
     // down.
     std::optional<Vec2> pointer;
     bool aims_teleport = false;
+    bool points = false;  // the key for pointing is down
     Steering steering;
 };
 

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "base/ids.h"
 #include "geometry/vec.h"
 
-namespace theatron::room {
+namespace theatron::session {
 
 enum class MarkKind : std::uint8_t { stroke = 1, arrow, pin, distance };
 enum class MarkedSurface : std::uint8_t { cloud = 1, organ, slice };
@@ -44,6 +45,7 @@ struct Mark {
 
 inline constexpr std::size_t most_mark_points = 200;
 inline constexpr std::size_t most_initials_bytes = 12;
+inline constexpr std::uint32_t mark_colors = 7;
 inline constexpr double farthest_mark_point_m = 1000;  // along each axis
 
 // The properties of an object of kind mark (docs/formats/mark.md), at most 4 KiB. encode_mark()
@@ -51,6 +53,11 @@ inline constexpr double farthest_mark_point_m = 1000;  // along each axis
 // nullopt for bytes that are no mark.
 Bytes encode_mark(const Mark& mark);
 std::optional<Mark> decode_mark(ByteView properties);
+
+// Mark::color of an author.
+constexpr std::uint8_t color_number(ParticipantId author) {
+    return std::uint8_t(std::uint32_t(author) % mark_colors);
+}
 
 // The first letters of the first and the last word of a name, in UTF-8; "?" without any.
 std::string initials_of(std::string_view name);
@@ -61,4 +68,4 @@ std::string initials_of(std::string_view name);
 std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tolerance_m,
                                   std::size_t most);
 
-}  // namespace theatron::room
+}  // namespace theatron::session

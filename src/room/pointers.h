@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people point at: a dotted ray to the surface that it meets, and there a dot with the name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "render/camera_view.h"
+#include "render/scene_frame.h"
+
+namespace theatron::room {
+
+struct Pointer {
+    ParticipantId id{};  // whose colour it has
+    std::string name;
+    Vec3 from, direction;           // of length 1
+    std::optional<double> reach_m;  // to the surface; none: it meets none
+};
+
+// Needs the GL context current in which it was made.
+class Pointers {
+public:
+    // A ray that meets nothing ends there.
+    static constexpr double free_reach_m = 3;
+
+    Pointers();
+    void add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers,
+                const render::CameraView& view) const;
+
+private:
+    render::SceneMesh ball_;
+};
+
+}  // namespace theatron::room

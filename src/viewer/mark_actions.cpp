@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/mark_actions.h"
+
+#include <utility>
+
+#include "session/mark_rules.h"
+#include "session/room_bytes.h"
+
+namespace theatron::viewer {
+namespace {
+
+namespace request = session::request;
+
+// Below the width of a mark's line.
+constexpr double tolerance_m = 0.0002;
+
+}  // namespace
+
+bool sign_mark(const client::Participant::Room& room, session::Mark& mark) {
+    for (const auto& [id, object] : room.objects)
+        if (object.kind == session::ObjectKind::person && object.creator == room.self) {
+            const auto facts = session::decode_person(object.properties);
+            mark.color = session::color_number(room.self);
+            mark.initials = session::initials_of(facts ? facts->name : "");
+            return true;
+        }
+    return false;
+}
+
+void simplify_stroke(session::Mark& mark) {
+    if (mark.kind == session::MarkKind::stroke)
+        mark.points = session::simplified(mark.points, tolerance_m, session::most_mark_points);
+}
+
+bool make_mark(client::Participant& participant, session::Mark mark) {
+    if (!sign_mark(participant.room(), mark))
+        return false;
+    simplify_stroke(mark);
+    if (mark.kind == session::MarkKind::pin)
+        mark.number = 1;
+    return participant.ask_room(
+               request::Create{session::ObjectKind::mark, {}, 1, session::encode_mark(mark)}) != 0;
+}
+
+bool undo_mark(client::Participant& participant) {
+    const auto room = participant.room();
+    const auto own = session::marks_of(room.objects, room.self, false);
+    // Numbers of objects grow with time.
+    return !own.empty() && participant.ask_room(request::Remove{own.back()}) != 0;
+}
+
+bool clear_marks(client::Participant& participant, bool of_all) {
+    const auto room = participant.room();
+    return !session::marks_of(room.objects, room.self, of_all).empty() &&
+           participant.ask_room(request::ClearMarks{of_all}) != 0;
+}
+
+}  // namespace theatron::viewer
