@@ -14,7 +14,7 @@ help:
 	@echo "make tidy               clang-tidy on what differs from main; ALL=1: on everything"
 	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"
 	@echo "make test-arm64         tests of the SIMD kernels on emulated 64-bit ARM"
-	@echo "make build              build/release/apps/theatron/theatron"
+	@echo "make build              build/release/apps/theatron/theatron, and the browser client beside it"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
 	@echo "make bench-web FOLDERS='DIR ...'   depth codecs natively and under node"
 	@echo "make figures            repeat the sizes and likenesses that docs/ states, and compare"
@@ -26,6 +26,8 @@ setup:
 build: setup
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target theatron theatron_bench
+	@cmake --preset web > /dev/null
+	@cmake --build --preset web --target page
 
 demo: build
 	@test -e demo/case || build/release/apps/theatron/theatron case synth demo/case --dicom demo/ct

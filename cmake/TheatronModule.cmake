@@ -20,15 +20,17 @@ function(theatron_unit_test name target)
   set_property(GLOBAL APPEND PROPERTY THEATRON_UNIT_TESTS ${target})
 endfunction()
 
-# theatron_module(NAME [WEB] [PURE] [DEPENDS module...] [LINK library...])
+# theatron_module(NAME [WEB] [PURE] [NATIVE file...] [DEPENDS module...]
+#                 [NATIVE_DEPENDS module...] [LINK library...])
 #
 # Builds theatron_NAME from the .cpp files of the current folder. Files that end in _test.cpp become one
 # test program, each _fuzz.cpp a fuzz target of its own. DEPENDS names the other modules that this one
 # may include; tools/check_includes.py reads it too. WEB: also built with em++ (others are left out
 # there). PURE: no exceptions. LINK: outside libraries. A file that ends in _native.cpp is left out of
-# the web build, one that ends in _web.cpp of the native build.
+# the web build, one that ends in _web.cpp of the native build. NATIVE: further sources that are left
+# out of the web build, NATIVE_DEPENDS: modules that only native sources include.
 function(theatron_module name)
-  cmake_parse_arguments(M "WEB;PURE" "" "DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(M "WEB;PURE" "" "NATIVE;DEPENDS;NATIVE_DEPENDS;LINK" ${ARGN})
   if(EMSCRIPTEN AND NOT M_WEB)
     return()
   endif()
@@ -40,6 +42,8 @@ function(theatron_module name)
   list(REMOVE_ITEM sources ${tests} ${fuzzers} ${benches} "")
   if(EMSCRIPTEN)
     list(FILTER sources EXCLUDE REGEX "_native\\.cpp$")
+    list(TRANSFORM M_NATIVE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    list(REMOVE_ITEM sources ${M_NATIVE} "")
   else()
     list(FILTER sources EXCLUDE REGEX "_web\\.cpp$")
   endif()
@@ -56,6 +60,9 @@ function(theatron_module name)
     set(kind INTERFACE)
   endif()
   target_include_directories(${library} ${kind} ${CMAKE_SOURCE_DIR}/src)
+  if(NOT EMSCRIPTEN)
+    list(APPEND M_DEPENDS ${M_NATIVE_DEPENDS})
+  endif()
   list(TRANSFORM M_DEPENDS PREPEND theatron_ OUTPUT_VARIABLE modules)
   target_link_libraries(${library} ${kind} ${modules} ${M_LINK})
 

@@ -11,14 +11,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-KEYWORDS = {"WEB", "PURE", "DEPENDS", "LINK"}
+KEYWORDS = {"WEB", "PURE", "NATIVE", "DEPENDS", "NATIVE_DEPENDS", "LINK"}
 
 
 PROGRAMS = ("apps", "bench")
 
 
 def declared():
-    """(name -> (dependencies, web), folder -> name) of modules, then of programs."""
+    """(name -> (dependencies, those of the web build, web), folder -> name) of modules, then of programs."""
     modules, folders = {}, {}
     places = [*sorted((ROOT / "src").glob("*/CMakeLists.txt")),
               *(file for top in PROGRAMS for file in sorted((ROOT / top).glob("*/CMakeLists.txt")))]
@@ -27,14 +27,16 @@ def declared():
         if not match:
             continue
         words = match.group(1).split()
-        name, depends, web = words[0], set(), "WEB" in words
+        name, depends, web = words[0], set(), set()
         folders[file.parent.relative_to(ROOT)] = name
-        if "DEPENDS" in words:
-            for word in words[words.index("DEPENDS") + 1:]:
+        for keyword in ("DEPENDS", "NATIVE_DEPENDS"):
+            for word in words[words.index(keyword) + 1:] if keyword in words else []:
                 if word in KEYWORDS:
                     break
                 depends.add(word)
-        modules[name] = (depends, web)
+                if keyword == "DEPENDS" and "WEB" in words:
+                    web.add(word)
+        modules[name] = (depends, web, "WEB" in words)
     return modules, folders
 
 
@@ -52,13 +54,13 @@ def main():
     modules, folders = declared()
     programs = {name for folder, name in folders.items() if folder.parts[0] in PROGRAMS}
     problems = []
-    for name, (depends, web) in modules.items():
+    for name, (depends, web, _) in modules.items():
         if name not in programs and depends & programs:
             problems.append(f"src/{name}/CMakeLists.txt: a module depends on a program")
         for other in sorted(depends - modules.keys()):
             problems.append(f"src/{name}/CMakeLists.txt: there is no module {other}")
-        for other in sorted(depends & modules.keys()):
-            if web and not modules[other][1]:
+        for other in sorted(web & modules.keys()):
+            if not modules[other][2]:
                 problems.append(f"src/{name}/CMakeLists.txt: a web module depends on {other}, which is none")
     if not problems:
         for name in modules:

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "files/png_file.h"
 #include "host/host.h"
+#include "host/page.h"
 #include "participant_json.h"
 #include "scripted_people.h"
 #include "viewer/offscreen_view_native.h"
@@ -135,6 +136,7 @@ void run(const Flags& flags) {
     options.listen = net::parse_endpoint(flags.listen);
     options.state = folder / "host";
     options.name = "demo operating room";
+    options.page = host::usual_page_folder();
     // Objects that an earlier demo left there.
     std::filesystem::remove(options.state / "room", error);
     host::Host host(options, cli::show_progress());

@@ -24,6 +24,7 @@
 #include "files/json_text.h"
 #include "host/host.h"
 #include "host/host_identity.h"
+#include "host/page.h"
 #include "input_lines.h"
 #include "people_lines.h"
 #include "region_text.h"
@@ -128,6 +129,7 @@ void run(Flags& flags) {
     flags.options.state = flags.state;
     flags.options.places = flags.places;
     flags.options.cases = flags.cases;
+    flags.options.page = host::usual_page_folder();
     flags.options.is_audited = flags.audit != "none";
     if (flags.options.is_audited)
         flags.options.audit = flags.audit;

@@ -15,7 +15,7 @@
 #include "participant_json.h"
 #include "viewer/renderer_text.h"
 #include "xr/overlay_native.h"
-#include "xr/scaled_picture_native.h"
+#include "xr/scaled_picture.h"
 
 namespace theatron::app {
 namespace {

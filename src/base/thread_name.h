@@ -6,6 +6,13 @@
 
 namespace theatron {
 
+// A browser's page has one thread.
+#ifdef __EMSCRIPTEN__
+inline constexpr bool has_threads = false;
+#else
+inline constexpr bool has_threads = true;
+#endif
+
 // At most 15 characters.
 inline void name_this_thread([[maybe_unused]] const char* name) {
 #ifdef __linux__

@@ -50,11 +50,13 @@ bool OpenCase::is_complete() const {
 CaseKeeper::CaseKeeper(std::function<void()> changed, std::function<void()> requests)
     : changed_(std::move(changed)),
       requests_(std::move(requests)),
-      fetch_(net::make_content_digest),
-      thread_([this] {
-          name_this_thread("case");
-          run();
-      }) {}
+      fetch_(net::make_content_digest) {
+    if constexpr (has_threads)
+        thread_ = std::thread([this] {
+            name_this_thread("case");
+            run();
+        });
+}
 
 CaseKeeper::~CaseKeeper() {
     {
@@ -62,7 +64,8 @@ CaseKeeper::~CaseKeeper() {
         stopping_ = true;
     }
     work_.notify_all();
-    thread_.join();
+    if (thread_.joinable())
+        thread_.join();
 }
 
 void CaseKeeper::on_connected() {
@@ -164,6 +167,11 @@ void CaseKeeper::on_content(const wire::Content& piece, TimePoint now) {
             work_.notify_one();
         }
     }
+    if constexpr (!has_threads) {
+        std::unique_lock lock(mutex_);
+        while (!waiting_.empty())
+            decode_next(lock);
+    }
     requests_();
     if (changed)
         changed_();
@@ -202,20 +210,25 @@ void CaseKeeper::run() {
         work_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
         if (stopping_)
             return;
-        const Waiting next = std::move(waiting_.front());
-        waiting_.pop_front();
-        lock.unlock();
-        Content content = std::string("There is not enough memory for the case.");
-        (void)contain("case", [&] { content = decode(next); });
-        lock.lock();
-        kept_[next.hash] = {std::move(content), next.bytes.size()};
-        ++version_;
-        want();
-        lock.unlock();
-        requests_();
-        changed_();
-        lock.lock();
+        decode_next(lock);
     }
+}
+
+// `lock` is held; there is content that waits.
+void CaseKeeper::decode_next(std::unique_lock<std::mutex>& lock) {
+    const Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    Content content = std::string("There is not enough memory for the case.");
+    (void)contain("case", [&] { content = decode(next); });
+    lock.lock();
+    kept_[next.hash] = {std::move(content), next.bytes.size()};
+    ++version_;
+    want();
+    lock.unlock();
+    requests_();
+    changed_();
+    lock.lock();
 }
 
 std::vector<wire::OfferedCase> CaseKeeper::offered() const {

@@ -2,7 +2,7 @@
 // The cases of a session at a participant: those that the host offers, and the content of the one
 // that is open in the room, in memory only.
 //
-// Content that has come is decoded on a thread of its own.
+// Content that has come is decoded on a thread of its own, in a browser's page at once.
 #pragma once
 
 #include <condition_variable>
@@ -76,6 +76,7 @@ private:
         std::uint64_t size = 0;
     };
     void run();
+    void decode_next(std::unique_lock<std::mutex>& lock);
     static Content decode(const Waiting& waiting);
     std::shared_ptr<const medical::SharedCase> description() const;
     void want();  // mutex_ is held, as for the next

@@ -2,14 +2,12 @@
 #include "client/participant.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/outside_text.h"
 #include "base/steady_clock.h"
-#include "base/thread_name.h"
 #include "client/participant_shared.h"
 #include "wire/envelope.h"
 
@@ -42,7 +40,8 @@ Participant::Participant(Options options)
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
                 options_.delivery, options_.records, features_of(options_), options_.person}),
       shared_(std::make_unique<Shared>()),
-      decoders_(std::make_unique<Decoders>(decoded_events())) {
+      decoders_(std::make_unique<Decoders>(decoded_events())),
+      wait_(first_wait) {
     shared_->status.goal = options_.delivery;
     if (options_.keeps_cases)
         cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
@@ -50,11 +49,7 @@ Participant::Participant(Options options)
         throw Error("Name, token and codecs together have more than " +
                     std::to_string(wire::max_first_envelope_size) +
                     " bytes; choose a shorter name.");
-    thread_ = std::thread([this] {
-        // run() connects again by itself after a fault of the connection.
-        if (!contain("participant", [this] { run(); }))
-            give_up();
-    });
+    start();
 }
 
 // Without memory even for another attempt.
@@ -65,17 +60,6 @@ void Participant::give_up() {
         shared_->status.phase = Phase::lost;
     }
     announce();
-}
-
-Participant::~Participant() {
-    {
-        const std::lock_guard lock(shared_->mutex);
-        shared_->stopping = true;
-        if (shared_->client)
-            shared_->client->stop();
-    }
-    shared_->changed.notify_all();
-    thread_.join();
 }
 
 // From the decoding threads.
@@ -129,71 +113,65 @@ void Participant::tell_taken() {
     shared_->client->taken(bytes);
 }
 
-void Participant::run() {
-    name_this_thread("net");
-    Duration wait = first_wait;
-    bool was_joined = false;
-    while (true) {
-        net::Client client(options_.link, handler());
-        {
-            const std::lock_guard lock(shared_->mutex);
-            if (shared_->stopping)
-                return;
-            shared_->client = &client;
-            ++shared_->connection;
-            shared_->taken = 0;
-            shared_->is_telling = false;
-            shared_->is_telling_room = false;
-            shared_->is_asking_content = false;
-            shared_->poses.clear();
-            shared_->own_pose.reset();
-            shared_->voice.clear();
-            shared_->visitors.clear();
-            shared_->has_standing = false;
-            shared_->status.standing = {};
-            shared_->camera_wishes.clear();  // numbers of cameras may be others
-            shared_->clock = {};
-            shared_->status.round_trip = {};
-            shared_->status.clock_known = false;
-        }
-        if (cases_)
-            cases_->on_connected();
-        const net::Client::End end = client.run();
-
-        std::unique_lock lock(shared_->mutex);
-        shared_->client = nullptr;
-        shared_->media_waiting = 0;
+bool Participant::begin_connection(net::Client& client) {
+    {
+        const std::lock_guard lock(shared_->mutex);
         if (shared_->stopping)
-            return;
-        const bool refused = end.final || !session_.refusal().empty();
-        const bool ended = !session_.goodbye().empty();
-        const std::string why = refused && !session_.refusal().empty()
-                                    ? wire::english(session_.refusal())
-                                : ended ? wire::english(session_.goodbye())
-                                        : end.why;
-        const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
-        if (shared_->status.phase == Phase::joined) {
-            was_joined = true;
-            wait = first_wait;
-        }
-        shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
-        shared_->status.problem = why;
-        lock.unlock();
-        numbers_.clear();
-        if (options_.publishing.published)
-            options_.publishing.published({});
-        announce();
-        if (ended && !refused)
-            remark(why);
-        if (refused || ended)
-            return;
-        if (news)
-            remark(why + (was_joined ? " Reconnecting." : " Trying again."));
-        lock.lock();
-        if (shared_->changed.wait_for(lock, wait, [&] { return shared_->stopping; }))
-            return;
-        wait = std::min(2 * wait, longest_wait);
+            return false;
+        shared_->client = &client;
+        ++shared_->connection;
+        shared_->taken = 0;
+        shared_->is_telling = false;
+        shared_->is_telling_room = false;
+        shared_->is_asking_content = false;
+        shared_->poses.clear();
+        shared_->own_pose.reset();
+        shared_->voice.clear();
+        shared_->visitors.clear();
+        shared_->has_standing = false;
+        shared_->status.standing = {};
+        shared_->camera_wishes.clear();  // numbers of cameras may be others
+        shared_->clock = {};
+        shared_->status.round_trip = {};
+        shared_->status.clock_known = false;
     }
+    if (cases_)
+        cases_->on_connected();
+    return true;
+}
+
+// Returns the time until another attempt; nothing if there is to be none.
+std::optional<Duration> Participant::end_connection(const net::Client::End& end) {
+    std::unique_lock lock(shared_->mutex);
+    shared_->client = nullptr;
+    shared_->media_waiting = 0;
+    if (shared_->stopping)
+        return std::nullopt;
+    const bool refused = end.final || !session_.refusal().empty();
+    const bool ended = !session_.goodbye().empty();
+    const std::string why = refused && !session_.refusal().empty()
+                                ? wire::english(session_.refusal())
+                            : ended ? wire::english(session_.goodbye())
+                                    : end.why;
+    const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
+    if (shared_->status.phase == Phase::joined) {
+        was_joined_ = true;
+        wait_ = first_wait;
+    }
+    shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
+    shared_->status.problem = why;
+    lock.unlock();
+    numbers_.clear();
+    if (options_.publishing.published)
+        options_.publishing.published({});
+    announce();
+    if (ended && !refused)
+        remark(why);
+    if (refused || ended)
+        return std::nullopt;
+    if (news)
+        remark(why + (was_joined_ ? " Reconnecting." : " Trying again."));
+    return std::exchange(wait_, std::min(2 * wait_, longest_wait));
 }
 
 net::Client::Handler Participant::handler() {

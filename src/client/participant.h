@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A participant: one connection to a host, with automatic reconnection, and the
-// newest decoded images of every camera.
+// newest decoded images of every camera. In a browser the page's events take the place of its
+// threads.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "client/case_keeper.h"
@@ -205,8 +205,10 @@ public:
     void choose_delivery(const wire::ChooseDelivery& goal);
 
 private:
-    void run();
+    void start();
     void give_up();
+    bool begin_connection(net::Client& client);
+    std::optional<Duration> end_connection(const net::Client::End& end);
     net::Client::Handler handler();
     Decoders::Events decoded_events();
     void on_control(ByteView message);
@@ -250,7 +252,14 @@ private:
     std::unique_ptr<Shared> shared_;
     std::unique_ptr<Decoders> decoders_;  // its threads use shared_
     std::unique_ptr<CaseKeeper> cases_;   // likewise; may be null
-    std::thread thread_;
+    Duration wait_;                       // before another attempt
+    bool was_joined_ = false;
+
+    // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.
+    struct Loop;
+    struct ThreadLoop;
+    struct EventLoop;
+    std::unique_ptr<Loop> loop_;
 };
 
 }  // namespace theatron::client

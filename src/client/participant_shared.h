@@ -17,6 +17,11 @@
 
 namespace theatron::client {
 
+// What makes connections, one after the other.
+struct Participant::Loop {
+    virtual ~Loop() = default;
+};
+
 // State shared with other threads, under `mutex`.
 struct Participant::Shared {
     mutable std::mutex mutex;

@@ -109,6 +109,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
                                                                  : options.audit);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
+    page = options.page.empty() ? Page() : Page(options.page);
     config.room = room_file->load();
     config.check_depth = check_depth;
     config.check_color = check_color;

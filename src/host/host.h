@@ -31,6 +31,7 @@ struct HostOptions {
     std::filesystem::path audit;  // empty: audit.jsonl in the state folder
     bool is_audited = true;
     std::filesystem::path cases;  // the folder of cases that are offered; empty: none
+    std::filesystem::path page;   // the browser client (host/page.h); empty: none
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.

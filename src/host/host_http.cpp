@@ -12,15 +12,19 @@
 namespace theatron::host {
 namespace {
 
-constexpr const char* plain_answer = "This is a Theatron host. Join it with: theatron join LINK\n";
+constexpr const char* plain_answer =
+    "This is a Theatron host. Join it with: theatron join LINK\n"
+    "It was built without the browser client, so a browser cannot join.\n";
 
 }  // namespace
 
 net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<std::string>& tokens,
                             const std::function<HostFigures()>& figures) {
     const std::string_view path = net::path_of(request.target);
-    if (path != "/status" && path != "/metrics")
+    if (path == "/")
         return {.body = plain_answer};
+    if (path != "/status" && path != "/metrics")
+        return {.status = 404, .body = "There is nothing here.\n"};
     const std::string shown = net::shown_token(request);
     bool known = false;
     for (const std::string& token : tokens)

@@ -95,6 +95,8 @@ net::Server::Handler Host::Impl::handler() {
                                    .body = "This link has expired; ask for a new one.\n"};
         if (is_lobby(request))
             return answer_lobby(request);
+        if (auto file = page.answer(request))
+            return std::move(*file);
         return answer_http(request, http_tokens(), [this] { return figures(); });
     };
     return h;

@@ -16,6 +16,7 @@
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "host/link_book.h"
+#include "host/page.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
@@ -38,6 +39,7 @@ struct Host::Impl {
     std::optional<LinkWatch> link_watch;    // used by the owner of the host
     std::optional<TimePoint> roles_expire;  // the links of the roles
     std::string metrics_token;
+    Page page;  // does not change
     bool asks = false;
     bool has_ended = false;  // the session, before the host did
     mutable std::mutex tokens_mutex;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A participant's side of the network: one connection to the host of a link,
 // whose certificate must be the one that the link names.
+// client.cpp is the native one with a thread, client_web.cpp that of a browser's page.
 #pragma once
 
 #include <functional>
@@ -38,10 +39,15 @@ public:
         bool final = false;  // another attempt is useless: the certificate is another one
     };
 
-    // Connects and serves until the connection ends or stop() is called.
+    // Connects and serves until the connection ends or stop() is called. Not in a browser.
     End run();
 
-    // From any thread.
+    // In a browser only, which owns the thread: returns at once. `ended` is called once, from one
+    // of the browser's events, and must not destroy this. Destroying it before ends the connection.
+    // The browser checks the host's certificate by its own rules, not against the link.
+    void start(std::function<void(const End&)> ended);
+
+    // From any thread. Not in a browser.
     void stop();
     void post(std::function<void()> work);  // runs `work` on the client's thread
 

@@ -184,11 +184,12 @@ private:
             extend(first_message_deadline, "did not join in time");
             if (!websocket::is_upgrade(request)) {
                 const std::string authorization(request[http::field::authorization]);
-                const HttpAnswer answered =
-                    door_.events.http({std::string(request.target()), authorization});
+                HttpAnswer answered =
+                    door_.events.http({std::string(request.target()), authorization,
+                                       std::string(request[http::field::accept_encoding])});
                 if (answered.status == 401 && !authorization.empty())
                     door_.places.note_wrong_token(address_group(address_), steady_now());
-                return answer(answered);
+                return answer(std::move(answered));
             }
             if (path_of(std::string_view(request.target().data(), request.target().size())) !=
                 websocket_path)
@@ -202,14 +203,21 @@ private:
     }
 
     // For requests without a WebSocket, for example of a browser.
-    void answer(const HttpAnswer& answer) {
-        response_.result(unsigned(answer.status));
-        response_.set(http::field::content_type, answer.type);
+    void answer(HttpAnswer answer) {
+        answer_ = std::move(answer);
+        const std::string& body = answer_.file ? *answer_.file : answer_.body;
+        if (body.size() > large_answer)
+            extend(large_answer_deadline, "did not take its answer in time");
+        response_.result(unsigned(answer_.status));
+        response_.set(http::field::content_type, answer_.type);
         response_.set(http::field::cache_control, "no-store");
-        if (answer.status == 401)
+        response_.set("X-Content-Type-Options", "nosniff");
+        if (answer_.status == 401)
             response_.set(http::field::www_authenticate, "Bearer");
+        for (const auto& [name, value] : answer_.headers)
+            response_.set(name, value);
         response_.keep_alive(false);
-        response_.body() = answer.body;
+        response_.body() = {body.data(), body.size()};
         response_.prepare_payload();
         http::async_write(*stream_, response_, step([this] {
             stream_->async_shutdown(door_.here([self = shared_from_this()](beast::error_code) {
@@ -269,7 +277,8 @@ private:
     asio::steady_timer deadline_;
     beast::flat_buffer incoming_;
     http::request_parser<http::empty_body> parser_;
-    http::response<http::string_body> response_;
+    HttpAnswer answer_;  // owns the body of:
+    http::response<http::span_body<const char>> response_;
 };
 
 void Door::Impl::turn_away(Places::Id id, const std::string& why) {

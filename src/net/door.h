@@ -25,6 +25,9 @@ public:
     // the end of the answer.
     static constexpr Duration request_deadline = std::chrono::seconds(3);
     static constexpr Duration first_message_deadline = std::chrono::seconds(2);
+    // To the end of an answer of more than large_answer bytes, which takes time on a slow link.
+    static constexpr Duration large_answer_deadline = std::chrono::seconds(30);
+    static constexpr std::size_t large_answer = 64 * 1024;
     // Largest head of an HTTP request.
     static constexpr std::size_t max_request_bytes = 8 * 1024;
     // Receive buffers of sockets before and after the token was shown. Linux doubles them.

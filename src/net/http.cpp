@@ -51,6 +51,23 @@ std::string shown_token(const HttpRequest& request) {
     return query_value(request.target, "token");
 }
 
+bool accepts_encoding(std::string_view accept_encoding, std::string_view coding) {
+    constexpr std::string_view blanks = " \t";
+    while (!accept_encoding.empty()) {
+        const std::size_t end = std::min(accept_encoding.find(','), accept_encoding.size());
+        std::string_view part = accept_encoding.substr(0, end);
+        accept_encoding.remove_prefix(std::min(end + 1, accept_encoding.size()));
+        part.remove_prefix(std::min(part.find_first_not_of(blanks), part.size()));
+        const std::string_view name = part.substr(0, part.find_first_of("; \t"));
+        if (name != coding)
+            continue;
+        // "q=0" with any number of zeros refuses it.
+        const std::size_t q = part.find("q=");
+        return q == part.npos || part.find_first_of("123456789", q) != part.npos;
+    }
+    return false;
+}
+
 bool is_own_origin(std::string_view origin, std::string_view host) {
     constexpr std::string_view scheme = "https://";
     return origin.empty() || (origin.starts_with(scheme) && origin.substr(scheme.size()) == host);

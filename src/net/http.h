@@ -2,19 +2,27 @@
 // HTTP requests without a WebSocket, from browsers and monitoring systems, and their parsing.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace theatron::net {
 
 struct HttpRequest {
-    std::string target;         // path and query
-    std::string authorization;  // that header
+    std::string target;                // path and query
+    std::string authorization;         // that header
+    std::string accept_encoding = {};  // likewise
 };
 struct HttpAnswer {
     int status = 200;
     std::string type = "text/plain; charset=utf-8";
     std::string body;
+    // Sent instead of `body`, without a copy.
+    std::shared_ptr<const std::string> file = nullptr;
+    // Further headers. Without Cache-Control among them nobody may keep the answer.
+    std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
 // The part of a target before '?', not decoded.
@@ -26,6 +34,9 @@ std::string query_value(std::string_view target, std::string_view parameter);
 
 // The token that a request shows: "Authorization: Bearer TOKEN", or token=TOKEN in the query.
 std::string shown_token(const HttpRequest& request);
+
+// True if the header Accept-Encoding allows this coding by name. Safe for untrusted input.
+bool accepts_encoding(std::string_view accept_encoding, std::string_view coding);
 
 // True if a page of `origin` (that header; empty: no browser) may connect to `host` (that header).
 // Only pages that this host itself served may.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any HTTP target, Authorization and Origin header, and any link: reading them stays inside
-// the input, and a link that is accepted can be written and read again.
+// Any HTTP target, Authorization, Accept-Encoding and Origin header, and any link: reading them
+// stays inside the input, and a link that is accepted can be written and read again.
 #include <cstdlib>
 
 #include "base/bytes.h"
@@ -18,6 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (shown.size() > text.size() || !first.starts_with(net::path_of(first)))
         std::abort();
     (void)net::is_own_origin(first, second);
+    (void)net::accepts_encoding(first, second);
     try {
         const net::Link link = net::parse_link(text);
         const net::Link again = net::parse_link(net::format_link(link));

@@ -21,6 +21,13 @@ TEST(Http, ThePathEndsWhereTheQueryBegins) {
     EXPECT_EQ(path_of(""), "");
 }
 
+TEST(Http, AnEncodingIsAcceptedByItsNameUnlessItsWeightIsZero) {
+    for (const char* text : {"br", "gzip, deflate, br", "gzip;q=0.5,br;q=0.01", " br ; q=1"})
+        EXPECT_TRUE(accepts_encoding(text, "br")) << text;
+    for (const char* text : {"", "*", "brotli", "gzip", "br;q=0", "br; q=0.000", ",,;", "gzip;br"})
+        EXPECT_FALSE(accepts_encoding(text, "br")) << text;
+}
+
 TEST(Http, OnlyPagesOfTheHostItselfAreItsOwn) {
     EXPECT_TRUE(is_own_origin("", "or-3:4400"));
     EXPECT_TRUE(is_own_origin("https://or-3:4400", "or-3:4400"));

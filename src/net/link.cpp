@@ -30,7 +30,7 @@ bool split_host_port(std::string_view text, std::string& host, std::uint16_t& po
 }
 
 bool is_hex_digest(std::string_view text) {
-    return text.size() == 64 && std::ranges::all_of(text, [](char c) {
+    return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
                return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
            });
 }

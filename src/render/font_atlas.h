@@ -24,7 +24,8 @@ struct FontAtlas {
 };
 
 // Latin letters, digits and signs of a font, given as the bytes of its file. Takes some tenths
-// of a second. Throws Error if it cannot be read.
+// of a second. Throws Error if it cannot be read. A browser draws the letters with its own font
+// instead.
 FontAtlas load_font_atlas(std::span<const std::byte> font);
 
 }  // namespace theatron::render

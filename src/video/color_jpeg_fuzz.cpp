@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "video/color_codec.h"
-#include "video/jpeg_decoder_native.h"
+#include "video/jpeg_decoder.h"
 #include "video/jpeg_header.h"
 #include "video/jpeg_reference_native.h"
 

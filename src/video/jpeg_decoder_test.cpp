@@ -9,8 +9,8 @@
 #include <string>
 
 #include "testing/every_target.h"
-#include "video/jpeg_baseline_native.h"
-#include "video/jpeg_decoder_native.h"
+#include "video/jpeg_baseline.h"
+#include "video/jpeg_decoder.h"
 #include "video/jpeg_native.h"
 #include "video/jpeg_reference_native.h"
 #include "video/test_psnr.h"

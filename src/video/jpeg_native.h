@@ -7,7 +7,7 @@
 #include "base/bytes.h"
 #include "base/status.h"
 #include "image/image.h"
-#include "video/jpeg_decoder_native.h"
+#include "video/jpeg_decoder.h"
 
 namespace theatron::video {
 

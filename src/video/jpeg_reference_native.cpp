@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "video/jpeg_baseline_native.h"
+#include "video/jpeg_baseline.h"
 #include "video/jpeg_header.h"
-#include "video/jpeg_pixels_native.h"
+#include "video/jpeg_pixels.h"
 
 namespace theatron::video {
 namespace {

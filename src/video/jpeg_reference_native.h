@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A JPEG decoder in the plainest form: bit by bit, block by block, pixel by pixel.
-// It defines the pixels and the refusals of the fast one (jpeg_decoder_native.h).
+// It defines the pixels and the refusals of the fast one (jpeg_decoder.h).
 // Native builds only.
 #pragma once
 

@@ -36,11 +36,6 @@ bool parse_place(const std::string& text, Vec3& place) {
 
 }  // namespace
 
-render::CloudCut SeenPerson::cut() const {
-    return who == Seen::oneself ? render::oneself(room_from_head, reach_m)
-                                : render::other_person(room_from_head, reach_m);
-}
-
 SeenPerson parse_seen_person(const std::string& text, Seen who) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)

@@ -21,7 +21,10 @@ struct SeenPerson {
     Pose room_from_head;
     double reach_m = 0;
 
-    render::CloudCut cut() const;
+    render::CloudCut cut() const {
+        return who == Seen::oneself ? render::oneself(room_from_head, reach_m)
+                                    : render::other_person(room_from_head, reach_m);
+    }
 };
 
 // CAMERA=X:Y:Z with yaw=, pitch= (degrees) and reach= (metres) behind commas. Throws Error with one

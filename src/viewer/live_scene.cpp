@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "session/room_object.h"
 #include "wire/condition_text.h"
-#include "xr/font_native.h"
+#include "xr/font.h"
 
 namespace theatron::viewer {
 namespace {

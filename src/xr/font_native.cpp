@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "xr/font_native.h"
+#include "xr/font.h"
 
 // The assembler reads the file: 750 kB as numbers in a source would take seconds to compile.
 __asm__(

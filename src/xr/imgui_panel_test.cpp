@@ -10,7 +10,7 @@
 
 #include "render/room_picture.h"
 #include "render/test_context.h"
-#include "xr/font_native.h"
+#include "xr/font.h"
 #include "xr/imgui_pass_native.h"
 
 namespace theatron::xr {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "xr/font_native.h"
+#include "xr/font.h"
 #include "xr/imgui_pass_native.h"
 #include "xr/window_input.h"
 

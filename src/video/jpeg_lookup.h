@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Huffman codes as look-up tables of the fast decoder: one look-up of the next bits gives
-// up to two symbols, their values, and whether the block ends. Native builds only.
+// up to two symbols, their values, and whether the block ends.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 
-#include "video/jpeg_baseline_native.h"
+#include "video/jpeg_baseline.h"
 
 namespace theatron::video {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "video/jpeg_decoder_native.h"
-
-#include <hwy/aligned_allocator.h>
+#include "video/jpeg_decoder.h"
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <utility>
 
-#include "video/jpeg_baseline_native.h"
-#include "video/jpeg_lookup_native.h"
-#include "video/jpeg_pixels_native.h"
-#include "video/jpeg_scan_native.h"
+#include "video/jpeg_baseline.h"
+#include "video/jpeg_lookup.h"
+#include "video/jpeg_pixels.h"
+#include "video/jpeg_scan.h"
 
 namespace theatron::video {
 namespace {
@@ -22,7 +22,8 @@ class Memory {
 public:
     T* of_size(std::size_t count) {
         if (count > size_) {
-            values_ = hwy::AllocateAligned<T>(count);
+            size_ = 0;
+            values_.reset(static_cast<T*>(::operator new(count * sizeof(T), boundary)));
             std::fill_n(values_.get(), count, T{});
             size_ = count;
         }
@@ -30,7 +31,11 @@ public:
     }
 
 private:
-    hwy::AlignedFreeUniquePtr<T[]> values_;
+    static constexpr std::align_val_t boundary{128};  // of every processor's vectors
+    struct Free {
+        void operator()(T* values) const { ::operator delete(values, boundary); }
+    };
+    std::unique_ptr<T, Free> values_;
     std::size_t size_ = 0;
 };
 

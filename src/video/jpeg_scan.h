@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Input of the fast JPEG decoder's kernels: tables and memory for one picture.
-// Native builds only.
 #pragma once
 
 #include <array>
@@ -8,8 +7,8 @@
 #include <cstdint>
 
 #include "image/view.h"
-#include "video/jpeg_baseline_native.h"
-#include "video/jpeg_lookup_native.h"
+#include "video/jpeg_baseline.h"
+#include "video/jpeg_lookup.h"
 #include "video/jpeg_zigzag.h"
 
 namespace theatron::video::jpeg_scan {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "xr/scaled_picture_native.h"
+#include "xr/scaled_picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coded bytes to coefficients, once per instruction set: included by
-// jpeg_scan_native.cpp alone.
+// jpeg_scan.cpp alone.
 #if defined(THEATRON_JPEG_BITS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef THEATRON_JPEG_BITS_INL
 #undef THEATRON_JPEG_BITS_INL
@@ -9,8 +9,8 @@
 #endif
 
 #include "hwy/highway.h"
-#include "video/jpeg_pixels_native.h"
-#include "video/jpeg_scan_native.h"
+#include "video/jpeg_pixels.h"
+#include "video/jpeg_scan.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace theatron::video::jpeg_scan::HWY_NAMESPACE {

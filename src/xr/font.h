@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DejaVu Sans as a TrueType file, part of the program.
+// DejaVu Sans as a TrueType file, part of the program. Empty in a browser's page.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fast decoder for the JPEG pictures that cameras and our encoder write:
 // sequential Huffman coding, three components, 4:2:0, 4:2:2 or 4:4:4.
-// docs/decisions/jpeg.md gives the reasons for it. Native builds only.
+// docs/decisions/jpeg.md gives the reasons for it.
 #pragma once
 
 #include <memory>

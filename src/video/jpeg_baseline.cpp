@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "video/jpeg_baseline_native.h"
+#include "video/jpeg_baseline.h"
 
 #include "video/jpeg_header.h"
 

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "video/jpeg_scan_native.h"
+#include "video/jpeg_scan.h"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "video/jpeg_header.h"
-#include "video/jpeg_pixels_native.h"
+#include "video/jpeg_pixels.h"
 
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "video/jpeg_scan_native.cpp"
+#define HWY_TARGET_INCLUDE "video/jpeg_scan.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 #if HWY_TARGET != HWY_SCALAR
 // In this order, which is that of decoding.
-#include "video/jpeg_bits_native-inl.h"
+#include "video/jpeg_bits-inl.h"
 
-#include "video/jpeg_samples_native-inl.h"
+#include "video/jpeg_samples-inl.h"
 
-#include "video/jpeg_colors_native-inl.h"
+#include "video/jpeg_colors-inl.h"
 #endif
 
 HWY_BEFORE_NAMESPACE();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The marker segments of the JPEG pictures that our own decoder takes, checked
 // and in one piece. Both the fast decoder and its reference start from here.
-// Native builds only.
 #pragma once
 
 #include <array>

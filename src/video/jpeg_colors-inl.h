@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples to pixels, once per instruction set: included by jpeg_scan_native.cpp
+// Samples to pixels, once per instruction set: included by jpeg_scan.cpp
 // alone.
 //
 // Even and odd pixels go separate ways, in lanes of 16 bits, and meet as bytes.
@@ -11,8 +11,8 @@
 #endif
 
 #include "hwy/highway.h"
-#include "video/jpeg_pixels_native.h"
-#include "video/jpeg_scan_native.h"
+#include "video/jpeg_pixels.h"
+#include "video/jpeg_scan.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace theatron::video::jpeg_scan::HWY_NAMESPACE {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packs the page for the host: node pack.mjs OUTPUT_FOLDER FILE...
+//
+// All but index.html get the hash of their content into their name, so that browsers may keep them for ever.
+// Text and program are compressed in advance. files.txt has a line for each file: its path, type and name.
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { basename, extname, join } from "node:path";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
+
+const types = {
+    ".html": "text/html;charset=utf-8", ".css": "text/css;charset=utf-8", ".js": "text/javascript;charset=utf-8",
+    ".mjs": "text/javascript;charset=utf-8", ".wasm": "application/wasm", ".svg": "image/svg+xml",
+};
+
+const [folder, ...files] = process.argv.slice(2);
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+const paths = new Map(files.map(file => [basename(file), file]));
+const stored = new Map();  // name -> name with its hash
+const lines = [];
+
+// Those that a file names come first: their hashes are part of its content. There is no circle.
+function store(name) {
+    if (stored.has(name))
+        return stored.get(name);
+    const ending = extname(name);
+    let content = readFileSync(paths.get(name));
+    if (ending !== ".wasm") {
+        const text = content.toString("utf8").replace(/"(\.\/)?([\w.]+)"/g, (all, folder = "", other) =>
+            other !== name && paths.has(other) ? `"${folder}${store(other)}"` : all);
+        content = Buffer.from(text);
+    }
+    const hash = createHash("sha256").update(content).digest("hex").slice(0, 16);
+    const is_first = name === "index.html";
+    const as = is_first ? name : `${name.slice(0, -ending.length)}.${hash}${ending}`;
+    stored.set(name, as);
+    writeFileSync(join(folder, as), content);
+    writeFileSync(join(folder, as + ".gz"), gzipSync(content, { level: 9 }));
+    writeFileSync(join(folder, as + ".br"), brotliCompressSync(content, {
+        params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: content.length },
+    }));
+    lines.push(`/${is_first ? "" : as} ${types[ending]} ${as}`);
+    return as;
+}
+
+for (const name of paths.keys())
+    store(name);
+writeFileSync(join(folder, "files.txt"), lines.join("\n") + "\n");

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page's panels show, as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "client/participant.h"
+#include "viewer/viewer.h"
+
+namespace theatron::web {
+
+// `address` is shown until the host's name is known.
+nlohmann::json page_state(viewer::Viewer& viewer, const client::Participant& participant,
+                          const std::string& address, TimePoint now);
+
+}  // namespace theatron::web

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/page.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace theatron::host {
+namespace {
+
+// Nothing from elsewhere, no script or style within the page, no frame around it, no plug-ins, no
+// form to elsewhere; WebAssembly is compiled. Its address is told to nobody.
+const std::vector<std::pair<std::string, std::string>>& strict_headers() {
+    static const std::vector<std::pair<std::string, std::string>> headers = {
+        {"Content-Security-Policy",
+         "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+         "img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+         "frame-ancestors 'none'"},
+        {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"Cross-Origin-Embedder-Policy", "require-corp"},
+        {"Cross-Origin-Resource-Policy", "same-origin"},
+        {"Referrer-Policy", "no-referrer"},
+        {"Permissions-Policy",
+         "camera=(), geolocation=(), microphone=(), payment=(), usb=(), fullscreen=(self)"},
+    };
+    return headers;
+}
+
+std::shared_ptr<const std::string> content_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    if (!(content << in.rdbuf()))
+        throw Error("The browser client's file '" + file.string() +
+                    "' cannot be read; build it again with: make build");
+    return std::make_shared<const std::string>(std::move(content).str());
+}
+
+}  // namespace
+
+Page::Page(const std::filesystem::path& folder) {
+    std::ifstream list(folder / "files.txt");
+    std::string path, type, name;
+    while (list >> path >> type >> name)
+        files_[path] = {type, content_of(folder / name), content_of(folder / (name + ".gz")),
+                        content_of(folder / (name + ".br"))};
+}
+
+std::optional<net::HttpAnswer> Page::answer(const net::HttpRequest& request) const {
+    const std::string_view path = net::path_of(request.target);
+    const auto found = files_.find(path);
+    if (found == files_.end())
+        return std::nullopt;
+    const File& file = found->second;
+    net::HttpAnswer answer{.type = file.type, .file = file.plain, .headers = strict_headers()};
+    const auto use = [&](const char* coding, const Content& content) {
+        const bool can = net::accepts_encoding(request.accept_encoding, coding);
+        if (can) {
+            answer.file = content;
+            answer.headers.emplace_back("Content-Encoding", coding);
+        }
+        return can;
+    };
+    if (!use("br", file.brotli))
+        use("gzip", file.gzip);
+    answer.headers.emplace_back("Vary", "Accept-Encoding");
+    // All names but the page's own contain the hash of the content.
+    answer.headers.emplace_back("Cache-Control",
+                                path == "/" ? "no-cache" : "public, max-age=31536000, immutable");
+    return answer;
+}
+
+std::filesystem::path usual_page_folder() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    return error ? std::filesystem::path() : program.parent_path() / "web";
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The browser client that a host serves: files that apps/web/pack.mjs packed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "net/http.h"
+
+namespace theatron::host {
+
+// Does not change after its construction; any thread.
+class Page {
+public:
+    // Without files: the host was built without the browser client.
+    Page() = default;
+    // The files that `folder`/files.txt lists, in memory. Without that list: none. Throws Error if
+    // a listed file is missing.
+    explicit Page(const std::filesystem::path& folder);
+
+    bool empty() const { return files_.empty(); }
+
+    // nullopt if there is nothing at this path. Only listed paths are found, whatever the request.
+    std::optional<net::HttpAnswer> answer(const net::HttpRequest& request) const;
+
+private:
+    using Content = std::shared_ptr<const std::string>;
+    struct File {
+        std::string type;
+        Content plain, gzip, brotli;
+    };
+    std::map<std::string, File, std::less<>> files_;  // by path
+};
+
+// The folder of the page of this program: `web` beside it. Empty if that cannot be found out.
+std::filesystem::path usual_page_folder();
+
+}  // namespace theatron::host

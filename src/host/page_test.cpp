@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/page.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::host {
+namespace {
+
+class PageTest : public ::testing::Test {
+protected:
+    void write(const std::string& name, const std::string& content) {
+        std::ofstream(folder.path() / name, std::ios::binary) << content;
+    }
+    void write_page() {
+        write("files.txt",
+              "/ text/html;charset=utf-8 index.html\n/a.12.js text/javascript a.12.js\n");
+        for (const std::string name : {"index.html", "a.12.js"})
+            for (const std::string ending : {"", ".gz", ".br"})
+                write(name + ending, name + ending + " content");
+    }
+    static std::string header(const net::HttpAnswer& answer, const std::string& name) {
+        for (const auto& [known, value] : answer.headers)
+            if (known == name)
+                return value;
+        return "";
+    }
+
+    testing::TemporaryFolder folder;
+};
+
+TEST_F(PageTest, GivesTheBestCodingThatTheBrowserAccepts) {
+    write_page();
+    const Page page(folder.path());
+    const auto content = [&](const std::string& accepted) {
+        return *page.answer({"/a.12.js", "", accepted})->file;
+    };
+    EXPECT_EQ(content("gzip, br"), "a.12.js.br content");
+    EXPECT_EQ(content("gzip"), "a.12.js.gz content");
+    EXPECT_EQ(content(""), "a.12.js content");
+    EXPECT_EQ(header(*page.answer({"/a.12.js", "", "br"}), "Content-Encoding"), "br");
+    EXPECT_EQ(header(*page.answer({"/a.12.js", "", ""}), "Content-Encoding"), "");
+}
+
+TEST_F(PageTest, IsKeptByBrowsersExceptItsFirstFile) {
+    write_page();
+    const Page page(folder.path());
+    EXPECT_EQ(header(*page.answer({"/", "", ""}), "Cache-Control"), "no-cache");
+    EXPECT_EQ(header(*page.answer({"/a.12.js", "", ""}), "Cache-Control"),
+              "public, max-age=31536000, immutable");
+}
+
+TEST_F(PageTest, AllowsNothingFromElsewhereAndNoScriptWithinThePage) {
+    write_page();
+    const auto answer = Page(folder.path()).answer({"/?a=b", "", ""});
+    ASSERT_TRUE(answer);
+    const std::string policy = header(*answer, "Content-Security-Policy");
+    EXPECT_TRUE(policy.starts_with("default-src 'none';")) << policy;
+    for (const char* open : {"unsafe-inline", "'unsafe-eval'", "*", "http:", "https:", "data:"})
+        EXPECT_EQ(policy.find(open), policy.npos) << open;
+    EXPECT_EQ(header(*answer, "Cross-Origin-Opener-Policy"), "same-origin");
+    EXPECT_EQ(header(*answer, "Cross-Origin-Embedder-Policy"), "require-corp");
+    EXPECT_EQ(header(*answer, "Cross-Origin-Resource-Policy"), "same-origin");
+}
+
+TEST_F(PageTest, HasOnlyListedFiles) {
+    write_page();
+    write("secret", "secret");
+    const Page page(folder.path());
+    for (const char* target : {"/secret", "/files.txt", "/../secret", "/a.12.js/", "//", "",
+                               "/a.12.js.br", "/index.html", "/%61.12.js"})
+        EXPECT_FALSE(page.answer({target, "", "br"})) << target;
+}
+
+TEST_F(PageTest, WithoutAFolderThereIsNoPage) {
+    EXPECT_TRUE(Page(folder.path()).empty());
+    EXPECT_TRUE(Page(std::filesystem::path()).empty());
+    EXPECT_FALSE(Page().answer({"/", "", ""}));
+}
+
+TEST_F(PageTest, AListedFileThatIsMissingIsNamed) {
+    write("files.txt", "/ text/html index.html\n");
+    try {
+        const Page page(folder.path());
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("index.html"), std::string::npos) << e.what();
+    }
+}
+
+}  // namespace
+}  // namespace theatron::host

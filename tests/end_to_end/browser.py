@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Chromium without a window, driven by its DevTools protocol over a pipe: no further package is needed."""
+import base64
+import json
+import os
+import pathlib
+import queue
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+CHROMIUM = shutil.which("chromium")
+
+
+class Browser:
+    """One Chromium with a fresh profile. Certificates are not checked: hosts in tests make their own."""
+
+    def __init__(self, *options):
+        self.profile = tempfile.TemporaryDirectory(prefix="theatron_browser_", ignore_cleanup_errors=True)
+        child_reads, self.commands = os.pipe()
+        self.answers, child_writes = os.pipe()
+        # The protocol's pipes are the descriptors 3 and 4 of the browser.
+        self.process = subprocess.Popen(
+            ["bash", "-c", f'exec "$@" 3<&{child_reads} 4>&{child_writes}', "bash", CHROMIUM,
+             "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
+             "--use-angle=gles-egl", "--ignore-gpu-blocklist", "--ignore-certificate-errors",
+             "--no-first-run", "--disable-background-networking", "--lang=en-US",
+             "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", *options, "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=(child_reads, child_writes),
+            start_new_session=True)
+        os.close(child_reads)
+        os.close(child_writes)
+        self.next_id = 0
+        self.lock = threading.Lock()
+        self.waiting = {}
+        self.pages = {}
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+
+    def _read(self):
+        rest = b""
+        while data := os.read(self.answers, 1 << 20):
+            *messages, rest = (rest + data).split(b"\0")
+            for message in messages:
+                message = json.loads(message)
+                if "id" in message:
+                    self.waiting.pop(message["id"]).put(message)
+                elif page := self.pages.get(message.get("sessionId")):
+                    page.on_event(message["method"], message["params"])
+
+    def call(self, method, session=None, timeout=60, **parameters):
+        answer = queue.Queue()
+        with self.lock:
+            self.next_id += 1
+            message = {"id": self.next_id, "method": method, "params": parameters}
+            if session:
+                message["sessionId"] = session
+            self.waiting[self.next_id] = answer
+            os.write(self.commands, json.dumps(message).encode() + b"\0")
+        result = answer.get(timeout=timeout)
+        if "error" in result:
+            raise AssertionError(f"{method}: {result['error']}")
+        return result["result"]
+
+    def open(self, url, size=(640, 360)):
+        return Page(self, url, size)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.reader.join(5)
+        os.close(self.commands)
+        os.close(self.answers)
+        self.profile.cleanup()
+
+
+class Page:
+    def __init__(self, browser, url, size):
+        self.browser = browser
+        self.problems = []  # exceptions, warnings and errors of its console
+        self.requests = []  # addresses
+        self.bytes = 0      # that came, without those of WebSockets
+        target = browser.call("Target.createTarget", url="about:blank", newWindow=True)["targetId"]
+        self.session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        browser.pages[self.session] = self
+        for domain in ("Runtime", "Log", "Network", "Page"):
+            self.call(f"{domain}.enable")
+        self.call("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1,
+                  mobile=False)
+        self.call("Page.navigate", url=url)
+
+    def call(self, method, **parameters):
+        return self.browser.call(method, session=self.session, **parameters)
+
+    def on_event(self, method, event):
+        if method == "Runtime.exceptionThrown":
+            details = event["exceptionDetails"]
+            self.problems.append(details.get("exception", {}).get("description", details["text"]))
+        elif method == "Runtime.consoleAPICalled" and event["type"] in ("warning", "error", "assert"):
+            self.problems.append(" ".join(str(a.get("value", a.get("description"))) for a in event["args"]))
+        elif method == "Log.entryAdded" and event["entry"]["level"] in ("warning", "error"):
+            self.problems.append(event["entry"]["text"] + " " + event["entry"].get("url", ""))
+        elif method == "Network.requestWillBeSent":
+            self.requests.append(event["request"]["url"])
+        elif method == "Network.loadingFinished":
+            self.bytes += event["encodedDataLength"]
+
+    def evaluate(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in result:
+            raise AssertionError(f"{expression}: {result['exceptionDetails']}")
+        return result["result"].get("value")
+
+    def wait_for(self, condition, timeout=60):
+        """Waits until the JavaScript `condition` is true; returns its value."""
+        deadline = time.monotonic() + timeout
+        while True:
+            value = self.evaluate(condition)
+            if value:
+                return value
+            if time.monotonic() > deadline:
+                state = self.evaluate("JSON.stringify(globalThis.theatron ?? null)")
+                raise AssertionError(f"not in {timeout} s: {condition}; {self.problems}; {state}")
+            time.sleep(0.05)
+
+    def screenshot(self, path):
+        picture = self.call("Page.captureScreenshot", format="png")["data"]
+        pathlib.Path(path).write_bytes(base64.b64decode(picture))
+
+    def mouse(self, kind, x, y, button="left", **more):
+        """`kind`: mousePressed, mouseReleased, mouseMoved or mouseWheel."""
+        held = {"left": 1, "right": 2, "none": 0}[button]
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button,
+                  buttons=0 if kind == "mouseReleased" else held, clickCount=int(kind in ("mousePressed", "mouseReleased")),
+                  **more)
+
+    def press(self, key, code):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code)
+
+    def reload(self):
+        self.call("Page.reload")

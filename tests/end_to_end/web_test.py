@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The browser client in a real browser: by the host's link into the room, with a native participant there."""
+import contextlib
+import gzip
+import http.client
+import os
+import pathlib
+import signal
+import socket
+import ssl
+import tempfile
+import unittest
+
+import theatron_process
+from browser import CHROMIUM, Browser
+from theatron_process import Process, host, read_png
+
+PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
+PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
+CAMERAS = tuple(f"synthetic:seconds=2,fps=10,quality=quick,camera={i},loop=1" for i in (0, 1))
+SIZE = (960, 540)
+
+
+def get(link, path, headers=None, body=True):
+    """The answer to a request, and its content if it has to be read."""
+    address = link.split("/")[2]
+    connection = http.client.HTTPSConnection(address, context=ssl._create_unverified_context(), timeout=20)
+    connection.request("GET", path, headers=headers or {})
+    answer = connection.getresponse()
+    content = answer.read() if body else b""
+    connection.close()
+    return answer, content
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class Web(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = contextlib.ExitStack()
+        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
+        cls.host = cls.stack.enter_context(host(cls.folder / "host", *CAMERAS))
+        cls.link = cls.host.greeting["link"]
+        cls.browser = cls.stack.enter_context(Browser())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stack.close()
+
+    def picture(self, page, name):
+        file = pathlib.Path(PICTURES or self.folder) / f"{name}.png"
+        page.screenshot(file)
+        return read_png(file)
+
+    def enter(self, link, name):
+        page = self.browser.open(link, SIZE)
+        page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
+        page.evaluate(f"document.getElementById('name').value = '{name}'; document.getElementById('enter').click()")
+        return page
+
+    def test_the_page_has_strict_headers_and_is_compressed_and_kept_by_its_hash(self):
+        answer, plain = get(self.link, "/")
+        self.assertEqual(answer.status, 200)
+        self.assertEqual(answer.headers["Cache-Control"], "no-cache")
+        names = [line.split()[0] for line in PAGE.read_text().splitlines()]
+        script = next(name for name in names if name.startswith("/page.") and name.endswith(".js"))
+        self.assertIn(f'"{script[1:]}"', plain.decode())
+        for name in ("/", script):
+            answer, packed = get(self.link, name, {"Accept-Encoding": "gzip"})
+            self.assertEqual(answer.headers["Content-Encoding"], "gzip")
+            self.assertEqual(gzip.decompress(packed), get(self.link, name)[1])
+            self.assertIn("default-src 'none'", answer.headers["Content-Security-Policy"])
+            self.assertEqual(answer.headers["X-Content-Type-Options"], "nosniff")
+            self.assertEqual(answer.headers["Cross-Origin-Embedder-Policy"], "require-corp")
+        self.assertIn("immutable", answer.headers["Cache-Control"])
+        for path in ("/files.txt", "/..%2f", "/page.js"):
+            self.assertEqual(get(self.link, path)[0].status, 404, path)
+
+    def test_a_page_of_another_origin_cannot_connect(self):
+        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA=="}
+        own = "https://" + self.link.split("/")[2]
+        for origin, status in ((own, 101), ("https://elsewhere.example", 403), ("null", 403)):
+            self.assertEqual(get(self.link, "/connection", upgrade | {"Origin": origin}, body=False)[0].status, status)
+
+    def test_by_the_link_into_the_room_to_a_native_participant(self):
+        with Process("join", self.link, "--name", "Ben", "--every", "0.2") as ben:
+            ben.wait_for(lambda f: f["fps"] > 0, 20)
+            page = self.enter(self.link, "Ada")
+            page.wait_for("theatron.complete_ms !== null")
+            state = page.wait_for("theatron.state.people.length === 2 && theatron.state.pictures > 3 && theatron.state")
+            self.assertEqual({person["name"]: person["self"] for person in state["people"]},
+                             {"Ada": True, "Ben": False})
+            self.assertEqual([camera["state"] for camera in state["cameras"]], ["live", "live"])
+            width, height, channels, rows = self.picture(page, "room")
+            # Right of the panels there are the cameras' surfaces, not one background.
+            colors = {bytes(rows[y][channels * x:channels * x + 3])
+                      for y in range(40, height - 60, 5) for x in range(width // 2, width, 5)}
+            self.assertGreater(len(colors), 300)
+
+            # A brick before the eye, seen and then dragged.
+            page.evaluate("document.getElementById('view').focus()")
+            page.press("n", "KeyN")
+            bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
+            before = bricks(ben.wait_for(bricks, 20))[0]["position"]
+            middle = (SIZE[0] / 2, SIZE[1] * 0.57)  # the camera's axis is not quite in the middle
+            drawn = page.wait_for("theatron.state.bricks === 1 && theatron.state.pictures")
+            page.wait_for(f"theatron.state.pictures > {drawn + 1}")
+            page.mouse("mouseMoved", *middle, "none")
+            page.mouse("mousePressed", *middle)
+            held = ben.wait_for(lambda f: bricks(f)[0]["held_by"] != 0, 20)
+            ada = next(person["id"] for person in held["room"]["people"] if person["name"] == "Ada")
+            self.assertEqual(bricks(held)[0]["held_by"], ada)
+            for step in range(1, 6):
+                page.mouse("mouseMoved", middle[0] + 30 * step, middle[1])
+            self.picture(page, "brick")
+            page.mouse("mouseReleased", middle[0] + 150, middle[1])
+            after = bricks(ben.wait_for(lambda f: bricks(f)[0]["held_by"] == 0, 20))[0]["position"]
+            self.assertGreater(sum((a - b) ** 2 for a, b in zip(after, before)) ** 0.5, 0.1)
+
+            token = self.link.split("join=")[1].split("&")[0]
+            own = "https://" + self.link.split("/")[2] + "/"
+            self.assertEqual([url for url in page.requests if token in url.split("#")[0] or not url.startswith(own)], [])
+            self.assertEqual(page.problems, [])
+            self.assertLess(page.bytes, 1_000_000)
+            page.evaluate("document.getElementById('leave').click()")
+            ben.wait_for(lambda f: [person["name"] for person in f["room"]["people"]] == ["Ben"], 20)
+
+    def test_a_link_without_a_token_or_with_a_wrong_one_is_explained(self):
+        page = self.browser.open(self.link.split("#")[0], SIZE)
+        page.wait_for("document.getElementById('enter')?.disabled")
+        self.assertIn("no invitation", page.evaluate("document.getElementById('invitation').textContent"))
+        page = self.enter(self.link.replace("join=", "join=wrong"), "Eve")
+        page.wait_for("theatron.state.phase === 'left' && document.getElementById('problem').textContent")
+        self.picture(page, "refused")
+
+    def test_after_a_restart_of_the_host_the_page_is_in_the_room_again(self):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            listen = f"127.0.0.1:{probe.getsockname()[1]}"
+        with host(self.folder / "other", listen=listen) as first:
+            page = self.enter(first.greeting["link"], "Ada")
+            page.wait_for("theatron.state.phase === 'joined'")
+            first.send(signal.SIGKILL)
+            first.end()
+            page.wait_for("theatron.state.phase === 'lost'")
+            with host(self.folder / "other", listen=listen):
+                page.wait_for("theatron.state.phase === 'joined' && theatron.state.joins === 2")
+
+
+if __name__ == "__main__":
+    unittest.main()
