@@ -7,29 +7,18 @@ namespace theatron::web {
 
 std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code) {
     using xr::Action;
-    // Digits by their place: some keyboards need Shift for them. Tab and Escape stay the browser's.
+    // Digits by their place: some keyboards need Shift for them. Tab and Escape stay the browser's,
+    // and the page itself shows the help.
     for (const std::string_view row : {"Digit", "Numpad"})
         if (code.size() == row.size() + 1 && code.substr(0, row.size()) == row &&
             code.back() >= '1' && code.back() <= '9')
             return xr::KeyPress{Action::view_camera, code.back() - '1'};
     static const std::map<std::string_view, Action> actions = {
-        {"f1", Action::help},
-        {"h", Action::help},
-        {"b", Action::facts},
-        {"m", Action::next_renderer},
-        {"c", Action::next_depth_codec},
-        {"n", Action::new_brick},
-        {"g", Action::give},
-        {"y", Action::admit},
-        {"k", Action::call},
-        {"j", Action::come},
-        {"u", Action::turn_away},
-        {"delete", Action::remove},
-        {"x", Action::sit_or_stand},
-        {"p", Action::people},
-        {"o", Action::show_case},
-        {"i", Action::slice_here},
-        {"r", Action::own_view},
+        {"b", Action::facts},       {"m", Action::next_renderer}, {"c", Action::next_depth_codec},
+        {"n", Action::new_brick},   {"g", Action::give},          {"y", Action::admit},
+        {"k", Action::call},        {"j", Action::come},          {"u", Action::turn_away},
+        {"delete", Action::remove}, {"x", Action::sit_or_stand},  {"p", Action::people},
+        {"o", Action::show_case},   {"i", Action::slice_here},    {"r", Action::own_view},
         {"home", Action::own_view},
     };
     const auto found = actions.find(key);

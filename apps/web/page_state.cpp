@@ -23,10 +23,11 @@ json to_json(const xr::OverlayContent& overlay) {
         }
         panels.push_back({{"title", panel.title}, {"rows", rows}});
     }
-    return {{"facts", facts},           {"message", overlay.message},
-            {"detail", overlay.detail}, {"warning", overlay.warning},
-            {"notice", overlay.notice}, {"panels", panels},
-            {"help", overlay.help}};
+    return {
+        {"facts", facts},           {"message", overlay.message},
+        {"detail", overlay.detail}, {"warning", overlay.warning},
+        {"notice", overlay.notice}, {"panels", panels},
+    };
 }
 
 json camera_json(const client::CameraFigures& figures) {

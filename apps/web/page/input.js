@@ -8,7 +8,8 @@ const walking = {
 };
 const pixels_per_click = 100;  // of a wheel or of a pinch
 
-export function listen(canvas, client) {
+// `help` shows the help.
+export function listen(canvas, client, help) {
     const share = event => [event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight];
     const pointers = new Map();  // id -> place in pixels
     const middle = () => {
@@ -69,7 +70,9 @@ export function listen(canvas, client) {
             return;
         held.add(event.code);
         hold(event);
-        if (!event.repeat)
+        if (["h", "H", "F1"].includes(event.key))
+            help();
+        else if (!event.repeat)
             client.key(event.key.toLowerCase(), event.code);
         if (event.code in walking || ["F1", "Home"].includes(event.key))
             event.preventDefault();

@@ -55,7 +55,8 @@ function is_complete({ cameras, has_picture }) {
 function run(client) {
     const canvas = $("view");
     let next_texts = 0;
-    listen(canvas, client);
+    const help = () => $("help").open || $("help").showModal();
+    listen(canvas, client, help);
     $("room_panels").addEventListener("click", event => {
         const { command } = event.target.dataset;
         if (command !== undefined)
@@ -70,7 +71,7 @@ function run(client) {
     });
     $("full_screen").addEventListener("click", () =>
         document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
-    $("show_help").addEventListener("click", () => $("help").showModal());
+    $("show_help").addEventListener("click", help);
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => location.reload());
 
