@@ -48,6 +48,8 @@ cases::LabelChoice label_choice(const std::string& text) {
                     "' names no label; write --label 1=liver or --label 1=liver:shell.");
     const bool has_role = colon != std::string::npos && colon > equals;
     choice.name = text.substr(equals + 1, has_role ? colon - equals - 1 : std::string::npos);
+    if (choice.name.find_first_not_of(' ') == std::string::npos)
+        throw Error("'" + text + "' gives the label no name; write --label 1=liver.");
     choice.role = medical::role_of_name(choice.name);
     if (has_role) {
         const std::optional<medical::Role> role = medical::role_from_text(text.substr(colon + 1));
@@ -86,6 +88,7 @@ void import(ImportArguments& arguments) {
         cases::import_case(arguments.source, arguments.folder, options, cli::show_progress());
     for (const std::string& remark : report.remarks)
         std::printf("remark: %s\n", remark.c_str());
+    std::printf("name: %s\n", report.manifest.name.c_str());
     for (const medical::Series& series : report.manifest.series)
         std::printf("series: %s\n", series.name.c_str());
     for (const medical::Part& part : report.manifest.parts)

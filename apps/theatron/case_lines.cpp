@@ -2,6 +2,8 @@
 #include "case_lines.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,11 +30,17 @@ std::string rest_of(std::istream& words) {
     return text;
 }
 
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.10g", value);
+    return text;
+}
+
 double read_number(std::istream& words, double low, double high, const char* what) {
     double value = 0;
     if (!(words >> value) || !(value >= low && value <= high))
-        throw Error(std::string(what) + " is a number from " + std::to_string(int(low)) + " to " +
-                    std::to_string(int(high)) + ".");
+        throw Error(std::string(what) + " is a number from " + short_number(low) + " to " +
+                    short_number(high) + ".");
     return value;
 }
 
@@ -61,8 +69,11 @@ std::size_t find_part(const client::Participant& participant, const std::string&
                 return i;
             names += (names.empty() ? "" : ", ") + name;
         }
-    throw Error("The open case has no part '" + which + "'" +
-                (names.empty() ? "." : "; it has " + names + "."));
+    if (names.empty())
+        throw Error("No case is open, or its parts have not come yet.");
+    throw Error((which.empty() ? std::string("The line names no part")
+                               : "The open case has no part '" + which + "'") +
+                "; it has " + names + ".");
 }
 
 // "slice axial", "slice 12.5", "window liver", "window 60 400".
@@ -87,6 +98,9 @@ bool change_screen(client::Participant& participant, const std::string& what, st
             words >> which;
         }
         if (named == std::end(names) || words) {
+            if (named == std::end(names) && !which.empty() && std::isalpha(std::uint8_t(which[0])))
+                throw Error("There is no plane '" + which +
+                            "'; there are axial, coronal and sagittal.");
             std::istringstream number(which);
             screen.position_mm = read_number(number, -100'000, 100'000, "The place in millimetres");
             screen = viewer::scrolled(screen, *volume, 0);  // within the images
@@ -98,6 +112,12 @@ bool change_screen(client::Participant& participant, const std::string& what, st
         if (preset != presets.end()) {
             screen.center = preset->window.center;
             screen.width = preset->window.width;
+        } else if (!which.empty() && std::isalpha(std::uint8_t(which[0]))) {
+            std::string all;
+            for (const auto& known : presets)
+                all += (all.empty() ? "" : ", ") + std::string(known.name);
+            throw Error("There is no window '" + which + "'; there are " + all +
+                        ", or give centre and width.");
         } else {
             std::istringstream number(which);
             screen.center = read_number(number, -20'000, 20'000, "The centre of a window");
@@ -131,7 +151,7 @@ bool carry_out(client::Participant& participant, const std::string& what, std::i
         return viewer::cut_at_slice(participant, what == "cut");
     if (what == "slice" || what == "window")
         return change_screen(participant, what, words);
-    throw Error(std::string("The lines on cases are ") + case_lines_help() + ".");
+    throw Error("There is no such line on cases; 'theatron join --help' lists them.");
 }
 
 nlohmann::json screen_json(const session::CaseInRoom& room) {

@@ -161,6 +161,12 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
             input.grabbed.reset();
             next_texts = now;
         }
+        if (input.steering.approach != 0 && input.pointer && overlay.covers(*input.pointer)) {
+            constexpr double rows_per_click = 3;
+            overlay.scroll(*input.pointer,
+                           -rows_per_click * std::exchange(input.steering.approach, 0));
+            input.redraw = true;
+        }
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
                         window.pixels(), now);
         if (const TimePoint first = viewer.first_picture_at();

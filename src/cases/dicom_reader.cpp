@@ -159,11 +159,10 @@ void read_tags(const Tags& tags, DicomSlice& slice) {
     slice.series_uid = tags.text(0x0020, 0x000e, max_dicom_text);
     slice.frame_uid = tags.text(0x0020, 0x0052, max_dicom_text);
     slice.modality = tags.text(0x0008, 0x0060, 16);
+    slice.charset = tags.text(0x0008, 0x0005, max_dicom_text);
     slice.deidentified = tags.text(0x0012, 0x0062) == "YES";
     slice.slope = tags.number(0x0028, 0x1053, 1);
     slice.intercept = tags.number(0x0028, 0x1052, 0);
-    if (slice.slope == 0)
-        slice.slope = 1;
     slice.window.center = tags.number(0x0028, 0x1050, 0);
     slice.window.width = tags.number(0x0028, 0x1051, 0);
     slice.has_window = slice.window.width >= 1;
@@ -248,7 +247,16 @@ Answer read(int descriptor, DicomSlice& slice) {
         return has_image_size ? Answer::cut_off : Answer::no_image;
     }
     read_tags(tags, slice);
+    if (slice.slope == 0)
+        return Answer::no_scale;
     gdcm::Image& image = reader.GetImage();
+    // The library fills up missing pixels without an error, as it does with missing bytes.
+    const gdcm::ByteValue* pixels = tags.has(0x7fe0, 0x0010)
+                                        ? data.GetDataElement(Tag(0x7fe0, 0x0010)).GetByteValue()
+                                        : nullptr;
+    const bool is_plain = !image.GetTransferSyntax().IsEncapsulated();
+    if (is_plain && (!pixels || pixels->GetLength() < image.GetBufferLength()))
+        return Answer::cut_off;
     slice.inverted =
         image.GetPhotometricInterpretation() == gdcm::PhotometricInterpretation::MONOCHROME1;
     return read_samples(image, slice);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/outside_text.h"
+#include "cases/dicom_text.h"
 
 namespace theatron::cases {
 namespace {
@@ -24,11 +25,15 @@ void put_text(ByteWriter& writer, const std::string& text) {
     writer.put_bytes(as_bytes(std::string_view(text).substr(0, size)));
 }
 
-std::string get_text(ByteReader& reader, bool& good) {
+std::string_view get_raw_text(ByteReader& reader, bool& good) {
     const std::size_t size = reader.get<std::uint8_t>();
     good = good && size <= max_dicom_text;
     const ByteView bytes = reader.get_bytes(size);
-    return clean_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, max_dicom_text);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string get_text(ByteReader& reader, bool& good) {
+    return clean_text(get_raw_text(reader, good), max_dicom_text);
 }
 
 void put_vec3(ByteWriter& writer, Vec3 v) {
@@ -76,6 +81,7 @@ Bytes encode(const DicomSlice& slice) {
     for (const double v : {slice.column_spacing_mm, slice.row_spacing_mm, slice.slope,
                            slice.intercept, slice.window.center, slice.window.width})
         writer.put_f64(v);
+    put_text(writer, slice.charset);
     const std::size_t count = std::min(slice.identifiers.size(), max_identifiers);
     writer.put(std::uint8_t(count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -109,13 +115,15 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
     for (double* v : {&slice.column_spacing_mm, &slice.row_spacing_mm, &slice.slope,
                       &slice.intercept, &slice.window.center, &slice.window.width})
         *v = reader.get_f64();
+    slice.charset = get_text(reader, good);
     const std::size_t identifiers = reader.get<std::uint8_t>();
     if (identifiers > max_identifiers)
         return Status::malformed;
     for (std::size_t i = 0; i < identifiers; ++i) {
         Identifier identifier;
         identifier.name = get_text(reader, good);
-        identifier.value = get_text(reader, good);
+        identifier.value =
+            clean_text(utf8_of_dicom(get_raw_text(reader, good), slice.charset), max_dicom_text);
         slice.identifiers.push_back(std::move(identifier));
     }
     if (!reader.ok())

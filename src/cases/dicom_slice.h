@@ -38,6 +38,7 @@ struct DicomSlice {
     medical::Window window;
     bool inverted = false;      // MONOCHROME1
     bool deidentified = false;  // PatientIdentityRemoved is YES
+    std::string charset;        // of the identifiers, before they are decoded
     std::vector<Identifier> identifiers;
     // Stored values, row by row. `lowered`: the file has unsigned values beyond 32767, so 32768
     // was subtracted from all values.
@@ -46,6 +47,7 @@ struct DicomSlice {
 };
 
 Bytes encode(const DicomSlice& slice);
+// Identifiers are in UTF-8 then.
 Result<DicomSlice> decode_dicom_slice(ByteView bytes);
 
 }  // namespace theatron::cases

@@ -20,6 +20,7 @@ enum class Answer : std::uint8_t {
     many_frames = 7,  // several images in one file
     compression = 8,  // in a way that the library does not know
     too_large = 9,    // for the shared memory
+    no_scale = 10,    // all values would be the same
 };
 
 inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) {

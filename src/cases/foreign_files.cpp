@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/outside_text.h"
@@ -65,6 +66,24 @@ void require_size(const fs::path& file, std::size_t limit, const char* advice) {
                     std::to_string(limit >> 20) + " MiB are read; " + advice + ".");
 }
 
+// A PLY file announces in its head how much follows. The library would first make room for it.
+void require_announced(int file, const fs::path& path) {
+    std::string head(64 << 10, '\0');
+    const ssize_t size = pread(file, head.data(), head.size(), 0);
+    head.resize(std::size_t(std::max<ssize_t>(size, 0)));
+    std::istringstream lines(head);
+    const off_t bytes = lseek(file, 0, SEEK_END);
+    std::string line, word, element;
+    while (std::getline(lines, line) && !line.starts_with("end_header")) {
+        std::istringstream words(line);
+        double count = 0;
+        if (words >> word && word == "element" && words >> element >> count &&
+            count > double(bytes))
+            throw Error(in_quotes(path) +
+                        " announces more than it has bytes for: it is cut off or damaged.");
+    }
+}
+
 struct Reply {
     Answer what;
     ByteView content;  // in the shared memory, until the next request
@@ -94,6 +113,8 @@ const char* reason_of(Answer what) {
             return "is damaged, or compressed in a way that is not supported";
         case Answer::too_large:
             return "holds more than is read of one file";
+        case Answer::no_scale:
+            return "has a rescale slope of 0, so its values have no meaning; export it again";
         default:
             return "is damaged";
     }
@@ -145,6 +166,10 @@ DicomFiles::~DicomFiles() = default;
 std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
     constexpr std::string_view subject = "a DICOM file";
     require_size(file, max_dicom_file_bytes, "export one image per file");
+    constexpr std::uintmax_t least_bytes = 132;  // before the first element
+    std::error_code unknown;
+    if (fs::file_size(file, unknown) < least_bytes)
+        throw Error(in_quotes(file) + " is too short for a DICOM file; take it out of the folder.");
     input_->load(file);
     try {
         if (!child_) {
@@ -164,7 +189,10 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<DicomSlice> slice = decode_dicom_slice(copy);
         if (!slice)
-            throw Error(in_quotes(file) + " describes an image that cannot be.");
+            throw Error(
+                in_quotes(file) +
+                " describes an image whose size, place or scale of values cannot be; export "
+                "it again.");
         return std::move(*slice);
     } catch (const Error& error) {
         // The child does not know which file it had.
@@ -194,6 +222,8 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() < 0)
         throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+    if (lower_extension(path) == ".ply")
+        require_announced(file.get(), path);
     sandbox::Limits limits;
     limits.memory_bytes = max_reader_memory_bytes;
     limits.area_bytes = mesh_area_bytes;
@@ -216,7 +246,8 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<NamedMesh> mesh = decode_named_mesh(copy);
         if (!mesh)
-            throw Error(in_quotes(path) + " describes a mesh that cannot be.");
+            throw Error(in_quotes(path) +
+                        " has vertices or triangles that cannot be; export it again.");
         meshes.push_back(std::move(*mesh));
         const std::byte next{1};
         child.send({&next, 1});

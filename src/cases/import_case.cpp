@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/case_folder.h"
 #include "cases/import_parts.h"
 #include "cases/new_folder.h"
+#include "cases/patient_words.h"
 #include "files/file_bytes.h"
 #include "files/private_file.h"
 
@@ -17,45 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using medical::Case;
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return result;
-}
-
-// The words of the patient's names and numbers. Parts are named after files, and files are often
-// named after patients.
-std::vector<std::string> telling_words(const std::vector<ImportedSeries>& all_series) {
-    std::vector<std::string> words;
-    for (const ImportedSeries& series : all_series)
-        for (const Identifier& identifier : series.identifiers) {
-            if (identifier.name != "PatientName" && identifier.name != "PatientID" &&
-                identifier.name != "OtherPatientNames" && identifier.name != "OtherPatientIDs" &&
-                identifier.name != "AccessionNumber")
-                continue;
-            std::string word;
-            for (const char c : lower(identifier.value) + "^") {
-                const bool parts_words = c == '^' || c == ' ' || c == ',' || c == '=' || c == '\\';
-                if (!parts_words) {
-                    word += c;
-                    continue;
-                }
-                if (word.size() >= 3)
-                    words.push_back(word);
-                word.clear();
-            }
-        }
-    return words;
-}
-
-bool tells(const std::string& name, const std::vector<std::string>& words) {
-    const std::string lowered = lower(name);
-    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-        return lowered.find(word) != std::string::npos;
-    });
-}
 
 void write_identifiers(const fs::path& folder, const std::vector<ImportedSeries>& all_series) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -83,6 +46,14 @@ std::optional<Case> manifest_of(const SourceFiles& files) {
     return std::nullopt;
 }
 
+// Throws Error if a label was named that no label map has.
+void require_labels(const ImportOptions& options, const std::set<int>& found) {
+    for (const LabelChoice& label : options.labels)
+        if (!found.contains(label.value))
+            throw Error("There is no label " + std::to_string(label.value) +
+                        " in the source, though --label names it.");
+}
+
 std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional<Case>& manifest,
                                    const ImportOptions& options, std::vector<std::string>& remarks,
                                    const Progress& progress) {
@@ -94,11 +65,16 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
             remarks.push_back(
                 "The source has surfaces, so its label map is not used; use it with "
                 "--from-labels.");
+        if (!options.labels.empty())
+            throw Error(
+                "--label names labels of a label map, which is not used here; give "
+                "--from-labels, too.");
         return import_meshes(files.meshes, manifest, options, remarks, progress);
     }
     std::vector<ImportedPart> parts;
+    std::set<int> found;
     for (const fs::path& file : files.label_maps) {
-        std::vector<ImportedPart> more = import_labels(file, options, remarks, progress);
+        std::vector<ImportedPart> more = import_labels(file, options, found, remarks, progress);
         // A file for each organ, as TotalSegmentator writes them: its name is the organ's.
         if (more.size() == 1 && more[0].part.name == "label 1" && options.labels.empty()) {
             std::string name = file.filename().string();
@@ -114,7 +90,23 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
     }
     if (parts.size() > max_parts)
         throw Error("The source holds more than " + std::to_string(max_parts) + " labels.");
+    require_labels(options, found);
     return parts;
+}
+
+// Throws Error if a text that was given for everybody to see has the patient's name in it.
+void require_silent(const ImportOptions& options, const PatientWords& words) {
+    const auto require = [&](const std::string& text, const char* option) {
+        if (words.occur_in(text))
+            throw Error(std::string(option) +
+                        " has a name or number of the patient in it, and everybody sees it; give "
+                        "another text.");
+    };
+    require(options.name, "--name");
+    require(options.license, "--license");
+    require(options.credit, "--credit");
+    for (const LabelChoice& label : options.labels)
+        require(label.name, "--label");
 }
 
 }  // namespace
@@ -132,17 +124,31 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
                     "' holds neither images nor surfaces that could be shown.");
 
     Case& result = report.manifest;
-    const std::vector<std::string> words = telling_words(all_series);
+    PatientWords words;
+    for (const ImportedSeries& series : all_series)
+        for (const Identifier& identifier : series.identifiers)
+            words.add(identifier);
+    require_silent(options, words);
     fs::path shown = folder;
     if (shown.filename().empty())
         shown = shown.parent_path();
-    result.name = clean_text(!options.name.empty()                     ? options.name
-                             : manifest                                ? manifest->name
-                             : tells(shown.filename().string(), words) ? "case"
-                                                                       : shown.filename().string(),
+    result.name = clean_text(!options.name.empty() ? options.name
+                             : manifest            ? manifest->name
+                                                   : shown.filename().string(),
                              max_name_characters);
     result.license = options.license.empty() && manifest ? manifest->license : options.license;
     result.credit = options.credit.empty() && manifest ? manifest->credit : options.credit;
+    const auto take_out = [&](std::string& text, const char* what, const char* instead) {
+        if (!words.occur_in(text))
+            return;
+        text = instead;
+        report.remarks.push_back(
+            std::string("The ") + what + " had the patient's name in it" +
+            (text.empty() ? " and is left out." : " and became '" + text + "'."));
+    };
+    take_out(result.name, "case's name", "case");
+    take_out(result.license, "licence", "");
+    take_out(result.credit, "credit", "");
     const bool said = std::all_of(all_series.begin(), all_series.end(),
                                   [](const ImportedSeries& s) { return s.deidentified; });
     result.deidentified = options.deidentified.value_or(
@@ -158,7 +164,7 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         medical::Part& part = parts[i].part;
-        if (tells(part.name, words)) {
+        if (words.occur_in(part.name)) {
             part.name = std::string(medical::to_text(part.role)) + " " + std::to_string(i + 1);
             report.remarks.push_back("A part's name had the patient's in it and became '" +
                                      part.name + "'.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "base/error.h"
@@ -121,6 +122,22 @@ void add_part(Part part, Mesh mesh, const ImportOptions& options, std::vector<Im
     parts.push_back({std::move(part), std::move(mesh)});
 }
 
+// A wrong unit makes organs a thousand times too small or too large.
+void remark_on_size(const std::vector<ImportedPart>& parts, std::vector<std::string>& remarks) {
+    constexpr double least_mm = 10, most_mm = 2000;
+    double largest_mm = 0;
+    for (const ImportedPart& one : parts) {
+        const medical::Box box = medical::box_of(one.mesh);
+        const Vec3 size = box.high_mm - box.low_mm;
+        largest_mm = std::max({largest_mm, size.x, size.y, size.z});
+    }
+    if (parts.empty() || (largest_mm >= least_mm && largest_mm <= most_mm))
+        return;
+    char text[100];
+    std::snprintf(text, sizeof(text), "The largest part is %.3g mm long", largest_mm);
+    remarks.push_back(std::string(text) + ", which no organ is; check the unit (--unit).");
+}
+
 }  // namespace
 
 std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
@@ -143,6 +160,7 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
         }
     }
     progress("Reading surfaces", 1);
+    remark_on_size(parts, remarks);
     return parts;
 }
 
@@ -156,7 +174,7 @@ LabelMap read_label_map(const fs::path& file) {
 }
 
 std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOptions& options,
-                                        std::vector<std::string>& remarks,
+                                        std::set<int>& found, std::vector<std::string>& remarks,
                                         const Progress& progress) {
     progress("Reading the label map", 0);
     const LabelMap map = read_label_map(file);
@@ -168,6 +186,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     for (std::size_t i = 0; i < labels.size(); ++i) {
         progress("Making surfaces", double(i) / double(labels.size()));
         const int value = labels[i].value;
+        found.insert(value);
         Part part = usual_part("label " + std::to_string(value));
         for (const LabelName& known : map.names)
             if (known.value == value)
@@ -187,6 +206,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
             parts.push_back({std::move(part), std::move(mesh)});
     }
     progress("Making surfaces", 1);
+    remark_on_size(parts, remarks);
     return parts;
 }
 

@@ -3,6 +3,8 @@
 // Only for this module.
 #pragma once
 
+#include <set>
+
 #include "cases/dicom_slice.h"
 #include "cases/import_case.h"
 #include "cases/label_map.h"
@@ -16,6 +18,7 @@ struct ImportedSeries {
     medical::Series series;  // without a file yet
     medical::Volume volume;
     std::vector<Identifier> identifiers;
+    std::string frame_uid;
     bool deidentified = false;
 };
 
@@ -34,8 +37,9 @@ std::vector<ImportedPart> import_meshes(const std::vector<std::filesystem::path>
                                         const ImportOptions& options,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress);
+// Adds the values of the labels to `found`.
 std::vector<ImportedPart> import_labels(const std::filesystem::path& file,
-                                        const ImportOptions& options,
+                                        const ImportOptions& options, std::set<int>& found,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress);
 

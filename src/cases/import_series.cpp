@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "cases/foreign_files.h"
@@ -20,11 +22,45 @@ std::string modality_of(const DicomSlice& slice) {
     return "OT";
 }
 
+std::string value_of(const DicomSlice& slice, const char* name) {
+    for (const Identifier& identifier : slice.identifiers)
+        if (identifier.name == name)
+            return identifier.value;
+    return "";
+}
+
+// Programs write the same name with other capitals and blanks.
+std::string letters_of(const std::string& name) {
+    std::string letters;
+    for (const char c : name)
+        if (c != ' ' && c != '^' && c != ',')
+            letters += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return letters;
+}
+
+// False only if it is certain: both have a number that differs, or none has one and names or dates
+// of birth differ.
+bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
+    const auto differ = [](const std::string& x, const std::string& y) {
+        return !x.empty() && !y.empty() && x != y;
+    };
+    const auto of_both = [&](const char* name) {
+        return std::pair(letters_of(value_of(a, name)), letters_of(value_of(b, name)));
+    };
+    const auto [number_a, number_b] = of_both("PatientID");
+    if (!number_a.empty() && !number_b.empty())
+        return number_a == number_b;
+    const auto [name_a, name_b] = of_both("PatientName");
+    const auto [born_a, born_b] = of_both("PatientBirthDate");
+    return !differ(name_a, name_b) && !differ(born_a, born_b);
+}
+
 using SlicesOfSeries = std::map<std::string, std::vector<DicomSlice>>;
 
 SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::string>& remarks,
                            const Progress& progress) {
     SlicesOfSeries series;
+    std::optional<DicomSlice> first;  // without its samples
     DicomFiles reader;
     std::size_t samples = 0, without_image = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -33,6 +69,14 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
         if (!slice) {
             ++without_image;
             continue;
+        }
+        if (first && !may_be_one_patient(*first, *slice))
+            throw Error(
+                "The images are of more than one patient; import those of each patient by "
+                "themselves.");
+        if (!first) {
+            first = *slice;
+            first->samples.clear();
         }
         samples += slice->samples.size();
         if (samples > medical::max_volume_samples)
@@ -73,6 +117,7 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
         const int number = ++count[one.series.modality];
         one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
         one.series.missing_slices = std::move(built.missing_slices);
+        one.frame_uid = slices.front().frame_uid;
         one.volume = std::move(built.volume);
         imported.push_back(std::move(one));
     }
@@ -85,6 +130,11 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
                      [](const ImportedSeries& a, const ImportedSeries& b) {
                          return a.volume.grid.slices > b.volume.grid.slices;
                      });
+    for (const ImportedSeries& one : imported)
+        if (one.frame_uid != imported.front().frame_uid)
+            remarks.push_back(
+                "The series " + one.series.name + " has another frame of reference than " +
+                imported.front().series.name + ": their places in the patient may not agree.");
     if (imported.size() > max_series) {
         remarks.push_back("Only the " + std::to_string(max_series) + " longest of " +
                           std::to_string(imported.size()) + " series are taken.");

@@ -63,12 +63,13 @@ DicomSlice image(int number) {
     return slice;
 }
 
-void write_image(const fs::path& file, const DicomSlice& slice, int number) {
+void write_image(const fs::path& file, const DicomSlice& slice, int number,
+                 const std::string& name = "Mustermann^Erika", const std::string& id = "4711") {
     DicomTexts texts;
     texts.instance_uid = "1.2.3.4.5." + std::to_string(number);
     texts.study_uid = "1.2.3";
-    texts.patient_name = "Mustermann^Erika";
-    texts.patient_id = "4711";
+    texts.patient_name = name;
+    texts.patient_id = id;
     texts.instance = number;
     files::write_file(file, write_dicom(slice, texts));
 }
@@ -218,6 +219,71 @@ TEST_F(Import, MixedOrientationsAreRefused) {
     EXPECT_THAT(refusal(), HasSubstr("mixed orientations"));
 }
 
+TEST_F(Import, ImagesOfTwoPatientsAreRefused) {
+    write_series(source());
+    write_image(source() / "image2.dcm", image(2), 2, "Mustermann^Erika", "4712");
+    EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
+    DicomSlice other = image(0);
+    other.series_uid = "1.2.3.9";
+    write_image(source() / "image2.dcm", image(2), 2);
+    write_image(source() / "z.dcm", other, 9, "Beispiel^Max", "");
+    EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
+    // The same person, as another program writes it.
+    write_image(source() / "z.dcm", other, 9, "MUSTERMANN^ERIKA", "");
+    EXPECT_EQ(import().manifest.series.size(), 2u);
+}
+
+TEST_F(Import, SeriesOfTwoFramesOfReferenceAreRemarkedOn) {
+    write_series(source());
+    DicomSlice other = image(0);
+    other.series_uid = "1.2.3.9";
+    other.frame_uid = "1.2.3.10";
+    write_image(source() / "z.dcm", other, 9);
+    EXPECT_THAT(import().remarks, ElementsAre(HasSubstr("another frame of reference than CT:")));
+}
+
+TEST_F(Import, ANameInLatin1StaysOutOfTextsThatEverybodySees) {
+    fs::create_directories(source());
+    for (int i = 0; i < 3; ++i)
+        write_image(source() / (std::to_string(i) + ".dcm"), image(i), i, "M\xfcller^J\xf6rg",
+                    "0815");
+    write_cube_stl(source() / "mueller_liver.stl", 0);
+    std::ofstream(source() / "case.json")
+        << R"({"theatron_case": 1, "name": "Jörg M.", "units": "mm",
+      "space": "LPS", "deidentified": true, "license": "CC0", "credit": "for Müller", "series": [], "parts": []})";
+    ImportOptions options;
+    options.name = "Joerg";
+    EXPECT_THAT(refusal(options), HasSubstr("--name has a name or number of the patient"));
+    const medical::Case made = import().manifest;
+    EXPECT_EQ(made.name, "case");
+    EXPECT_EQ(made.credit, "");
+    EXPECT_EQ(made.license, "CC0");
+    EXPECT_EQ(made.parts.at(0).name, "shell 1");
+    const Bytes bytes = files::read_file(target() / identifiers_name);
+    EXPECT_THAT(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                HasSubstr("Müller^Jörg"));
+}
+
+TEST_F(Import, AnImageWithFewerPixelsThanItSaysIsNamed) {
+    write_series(source());
+    Bytes bytes = files::read_file(source() / "image2.dcm");
+    const std::size_t pixels = 2 * 40 * 30;
+    store_le(bytes.data() + bytes.size() - pixels - 4, std::uint32_t(100));
+    bytes.resize(bytes.size() - pixels + 100);
+    files::write_file(source() / "image2.dcm", bytes);
+    EXPECT_THAT(refusal(), HasSubstr("image2.dcm' is cut off before its pixels end"));
+}
+
+TEST_F(Import, AnImageWhoseValuesMeanNothingIsNamed) {
+    fs::create_directories(source());
+    DicomSlice slice = image(0);
+    slice.slope = 0;
+    write_image(source() / "flat.dcm", slice, 0);
+    EXPECT_THAT(refusal(), HasSubstr("flat.dcm' has a rescale slope of 0"));
+    std::ofstream(source() / "flat.dcm") << "hello";
+    EXPECT_THAT(refusal(), HasSubstr("flat.dcm' is too short for a DICOM file"));
+}
+
 TEST_F(Import, ATruncatedImageIsNamed) {
     if (sandbox::has_sanitizer)
         GTEST_SKIP() << "a sanitizer ends the child in another way";
@@ -282,6 +348,15 @@ TEST_F(Import, ASourcesManifestNamesPartsUnitsAndAxes) {
     EXPECT_NEAR(medical::box_of(loaded.meshes.at(0)).low_mm.x, -410, 1e-3);
 }
 
+TEST_F(Import, ASizeThatNoOrganHasIsRemarkedOn) {
+    fs::create_directories(source());
+    write_cube_stl(source() / "a.stl", 1);
+    ImportOptions options;
+    options.unit = medical::Unit::m;
+    EXPECT_THAT(import(options).remarks,
+                ElementsAre(HasSubstr("4e+04 mm long, which no organ is; check the unit")));
+}
+
 TEST_F(Import, A2GigabyteStlIsRefusedUnread) {
     fs::create_directories(source());
     write_cube_stl(source() / "huge.stl", 0);
@@ -299,6 +374,10 @@ TEST_F(Import, AMeshThatAnnouncesMoreThanItHoldsEndsInASentence) {
     std::ofstream(source() / "lie.stl") << lie;
     EXPECT_THAT(refusal(), HasSubstr("lie.stl"));
     fs::remove(source() / "lie.stl");
+    std::ofstream(source() / "lie.ply")
+        << "ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\nend_header\n";
+    EXPECT_THAT(refusal(), HasSubstr("lie.ply' announces more than it has bytes for"));
+    fs::remove(source() / "lie.ply");
     std::ofstream(source() / "noise.glb") << "glTF" << std::string(1000, '\xff');
     EXPECT_THAT(refusal(), HasSubstr("noise.glb' is damaged"));
 }

@@ -105,7 +105,7 @@ TEST(Nrrd, EachProblemIsNamed) {
     EXPECT_THAT(parse_nrrd(bytes_of(nrrd_head)).problem, HasSubstr("cut off"));
     EXPECT_THAT(problem("dimension: 3", "dimension: 4"), HasSubstr("overlapping segments"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 3"), HasSubstr("less than its header"));
-    EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 -2"), HasSubstr("cannot be"));
+    EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 -2"), HasSubstr("side of no samples"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 4000 4000 4000"), HasSubstr("more samples"));
     EXPECT_THAT(problem("space: left", "space: top"), HasSubstr("where in the patient"));
     EXPECT_THAT(problem("(0,0.5,0)", "(0.5,0,0)"), HasSubstr("cannot be"));

@@ -116,7 +116,9 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
     int sides[3] = {1, 1, 1};
     for (int i = 1; i <= dimensions; ++i) {
         const int side = header.dim(i);
-        if (side < 1 || (i > 3 && side != 1))
+        if (side < 1)
+            return "is damaged: one of its sides has no samples";
+        if (i > 3 && side != 1)
             return "is no label map: it has more than three dimensions";
         if (i <= 3)
             sides[i - 1] = side;
@@ -140,7 +142,9 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
     grid.slice_step_mm = lps_from_ras(columns[2]) * mm;
     if (grid.size() > max_label_samples)
         return "has more samples than are read";
-    return medical::is_valid(grid) ? "" : "describes a volume that cannot be";
+    return medical::is_valid(grid)
+               ? ""
+               : "describes a volume whose sides, steps or place cannot be; export it again";
 }
 
 }  // namespace

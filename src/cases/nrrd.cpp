@@ -122,7 +122,8 @@ std::string read_grid(const Fields& fields, medical::VolumeGrid& grid) {
     std::size_t samples = 1;
     for (const double side : sizes) {
         if (!(side >= 1 && side <= medical::max_volume_side) || side != std::floor(side))
-            return "describes a volume that cannot be, or is larger than what is read";
+            return "has a side of no samples, or of more than " +
+                   std::to_string(medical::max_volume_side);
         samples *= std::size_t(side);
     }
     if (samples > max_label_samples)
@@ -137,7 +138,9 @@ std::string read_grid(const Fields& fields, medical::VolumeGrid& grid) {
     };
     grid = {int(sizes[0]),      int(sizes[1]),      int(sizes[2]),     vec(origin, 0),
             vec(directions, 0), vec(directions, 3), vec(directions, 6)};
-    return medical::is_valid(grid) ? "" : "describes a volume that cannot be";
+    return medical::is_valid(grid)
+               ? ""
+               : "describes a volume whose sides, steps or place cannot be; export it again";
 }
 
 std::vector<LabelName> read_names(const Fields& fields) {

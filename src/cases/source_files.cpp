@@ -51,7 +51,8 @@ SourceFiles find_source_files(const fs::path& source) {
         sort_in(source, files);
     } else {
         if (!fs::is_directory(source, failed))
-            throw Error("There is no folder " + name + ".");
+            throw Error(fs::exists(source, failed) ? name + " is neither a file nor a folder."
+                                                   : "There is no file or folder " + name + ".");
         std::vector<fs::path> found;
         const auto options = fs::directory_options::skip_permission_denied;
         for (fs::recursive_directory_iterator at(source, options, failed), end; at != end;

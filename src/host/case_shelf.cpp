@@ -162,10 +162,15 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
 
 void CaseShelf::publish() {
     std::vector<session::CaseFacts> offered;
+    std::map<std::string, int> times;  // that a name was offered
     std::map<ContentHash, std::shared_ptr<const Bytes>> content;
     for (const auto& [name, folder] : folders_)
         if (folder.shared) {
             offered.push_back(facts_of(*folder.shared));
+            // People choose by name.
+            const std::string& own = offered.back().name;
+            if (const int before = times[own]++; before > 0)
+                offered.back().name = own + " (" + std::to_string(before + 1) + ")";
             content.insert(folder.shared->content.begin(), folder.shared->content.end());
         }
     {

@@ -13,8 +13,6 @@ namespace {
 using client::Participant;
 
 constexpr double opacity_step = 0.2, apart = 0.6;
-// Further parts are reached by lines of `theatron join`.
-constexpr std::size_t listed_parts = 24;
 
 std::string megabytes(std::uint64_t bytes) {
     return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
@@ -56,7 +54,7 @@ void add_parts(const CasePanelFacts& facts, Builder& add) {
     if (!facts.content || !facts.content->description)
         return;
     const auto& parts = facts.content->description->parts;
-    for (std::size_t i = 0; i < std::min(facts.room->parts.size(), listed_parts); ++i) {
+    for (std::size_t i = 0; i < facts.room->parts.size(); ++i) {
         const session::CasePart part = facts.room->parts[i].facts;
         if (part.part >= parts.size())
             continue;
@@ -116,8 +114,8 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
             buttons.push_back(add.action(cut ? "Whole" : "Cut",
                                          [cut](Participant& p) { return cut_at_slice(p, !cut); }));
         add.row("Parts", "", std::move(buttons));
-        add_parts(facts, add);
         add_screen(facts, add);
+        add_parts(facts, add);
     }
     for (const wire::OfferedCase& offered : facts.offered) {
         const auto hash = to_content_hash(offered.hash);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "xr/font.h"
 #include "xr/imgui_pass_native.h"
@@ -58,6 +59,9 @@ struct Overlay::Parts {
     void help(float bottom) const;
     void panels(const std::vector<Panel>& panels, float bottom);
 
+    // Rows that are scrolled out above, of the panel with this title.
+    std::map<std::string, double> scrolled;
+
     struct Area {
         ImVec2 from, to;
         bool has(ImVec2 place) const {
@@ -65,6 +69,7 @@ struct Overlay::Parts {
         }
     };
     std::vector<Area> panel_areas;
+    std::vector<std::string> panel_titles;  // of each of them
     std::vector<std::pair<Area, int>> buttons;
     ImVec2 pixel_at(Vec2 place) const {
         return {float(place.x) * window.x, float(place.y) * window.y};
@@ -184,7 +189,8 @@ void Overlay::Parts::help(float bottom) const {
     }
 }
 
-// Rows that do not fit above `bottom` are left out, and a last line says how many.
+// Rows that do not fit above `bottom` are left out, and a last line says how many. The mouse wheel
+// shows them.
 void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
     const float padding = 1.4f * unit, gap = 0.7f * unit, left = 1.5f * unit;
     const float button_height = normal->FontSize + gap;
@@ -206,23 +212,34 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
             return button_height + (row.detail.empty() ? 0 : small->FontSize) + gap;
         };
         const float room = window.y - bottom - top - 2 * padding - normal->FontSize - gap;
+        const auto fits = [&](float height) { return height + small->FontSize <= room; };
+        // The first row as far down as the wheel wants, and the last rows fill the panel.
+        std::size_t last_first = panel.rows.size();
+        for (float height = 0; last_first > 0; --last_first) {
+            height += row_height(panel.rows[last_first - 1]);
+            if (!fits(height))
+                break;
+        }
+        double& wanted = scrolled[panel.title];
+        wanted = std::clamp(wanted, 0.0, double(last_first));
+        const auto first = std::size_t(std::lround(wanted));
         float height = 0;
-        std::size_t rows = 0;
-        while (rows < panel.rows.size() &&
-               height + row_height(panel.rows[rows]) + small->FontSize <= room)
-            height += row_height(panel.rows[rows++]);
-        const std::size_t left_out = panel.rows.size() - rows;
+        std::size_t end = first;
+        while (end < panel.rows.size() && fits(height + row_height(panel.rows[end])))
+            height += row_height(panel.rows[end++]);
+        const std::size_t left_out = panel.rows.size() - (end - first);
         const Area area{
             {left, top},
             {left + width + 2 * padding, top + 2 * padding + normal->FontSize + gap + height +
                                              (left_out > 0 ? small->FontSize : 0)}};
         panel_areas.push_back(area);
+        panel_titles.push_back(panel.title);
         list->AddRectFilled(area.from, area.to, panel_color, unit);
         list->PushClipRect(area.from, area.to);
         float y = top + padding;
         text(small, {left + padding, y}, label_color, panel.title);
         y += normal->FontSize + gap;
-        for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t i = first; i < end; ++i) {
             const PanelRow& row = panel.rows[i];
             float x = area.to.x - padding;
             for (auto button = row.buttons.rbegin(); button != row.buttons.rend(); ++button) {
@@ -242,7 +259,8 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
             y += row_height(row);
         }
         if (left_out > 0)
-            text(small, {left + padding, y}, label_color, std::to_string(left_out) + " more");
+            text(small, {left + padding, y}, label_color,
+                 std::to_string(left_out) + " more: mouse wheel");
         list->PopClipRect();
         top = area.to.y + unit;
     }
@@ -252,6 +270,13 @@ bool Overlay::covers(Vec2 place) const {
     const ImVec2 pixel = parts_->pixel_at(place);
     return std::any_of(parts_->panel_areas.begin(), parts_->panel_areas.end(),
                        [&](const Parts::Area& area) { return area.has(pixel); });
+}
+
+void Overlay::scroll(Vec2 place, double rows) {
+    const ImVec2 pixel = parts_->pixel_at(place);
+    for (std::size_t i = 0; i < parts_->panel_areas.size(); ++i)
+        if (parts_->panel_areas[i].has(pixel))
+            parts_->scrolled[parts_->panel_titles[i]] += rows;
 }
 
 std::optional<int> Overlay::command_at(Vec2 place) const {
@@ -279,6 +304,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
 
     const float bottom = p.facts(content.facts);
     p.panel_areas.clear();
+    p.panel_titles.clear();
+    p.panel_titles.clear();
     p.buttons.clear();
     p.panels(content.panels, bottom);
     if (!content.message.empty())

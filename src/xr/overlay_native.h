@@ -25,6 +25,10 @@ public:
     bool covers(Vec2 place) const;                    // a panel
     std::optional<int> command_at(Vec2 place) const;  // of a panel's button
 
+    // Moves the rows of the panel at this place, which may have more of them than fit. `rows` > 0:
+    // later ones come into sight. The next picture shows it.
+    void scroll(Vec2 place, double rows);
+
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;

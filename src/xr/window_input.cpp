@@ -7,7 +7,7 @@ const std::vector<KeyHelp>& key_help() {
     static const std::vector<KeyHelp> help = {
         {"Left mouse button, drag", "Turn around what is under the mouse"},
         {"Right mouse button, drag", "Move sideways, up and down"},
-        {"Mouse wheel", "Come closer, go further away"},
+        {"Mouse wheel", "Come closer, go further away; over a list: move it"},
         {"W A S D, Q E", "Walk; Q down, E up; faster with Shift"},
         {"Left mouse button on an object",
          "Hold it; wheel: nearer, further; Shift and wheel: turn"},

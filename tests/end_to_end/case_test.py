@@ -45,13 +45,14 @@ def images(columns=64, rows=64, slices=32, step=(3.0, 3.0, 5.0)):
     return header + struct.pack(f"<{len(samples)}h", *samples)
 
 
-def write_case(folder, name="Made liver", tumour=True):
+def write_case(folder, name="Made liver", tumour=True, more_parts=0):
     """A shell, a vessel, and a tumour inside; a matching series."""
     folder.mkdir(parents=True)
     parts = [("liver", "shell", "#b25c4a", 0.35, sphere(80, (0, 0, 0))),
              ("portal vein", "portal_vein", "#466ed2", 1, sphere(12, (20, 0, 0)))]
     if tumour:
         parts.append(("tumour", "tumour", "#eccc3c", 1, sphere(18, (-25, 0, 10))))
+    parts += [(f"lymph node {i}", "other", "#88aa88", 1, sphere(3, (5 * i - 100, 90, 0))) for i in range(more_parts)]
     manifest = {"theatron_case": 1, "name": name, "units": "mm", "space": "LPS", "deidentified": True,
                 "license": "CC0", "credit": "made by a test", "parts": [],
                 "series": [{"name": "CT", "modality": "CT", "file": "ct.thvolume"}]}
@@ -152,14 +153,19 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
             for sentence in ("lacks the file 'part_1.thmesh'", "ct.thvolume' is", "case.json"):
                 self.wait_for_error(h, sentence)
+            # Of two of the same name, both can be opened.
+            write_case(self.cases / "whole2", "Whole", tumour=False)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole", "Whole (2)"], 10)
+            shutil.rmtree(self.cases / "whole2")
             # Repaired while the session runs.
             (broken / "part_1.thmesh").write_bytes(sphere(5, (0, 0, 0)))
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Broken", "Whole"], 10)
             shutil.rmtree(broken)
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 10)
             for line, problem in (("case open Nothing", "offers no case 'Nothing'; it offers Whole."),
-                                  ("case close", "No case is open"), ("case hide liver", "has no part 'liver'"),
-                                  ("case explode 200", "from 0 to 100"), ("case what", "The lines on cases")):
+                                  ("case close", "No case is open"), ("case hide liver", "No case is open"),
+                                  ("case explode 200", "from 0 to 100"), ("case scale 0", "from 0.01 to 100"),
+                                  ("case what", "There is no such line on cases")):
                 anna.say(line)
                 self.wait_for_error(anna, problem)
 

@@ -11,6 +11,7 @@ import tempfile
 import time
 import unittest
 
+from case_test import write_case
 from theatron_process import PROGRAM, Process, host, make_recording, wait_until
 from virtual_screen import VirtualScreen, brightness, difference
 
@@ -189,6 +190,31 @@ class Window(unittest.TestCase):
                 self.wait_for_change(own, 0.2)
                 do("key", "r")
                 self.wait_for_return(own)
+
+    def test_the_wheel_moves_a_list_that_is_longer_than_the_window(self):
+        cases = self.folder / "cases"
+        write_case(cases / "many", "Many", more_parts=20)
+        with host(self.state, self.camera, options=("--cases", cases)) as h, \
+                Process("join", h.greeting["link"], "--name", "Ann", "--every", "0.1") as ann, \
+                self.window(h.greeting["link"]):
+            ann.wait_for(lambda f: f["cases"]["offered"], 20)
+            ann.say("case open Many")
+            self.wait_for_scene()
+            self.screen.do("key", "o")
+            wait_until(lambda: len(self.buttons()) > 12)
+
+            def panel():
+                return self.screen.pixels(0, 0, 160, HEIGHT)
+
+            top = self.settled(panel)
+            x, y = self.buttons()[0]
+            self.screen.do("mousemove", x, y + 60, *["click", 5] * 12, "sleep", 0.5)
+            bottom = self.settled(panel)
+            self.assertGreater(self.repainted(top, bottom), 0.02)
+            self.screen.do(*["click", 5] * 3, "sleep", 0.5)
+            self.assertLess(self.repainted(bottom, self.settled(panel)), 0.01, "there is no more")
+            self.screen.do(*["click", 4] * 15, "sleep", 0.5)
+            wait_until(lambda: self.repainted(top, panel()) < 0.01)
 
     def test_the_demo_is_a_window_where_there_is_a_display(self):
         with Process("demo", "--out", str(self.folder / "demo"), env=self.screen.environment) as demo:
