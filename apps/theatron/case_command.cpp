@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/outside_text.h"
 #include "cases/case_folder.h"
 #include "cases/case_pictures.h"
 #include "cases/import_case.h"
@@ -97,7 +98,7 @@ void import(ImportArguments& arguments) {
     std::printf(
         "The case lies in '%s'. Everybody in a session sees the names above: none may be "
         "the patient's.\n",
-        arguments.folder.c_str());
+        clean_text(arguments.folder, 300).c_str());
 }
 
 void add_import(CLI::App& group) {
@@ -247,9 +248,10 @@ void synth(const SynthArguments& arguments) {
     for (std::size_t i = 0; i < made.meshes.size(); ++i)
         std::printf("part: %s, %.1f ml\n", made.manifest.parts[i].name.c_str(),
                     medical::shape_of(made.meshes[i]).volume_mm3 * 1e-3);
-    std::printf("The generated case lies in '%s'%s%s%s.\n", arguments.folder.c_str(),
+    std::printf("The generated case lies in '%s'%s%s%s.\n",
+                clean_text(arguments.folder, 300).c_str(),
                 arguments.dicom.empty() ? "" : ", its CT as DICOM files in '",
-                arguments.dicom.c_str(), arguments.dicom.empty() ? "" : "'");
+                clean_text(arguments.dicom, 300).c_str(), arguments.dicom.empty() ? "" : "'");
 }
 
 void add_synth(CLI::App& group) {

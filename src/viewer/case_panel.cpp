@@ -113,7 +113,7 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
         if (facts.volume)
             buttons.push_back(add.action(cut ? "Whole" : "Cut",
                                          [cut](Participant& p) { return cut_at_slice(p, !cut); }));
-        add.row("Parts", "", std::move(buttons));
+        add.row("Parts", cut ? "cut: hidden on one side of the slice" : "", std::move(buttons));
         add_screen(facts, add);
         add_parts(facts, add);
     }

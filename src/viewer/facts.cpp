@@ -107,6 +107,20 @@ std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
            ": Y lets in, U refuses";
 }
 
+// Facts on the cameras' pictures.
+void add_pictures(const Facts& facts,
+                  const std::function<std::string(const std::string&)>& filter_name,
+                  std::vector<xr::Fact>& line) {
+    const auto& [status, cameras, recordings] = facts.received;
+    line.push_back({"Dropped", std::to_string(facts.received.dropped())});
+    if (status.delivery.level > 0)
+        line.push_back({"Sent", wire::sent_part(status.delivery), true});
+    line.push_back(depth_fact(cameras));
+    line.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
+    const std::string filter = common(cameras, [](const auto& c) { return c.camera.state.filter; });
+    line.push_back({"Filter", filter_name(filter == "none" ? std::string() : filter)});
+}
+
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
@@ -128,18 +142,14 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())
             line.push_back(age);
-        line.push_back({"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
+        if (!cameras.empty())
+            line.push_back(
+                {"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
         line.push_back(
             {"Drawn", rounded(facts.drawn_per_second, 0, "fps"), drawing_is_slow(facts)});
         line.push_back({"Data", rounded(facts.received.mbit_per_second(), 1, "Mbit/s")});
-        line.push_back({"Dropped", std::to_string(facts.received.dropped())});
-        if (status.delivery.level > 0)
-            line.push_back({"Sent", wire::sent_part(status.delivery), true});
-        line.push_back(depth_fact(cameras));
-        line.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
-        const std::string filter =
-            common(cameras, [](const auto& c) { return c.camera.state.filter; });
-        line.push_back({"Filter", filter_name(filter == "none" ? std::string() : filter)});
+        if (!cameras.empty())
+            add_pictures(facts, filter_name, line);
     } else {
         const bool is_waiting = status.phase == Phase::waiting;
         const bool is_connecting = status.phase == Phase::connecting;

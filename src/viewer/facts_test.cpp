@@ -66,6 +66,16 @@ TEST(Overlay, NamesACameraThatWasMovedAlsoWithTheLineHidden) {
     EXPECT_TRUE(fact(overlay(facts), "Camera left").warning);
 }
 
+TEST(Overlay, SaysNothingOfPicturesWhereThereAreNoCameras) {
+    Facts facts = healthy();
+    facts.received.status.delivery.level = 3;
+    EXPECT_TRUE(fact(overlay(facts), "Sent").warning);
+    facts.received.cameras.clear();
+    for (const xr::Fact& shown : overlay(facts).facts)
+        for (const char* label : {"Sent", "Received", "Dropped", "Depth", "Colour", "Filter"})
+            EXPECT_NE(shown.label, label);
+}
+
 TEST(Overlay, BlamesTheComputerThatDrawsTooSlowlyAndNotTheConnection) {
     Facts facts = healthy();
     facts.drawn_per_second = 2;
