@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <vector>
 
 #include "medical/mesh_shaping.h"
 
@@ -39,6 +39,43 @@ struct Quadric {
     }
 };
 
+// A heap of four children to a node: half as deep as a binary one, so that taking the least of
+// millions of candidates reads half as many places of memory. Equal ones leave in any order.
+template <class T>
+class Heap {
+public:
+    bool empty() const { return items_.empty(); }
+    void push(const T& item) {
+        std::size_t at = items_.size();
+        items_.push_back(item);
+        for (std::size_t up; at > 0 && item < items_[up = (at - 1) / 4]; at = up)
+            items_[at] = items_[up];
+        items_[at] = item;
+    }
+    T take_least() {
+        const T least = items_.front(), last = items_.back();
+        items_.pop_back();
+        const std::size_t size = items_.size();
+        std::size_t at = 0;
+        while (4 * at + 1 < size) {
+            std::size_t child = 4 * at + 1;
+            for (std::size_t i = child + 1, end = std::min(child + 4, size); i < end; ++i)
+                if (items_[i] < items_[child])
+                    child = i;
+            if (!(items_[child] < last))
+                break;
+            items_[at] = items_[child];
+            at = child;
+        }
+        if (size > 0)
+            items_[at] = last;
+        return least;
+    }
+
+private:
+    std::vector<T> items_;
+};
+
 class Simplifier {
 public:
     explicit Simplifier(Mesh& mesh) : mesh_(mesh) {
@@ -71,8 +108,7 @@ public:
                 if (t[i] < t[(i + 1) % 3])
                     offer(t[i], t[(i + 1) % 3]);
         while (alive_ > max_triangles && !queue_.empty()) {
-            const Candidate next = queue_.top();
-            queue_.pop();
+            const Candidate next = queue_.take_least();
             if (changes_[next.a] == next.changes_a && changes_[next.b] == next.changes_b)
                 collapse(next);
         }
@@ -92,8 +128,8 @@ private:
         std::uint32_t changes_a, changes_b;  // when it was offered
         bool operator<(const Candidate& other) const {
             if (error != other.error)
-                return error > other.error;  // the least on top
-            return a != other.a ? a > other.a : b > other.b;
+                return error < other.error;
+            return a != other.a ? a < other.a : b < other.b;
         }
     };
 
@@ -203,7 +239,7 @@ private:
     std::vector<std::uint32_t> changes_;              // of each vertex, to know old candidates
     std::vector<bool> gone_;
     std::size_t alive_ = 0;  // triangles
-    std::priority_queue<Candidate> queue_;
+    Heap<Candidate> queue_;
     std::vector<std::uint32_t> near_a_, near_b_, common_;
 };
 
