@@ -201,6 +201,7 @@ nlohmann::json room_json(const client::Participant& participant) {
                      {"records", facts->records},
                      {"recorded", session::is_recorded(id)},
                      {"calls", poses.contains(object.creator) && poses.at(object.creator).calls},
+                     {"points", poses.contains(object.creator) && poses.at(object.creator).points},
                      {"role", wire::text_of(facts->role)},
                      {"muted", facts->muted}});
             continue;

@@ -53,7 +53,7 @@ private:
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","self","people":[{"id","name","records","role","muted","calls"}],"objects":[{"id","kind","creator","held_by",
+// {"hash","self","people":[{"id","name","records","role","muted","calls","points"}],"objects":[{"id","kind","creator","held_by",
 // "position","scale","mark"}]}; `position` in metres, `held_by` 0 if no participant holds the
 // object.
 nlohmann::json room_json(const client::Participant& participant);

@@ -15,8 +15,8 @@ using session::MarkPoint;
 
 namespace {
 
-constexpr double tube_radius_m = 0.0012;
-constexpr double ball_radius_m = 0.003;
+constexpr double tube_radius_m = 0.0016;
+constexpr double ball_radius_m = 0.004;
 constexpr double cone_length_m = 0.014, cone_radius_m = 0.005;
 constexpr double pin_height_m = 0.03, pin_radius_m = 0.005, pin_foot_m = 0.0006;
 constexpr int sides = 8;

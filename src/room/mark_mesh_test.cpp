@@ -95,7 +95,7 @@ TEST(MarkMesh, ATubeIsClosedAndAsThickAsItShouldBe) {
     const Shape shape = shape_of(mesh);
     EXPECT_TRUE(shape.closed);
     // An octagon's area is 2 sqrt(2) r squared.
-    EXPECT_NEAR(shape.volume_m3, 0.1 * 2.8284 * 0.0012 * 0.0012, 1e-9);
+    EXPECT_NEAR(shape.volume_m3, 0.1 * 2.8284 * 0.0016 * 0.0016, 1e-9);
 }
 
 TEST(MarkMesh, EveryKindHasAClosedMeshThatFacesOutwards) {

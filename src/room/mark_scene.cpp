@@ -17,7 +17,7 @@ using session::MarkPoint;
 namespace {
 
 // Labels have about the same size in the picture, within limits.
-constexpr double least_label_m = 0.006, largest_label_m = 0.04, label_per_distance = 0.014;
+constexpr double least_label_m = 0.006, largest_label_m = 0.05, label_per_distance = 0.018;
 
 Rgb srgb_of(Vec3 linear) {
     const auto byte = [](double v) {

@@ -11,11 +11,9 @@ namespace theatron::room {
 namespace {
 
 constexpr double ball_m = 0.01;  // of the mesh, scaled below
-constexpr double dots_apart_m = 0.05, dot_m = 0.002;
-constexpr double end_per_distance = 0.006, least_end_m = 0.004, largest_end_m = 0.02;
+constexpr double dots_apart_m = 0.04, dot_m = 0.004;
+constexpr double end_per_distance = 0.006, least_end_m = 0.006, largest_end_m = 0.02;
 constexpr double name_per_distance = 0.016, least_name_m = 0.012, largest_name_m = 0.05;
-// Translucent things cast no shadow.
-constexpr double opacity = 0.95;
 
 }  // namespace
 
@@ -25,7 +23,7 @@ void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& poi
                       const render::CameraView& view) const {
     const Vec3 eye = view.room_from_eye.translation;
     for (const Pointer& pointer : pointers) {
-        render::SurfaceLook look{color_of(pointer.id), 0, 0.6, opacity};
+        render::SurfaceLook look{color_of(pointer.id), 0, 0.6};
         look.unlit = true;
         const auto add = [&](Vec3 place, double radius_m) {
             frame.objects.push_back(

@@ -11,11 +11,6 @@ namespace {
 
 namespace request = session::request;
 
-// Depth along the view's axis.
-double depth_of(Vec3 place, const render::CameraView& view) {
-    return (inverse(view.room_from_eye) * place).z;
-}
-
 }  // namespace
 
 void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
@@ -59,7 +54,7 @@ void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
                     client::Participant& participant) {
     const render::PickRay ray = render::ray_through(view, pointer);
     auto hit = meeting.pick(ray, view);
-    if (!hit || (surface_m && *surface_m < depth_of(hit->picked.place, view)))
+    if (!hit || is_hidden(hit->picked.place, surface_m, view))
         return;
     if (const auto& open = meeting.case_scene().in_room(); open && !part && open->find(hit->object))
         hit->object = open->organ_id;

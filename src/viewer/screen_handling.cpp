@@ -12,11 +12,13 @@ namespace {
 
 constexpr double least_width = 1, most_width = 20'000, most_center = 20'000;
 
-double depth_of(Vec3 place, const render::CameraView& view) {
-    return (inverse(view.room_from_eye) * place).z;
-}
-
 }  // namespace
+
+bool is_hidden(Vec3 place, std::optional<double> surface_m, const render::CameraView& view) {
+    // Marks stand out of the surface that they are on.
+    constexpr double height_of_marks_m = 0.05;
+    return surface_m && *surface_m + height_of_marks_m < (inverse(view.room_from_eye) * place).z;
+}
 
 session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
                              double slices) {
@@ -76,7 +78,7 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
         const auto hit = meeting.pick(render::ray_through(view, pointer), view);
         return hit && hit->object == open->screen->id &&
                scene.monitor().patient_point(*open, hit->picked.place) &&
-               !(surface_m && *surface_m < depth_of(hit->picked.place, view));
+               !is_hidden(hit->picked.place, surface_m, view);
     };
     session::CaseScreen next = waiting_.value_or(open->screen->facts);
     const session::CaseScreen before = next;

@@ -10,6 +10,10 @@
 
 namespace theatron::viewer {
 
+// True if the surface that is drawn there, at this distance along the view's axis, hides a place of
+// an object.
+bool is_hidden(Vec3 place, std::optional<double> surface_m, const render::CameraView& view);
+
 // The screen with another slice: so many slices further; of another orientation, through its
 // middle; through a place of the patient. Pure.
 session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
