@@ -27,6 +27,8 @@ struct MeshData {
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
+    // Of each corner, for surfaces with baked light (SurfaceLook); none: white.
+    std::vector<Rgb> colors;
 };
 
 MeshData make_box_mesh(Vec3 low, Vec3 high);
@@ -86,6 +88,9 @@ struct SurfaceLook {
     const SceneTexture* texture = nullptr;
     // For screens and panels: the texture's colours times base_color, without any light.
     bool unlit = false;
+    // The light is in the colours already, those of the texture times those of the mesh's corners:
+    // only shadows of other objects fall on the surface, and it casts none.
+    bool baked = false;
 };
 
 // Names an object in the result of a pick (pick.h). The code that appends an object chooses it.
@@ -108,6 +113,7 @@ struct SceneObject {
     ObjectId id = ObjectId::none;           // none: rays pass through it
     double scale = 1;                       // metres of the room in a metre of the mesh
     std::optional<Cut> cut = std::nullopt;  // objects that are cut cast no shadows
+    bool casts_shadow = true;
 };
 
 // One line of text. Its frame: x along the line, y down, z away from the reader; the origin is at
@@ -119,15 +125,25 @@ struct SceneText {
     Rgb color{255, 255, 255};
 };
 
+// A lamp that lights a round place, brightest in its middle. It casts no shadows.
+struct Spotlight {
+    Vec3 place, target;
+    double strength = 0;  // at a distance of one metre, as SceneFrame::light
+    double slope = 0.4;   // radius of the lit place at a distance of one metre
+};
+
 // Quality of the scene's light and shadows; clouds do not depend on it.
 enum class SceneQuality { low, high };
 
 struct SceneFrame {
     std::vector<SceneObject> objects;
     std::vector<SceneText> texts;
-    Vec3 to_light{0.3, 1, 0.2};  // a direction
-    double light = 2.2;          // of white light, beside the surroundings' 1
-    // All objects that cast shadows (the opaque ones, without the backdrop) lie in this ball.
+    Vec3 to_light{0.3, 1, 0.2};    // a direction
+    double surroundings = 1;       // of the light from all around
+    double light = 2.2;            // of white light, beside the surroundings' 1
+    std::vector<Spotlight> spots;  // seen on high quality alone, the first two of them
+    // All objects that cast shadows (the opaque ones that do, without the backdrop) lie in this
+    // ball.
     Vec3 shadow_middle{0, 1, 0};
     double shadow_radius_m = 2.5;
     SceneQuality quality = SceneQuality::high;

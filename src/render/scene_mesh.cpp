@@ -83,7 +83,16 @@ SceneMesh::SceneMesh(const MeshData& data) : buffers_(std::make_unique<Buffers>(
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, nx)));
     glEnableVertexAttribArray(2);
     glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, u)));
+    if (!data.colors.empty()) {
+        assert(data.colors.size() == data.vertices.size());
+        glBindBuffer(GL_ARRAY_BUFFER, buffers_->colors.name());
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(data.colors.size() * sizeof(Rgb)),
+                     data.colors.data(), GL_STATIC_DRAW);
+        glEnableVertexAttribArray(3);
+        glVertexAttribPointer(3, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Rgb), nullptr);
+    }
     glBindVertexArray(0);
+    buffers_->has_colors = !data.colors.empty();
     buffers_->count = GLsizei(data.indices.size());
     const auto corner = [&](std::size_t i) {
         const Vertex& v = data.vertices[data.indices[i]];
@@ -146,12 +155,15 @@ Size SceneTexture::size() const {
 
 void SceneTexture::set(ColorView picture) {
     assert(picture.size == size());
-    std::vector<std::uint8_t> rgba;
-    rgba.reserve(4 * picture.size.area());
+    std::vector<std::uint8_t> rgba(4 * picture.size.area());
+    std::size_t at = 0;
     for (int y = 0; y < picture.size.height; ++y)
         for (int x = 0; x < picture.size.width; ++x) {
             const Rgb p = picture.row(y)[x];
-            rgba.insert(rgba.end(), {p.r, p.g, p.b, 255});
+            rgba[at++] = p.r;
+            rgba[at++] = p.g;
+            rgba[at++] = p.b;
+            rgba[at++] = 255;
         }
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, parts_->texture.name());
@@ -172,6 +184,9 @@ void SceneTexture::finish() {
 
 void SceneMesh::Buffers::draw() const {
     glBindVertexArray(attributes.name());
+    // The value of corners without colours is no part of the array object.
+    if (!has_colors)
+        glVertexAttrib3f(3, 1, 1, 1);
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
 }
 

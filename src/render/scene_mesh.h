@@ -12,8 +12,9 @@
 namespace theatron::render {
 
 struct SceneMesh::Buffers {
-    VertexArray attributes;  // 0: place, 1: normal, 2: place in the texture
-    Buffer vertices, indices;
+    VertexArray attributes;  // 0: place, 1: normal, 2: place in the texture, 3: colour
+    Buffer vertices, indices, colors;
+    bool has_colors = false;
     GLsizei count = 0;
     Vec3 middle;  // of a ball around all corners
     double radius_m = 0;

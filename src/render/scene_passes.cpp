@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "render/environment.h"
 #include "render/matrix.h"
@@ -14,6 +16,7 @@ namespace theatron::render {
 namespace {
 
 constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2, surface_unit = 3;
+constexpr std::size_t most_spots = 2;  // as in scene.frag
 
 void set_matrix(GLint uniform, const Mat4& matrix) {
     float values[16];
@@ -56,6 +59,7 @@ struct LitProgram {
     GLint eye = program.uniform("eye");
     GLint to_light = program.uniform("to_light");
     GLint light = program.uniform("light");
+    GLint surroundings = program.uniform("surroundings");
     GLint shadow_texel = program.uniform("shadow_texel");
     GLint depth_from_w = program.uniform("depth_from_w");
     GLint occludes = program.uniform("occludes");
@@ -65,6 +69,10 @@ struct LitProgram {
     GLint tells_distance = program.uniform("tells_distance");
     GLint unlit = program.uniform("unlit");
     GLint cut = program.uniform("cut");
+    GLint spot_count = program.uniform("spot_count");
+    GLint spot_place = program.uniform("spot_place");
+    GLint spot_along = program.uniform("spot_along");
+    GLint spot = program.uniform("spot");
 
     LitProgram(std::string_view quality, std::string_view texture, std::string_view cutting)
         : program({quality, texture, "scene.vert"},
@@ -72,6 +80,21 @@ struct LitProgram {
         program.set_sampler("environment", environment_unit);
         program.set_sampler("shadow_map", shadow_unit);
         program.set_sampler("scene_depth", scene_depth_unit);
+        program.set_sampler("surface_texture", surface_unit);
+    }
+};
+
+// The shaders of surfaces whose light is in their colours.
+struct BakedProgram {
+    Program program{{"baked.vert"}, {"output.glsl", "baked.frag"}};
+    GLint clip_from_room = program.uniform("clip_from_room");
+    GLint light_from_room = program.uniform("light_from_room");
+    GLint room_from_object = program.uniform("room_from_object");
+    GLint base_color = program.uniform("base_color");
+    GLint tells_distance = program.uniform("tells_distance");
+
+    BakedProgram() {
+        program.set_sampler("shadow_map", shadow_unit);
         program.set_sampler("surface_texture", surface_unit);
     }
 };
@@ -91,6 +114,8 @@ bool is_translucent(const SceneObject& object) {
 struct ScenePasses::Parts {
     std::optional<LitProgram> lit[2][2][2];  // high quality, textured, cut; made when first used
     const LitProgram* in_use = nullptr;
+    std::optional<BakedProgram> baked;  // made when first used
+    bool baked_in_use = false;
     Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
     GLint shadow_clip_from_object = shadow.uniform("clip_from_object");
     SceneTexture white{{1, 1}};  // for surfaces without a texture
@@ -129,8 +154,9 @@ struct ScenePasses::Parts {
         glReadBuffer(GL_NONE);
     }
 
-    // Draws the opaque objects' depth alone; for shadows and for ambient occlusion.
-    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room, bool with_backdrop) {
+    // Draws the opaque objects' depth alone; for shadows (without the backdrop and what is baked)
+    // and for ambient occlusion.
+    void draw_depth(const SceneFrame& frame, const Mat4& clip_from_room, bool with_still) {
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
         glDepthMask(GL_TRUE);
@@ -141,7 +167,8 @@ struct ScenePasses::Parts {
         shadow.use();
         for (const SceneObject& object : frame.objects) {
             // A depth map has no opacity: a translucent object would cast a solid one's shadow.
-            if (is_translucent(object) || object.cut || (object.backdrop && !with_backdrop))
+            if (is_translucent(object) || object.cut || (object.backdrop && !with_still) ||
+                ((object.look.baked || !object.casts_shadow) && !with_still))
                 continue;
             set_matrix(shadow_clip_from_object, clip_from_room * place_of(object));
             object.mesh->buffers().draw();
@@ -179,6 +206,7 @@ struct ScenePasses::Parts {
         glActiveTexture(GL_TEXTURE0 + environment_unit);
         glBindTexture(GL_TEXTURE_CUBE_MAP, environment.name());
         in_use = nullptr;
+        baked_in_use = false;
     }
 
     // Makes the right program current and sets its uniforms of the whole picture.
@@ -193,6 +221,7 @@ struct ScenePasses::Parts {
                            cuts ? "#define CUT" : "#define WHOLE");
         if (in_use == &*wanted)
             return;
+        baked_in_use = false;
         in_use = &*wanted;
         in_use->program.use();
         set_matrix(in_use->clip_from_room, projection(view) * matrix(inverse(view.room_from_eye)));
@@ -200,14 +229,58 @@ struct ScenePasses::Parts {
         set_vector(in_use->eye, view.room_from_eye.translation);
         set_vector(in_use->to_light, normalized(frame.to_light));
         glUniform1f(in_use->light, float(frame.light));
+        glUniform1f(in_use->surroundings, float(frame.surroundings));
         glUniform1f(in_use->shadow_texel, 1.0f / float(shadow_side));
         const double n = view.near_m, f = view.far_m;
         glUniform2f(in_use->depth_from_w, float(f / (f - n)), float(-f * n / (f - n)));
         glUniform1i(in_use->occludes, picture.occludes);
+        set_spots(frame.spots);
+    }
+
+    void set_spots(const std::vector<Spotlight>& spots) const {
+        const auto count = GLsizei(std::min(spots.size(), most_spots));
+        glUniform1i(in_use->spot_count, count);
+        std::vector<float> places, along, kinds;
+        for (const Spotlight& spot : std::span(spots).first(std::size_t(count))) {
+            const Vec3 p = spot.place, d = normalized(spot.target - spot.place);
+            places.insert(places.end(), {float(p.x), float(p.y), float(p.z)});
+            along.insert(along.end(), {float(d.x), float(d.y), float(d.z)});
+            kinds.insert(kinds.end(), {float(spot.strength), float(spot.slope)});
+        }
+        if (count == 0)
+            return;
+        glUniform3fv(in_use->spot_place, count, places.data());
+        glUniform3fv(in_use->spot_along, count, along.data());
+        glUniform2fv(in_use->spot, count, kinds.data());
+    }
+
+    void draw_baked(const LitPicture& picture, const SceneObject& object) {
+        if (!baked)
+            baked.emplace();
+        if (!baked_in_use) {
+            const CameraView& view = picture.view;
+            baked_in_use = true;
+            in_use = nullptr;
+            baked->program.use();
+            set_matrix(baked->clip_from_room,
+                       projection(view) * matrix(inverse(view.room_from_eye)));
+            set_matrix(baked->light_from_room, LightView(picture.frame).clip_from_room);
+        }
+        set_matrix(baked->room_from_object, place_of(object));
+        set_vector(baked->base_color, object.look.base_color);
+        glUniform1i(baked->tells_distance, !object.backdrop);
+        bind_texture(surface_unit, &texture_of(object.look).parts().texture);
+        object.mesh->buffers().draw();
+    }
+
+    const SceneTexture& texture_of(const SurfaceLook& look) const {
+        return look.texture ? *look.texture : white;
     }
 
     void draw(const LitPicture& picture, const SceneObject& object) {
         const SurfaceLook& look = object.look;
+        if (look.baked)
+            return draw_baked(picture, object);
         use_lit(picture, look.texture || look.unlit, object.cut.has_value());
         set_matrix(in_use->room_from_object, place_of(object));
         if (object.cut)
@@ -219,8 +292,7 @@ struct ScenePasses::Parts {
                     float(look.grid_m));
         glUniform1i(in_use->tells_distance, !object.backdrop);
         glUniform1i(in_use->unlit, look.unlit);
-        const SceneTexture& texture = look.texture ? *look.texture : white;
-        bind_texture(surface_unit, &texture.parts().texture);
+        bind_texture(surface_unit, &texture_of(look).parts().texture);
         object.mesh->buffers().draw();
     }
 };

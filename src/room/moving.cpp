@@ -15,20 +15,54 @@ constexpr double landing_margin_m = 0.35;
 constexpr double throw_m_per_s = 6.5, gravity_m_per_s2 = 9.81, step_s = 0.02;
 constexpr int most_steps = 200;
 
+// An eye this near to furniture would see into it.
+constexpr double obstacle_margin_m = 0.12;
+// A person who stands this near would stand in it.
+constexpr double beside_obstacle_m = 0.2;
+
 bool is_inside(const RoomExtent& extent, Vec3 place, double margin) {
     return place.x >= extent.left + margin && place.x <= extent.right - margin &&
            place.z >= extent.back + margin && place.z <= extent.front - margin;
 }
 
+// Moves the eye to the nearest side of the box, if it is in it.
+Vec3 pushed_out(const furniture::Box& box, Vec3 eye) {
+    const Vec3 margin{obstacle_margin_m, obstacle_margin_m, obstacle_margin_m};
+    const Vec3 low = box.low - margin, high = box.high + margin;
+    const struct {
+        double depth;
+        Vec3 out;
+    } sides[] = {{eye.x - low.x, {-1, 0, 0}}, {high.x - eye.x, {1, 0, 0}},
+                 {eye.z - low.z, {0, 0, -1}}, {high.z - eye.z, {0, 0, 1}},
+                 {high.y - eye.y, {0, 1, 0}}, {eye.y - low.y, {0, -1, 0}}};
+    const auto nearest =
+        std::min_element(std::begin(sides), std::end(sides),
+                         [](const auto& a, const auto& b) { return a.depth < b.depth; });
+    return nearest->depth > 0 ? eye + nearest->out * nearest->depth : eye;
+}
+
+bool is_free_floor(const FreeSpace& space, Vec3 place) {
+    return is_inside(space.extent, place, landing_margin_m) &&
+           std::none_of(space.obstacles.begin(), space.obstacles.end(), [&](const auto& box) {
+               return place.x > box.low.x - beside_obstacle_m &&
+                      place.x < box.high.x + beside_obstacle_m &&
+                      place.z > box.low.z - beside_obstacle_m &&
+                      place.z < box.high.z + beside_obstacle_m;
+           });
+}
+
 }  // namespace
 
-Vec3 kept_inside(const RoomExtent& extent, Vec3 eye) {
+Vec3 kept_inside(const FreeSpace& space, Vec3 eye) {
+    for (const furniture::Box& box : space.obstacles)
+        eye = pushed_out(box, eye);
+    const RoomExtent& extent = space.extent;
     return {std::clamp(eye.x, extent.left + wall_margin_m, extent.right - wall_margin_m),
             std::max(eye.y, least_eyes_m),
             std::clamp(eye.z, extent.back + wall_margin_m, extent.front - wall_margin_m)};
 }
 
-TeleportArc teleport_arc(const RoomExtent& extent, Vec3 from, Vec3 ahead) {
+TeleportArc teleport_arc(const FreeSpace& space, Vec3 from, Vec3 ahead) {
     TeleportArc arc;
     if (length(ahead) < 1e-9)
         return arc;
@@ -41,11 +75,11 @@ TeleportArc teleport_arc(const RoomExtent& extent, Vec3 from, Vec3 ahead) {
             const double share = place.y > 0 ? place.y / (place.y - next.y) : 0;
             const Vec3 floor = place + (next - place) * share;
             arc.points.push_back({floor.x, 0, floor.z});
-            if (is_inside(extent, floor, landing_margin_m))
+            if (is_free_floor(space, floor))
                 arc.landing = Vec3{floor.x, 0, floor.z};
             break;
         }
-        if (!is_inside(extent, next, 0))
+        if (!is_inside(space.extent, next, 0))
             break;
         place = next;
         speed.y -= gravity_m_per_s2 * step_s;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "furniture/baked_light.h"
+#include "furniture/pieces.h"
+#include "furniture/shell.h"
 #include "room/facing.h"
 #include "room/mesh_parts.h"
 
@@ -13,51 +16,20 @@ namespace {
 using render::MeshData;
 
 // Distance between the cameras and the walls, and the smallest room.
-constexpr double margin_m = 1.5, least_side_m = 6, least_height_m = 2.8, above_cameras_m = 0.4;
+constexpr double margin_m = 1.5, least_side_m = 7, least_height_m = 3, above_cameras_m = 0.4;
+constexpr double step_m = 0.5;
 // The walls also enclose the point at this distance ahead of each camera.
 constexpr double looks_at_m = 2.5;
-// Sensors measure a floor some centimetres too low now and then.
-constexpr double floor_below_m = 0.03;
 constexpr double label_height_m = 0.065, label_below_m = 0.14;
 constexpr double letter_width = 0.8;  // of a capital's height, about
 // A camera's mark is not drawn if the eye is nearer than this: it would fill the picture.
 constexpr double free_around_eye_m = 0.35;
 // Nearer labels would fill the picture.
 constexpr double label_from_m = 1.2;
+// The lamps of the table, as in furniture/baked_light.cpp.
+constexpr double spot_strength = 14, spot_slope = 0.42;
 
-const render::SurfaceLook floor_look{{0.105, 0.125, 0.135}, 0, 0.55, 1, 1};
-const render::SurfaceLook wall_look{{0.16, 0.19, 0.20}, 0, 0.9, 1, 0};
 const render::SurfaceLook mark_look{{0.75, 0.77, 0.78}, 0, 0.4, 1, 0};
-
-// A rectangle, counter-clockwise seen from where its normal points to.
-void add_rectangle(MeshData& mesh, Vec3 corner, Vec3 along, Vec3 up) {
-    const Vec3 n = normalized(cross(along, up));
-    const auto first = std::uint32_t(mesh.vertices.size());
-    for (const Vec3 p : {corner, corner + along, corner + along + up, corner + up})
-        mesh.vertices.push_back(
-            {float(p.x), float(p.y), float(p.z), float(n.x), float(n.y), float(n.z)});
-    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
-        mesh.indices.push_back(first + i);
-}
-
-MeshData floor_mesh(const RoomExtent& e) {
-    MeshData mesh;
-    add_rectangle(mesh, {e.left, -floor_below_m, e.front}, {e.right - e.left, 0, 0},
-                  {0, 0, e.back - e.front});
-    return mesh;
-}
-
-// Seen from inside.
-MeshData wall_meshes(const RoomExtent& e) {
-    MeshData mesh;
-    const Vec3 up{0, e.height + floor_below_m, 0};
-    const double y = -floor_below_m, width = e.right - e.left, depth = e.front - e.back;
-    add_rectangle(mesh, {e.left, y, e.back}, {width, 0, 0}, up);
-    add_rectangle(mesh, {e.right, y, e.front}, {-width, 0, 0}, up);
-    add_rectangle(mesh, {e.left, y, e.front}, {0, 0, -depth}, up);
-    add_rectangle(mesh, {e.right, y, e.back}, {0, 0, depth}, up);
-    return mesh;
-}
 
 // A camera's housing, behind its lens.
 MeshData mark_mesh() {
@@ -93,46 +65,140 @@ std::optional<RoomExtent> extent_of(const std::vector<RoomCamera>& cameras) {
         return extent;
     const auto widen = [](double& low, double& high) {
         const double more = std::max(margin_m, (least_side_m - (high - low)) / 2);
-        low -= more;
-        high += more;
+        low = step_m * std::floor((low - more) / step_m + 1e-6);
+        high = step_m * std::ceil((high + more) / step_m - 1e-6);
     };
     widen(extent->left, extent->right);
     widen(extent->back, extent->front);
+    extent->height = step_m * std::ceil(extent->height / step_m - 1e-6);
     return extent;
 }
+
+// The room on the GPU, in one quality.
+struct VirtualRoom::Meshes {
+    struct Surface {
+        render::SceneMesh mesh;
+        std::optional<render::SceneTexture> texture;
+        render::SurfaceLook look;
+        bool backdrop, casts_shadow;
+    };
+    render::SceneQuality quality;
+    std::vector<Surface> surfaces;
+    std::vector<render::Spotlight> spots;
+    render::SceneMesh mark{mark_mesh()};
+
+    Meshes(const RoomExtent& extent, const std::vector<furniture::Piece>& pieces,
+           render::SceneQuality wanted)
+        : quality(wanted) {
+        const furniture::BakedLight light(extent, pieces);
+        const bool low = quality == render::SceneQuality::low;
+        // Nothing throws a shadow on the ceiling.
+        for (const furniture::Side side : furniture::all_sides)
+            add_side(extent, side, low || side == furniture::Side::ceiling ? &light : nullptr);
+        if (low)
+            add(furniture::baked_mesh(pieces, light), baked_look(), false);
+        else
+            add_materials(pieces);
+        add_spots(pieces);
+    }
+
+private:
+    static render::SurfaceLook baked_look() {
+        render::SurfaceLook look{{1, 1, 1}};
+        look.baked = true;
+        return look;
+    }
+    void add(const MeshData& mesh, const render::SurfaceLook& look, bool casts_shadow) {
+        surfaces.push_back({render::SceneMesh(mesh), std::nullopt, look, false, casts_shadow});
+    }
+    void add_side(const RoomExtent& extent, furniture::Side side,
+                  const furniture::BakedLight* light) {
+        const ColorImage picture = light ? furniture::lit_side_picture(extent, side, *light)
+                                         : furniture::side_picture(extent, side);
+        render::SurfaceLook look = baked_look();
+        if (!light)
+            look = {{1, 1, 1}, 0, furniture::roughness_of(side)};
+        surfaces.push_back({render::SceneMesh(furniture::side_mesh(extent, side)),
+                            render::SceneTexture(picture.size), look, true, false});
+        surfaces.back().texture->set(picture.view());
+    }
+    // One mesh of each material.
+    void add_materials(const std::vector<furniture::Piece>& pieces) {
+        for (const bool shadow : {true, false}) {
+            furniture::Model all;
+            for (const furniture::Piece& piece : pieces)
+                if (piece.casts_shadow == shadow)
+                    all.add(piece.model, piece.room_from_piece);
+            for (const furniture::Model::Part& part : all.parts)
+                add(part.mesh, furniture::look_of(part.material), shadow);
+        }
+    }
+    void add_spots(const std::vector<furniture::Piece>& pieces) {
+        for (const furniture::Piece& piece : pieces)
+            if (piece.name == "table lamps")
+                for (const Vec3 lamp : furniture::lamp_places)
+                    spots.push_back({lamp, furniture::lamp_target, spot_strength, spot_slope});
+    }
+};
+
+VirtualRoom::VirtualRoom() = default;
+VirtualRoom::~VirtualRoom() = default;
 
 void VirtualRoom::set_cameras(const std::vector<RoomCamera>& cameras) {
     if (cameras == cameras_)
         return;
     cameras_ = cameras;
     const auto extent = extent_of(cameras);
-    if (extent == extent_)
+    if (!extent) {
+        space_.reset();
+        pieces_.clear();
+        meshes_.reset();
         return;
-    extent_ = extent;
-    if (!extent)
+    }
+    std::vector<Calibration> calibrations;
+    for (const RoomCamera& camera : cameras)
+        calibrations.push_back(camera.calibration);
+    std::vector<furniture::Piece> pieces = furniture::furnish(*extent, calibrations);
+    // The extent says where a piece stands.
+    const bool same = space_ && space_->extent == *extent &&
+                      std::equal(pieces.begin(), pieces.end(), pieces_.begin(), pieces_.end(),
+                                 [](const auto& a, const auto& b) { return a.name == b.name; });
+    if (same)
         return;
-    floor_.emplace(floor_mesh(*extent));
-    walls_.emplace(wall_meshes(*extent));
-    if (!mark_)
-        mark_.emplace(mark_mesh());
+    space_ = FreeSpace{*extent, {}};
+    for (const furniture::Piece& piece : pieces)
+        if (piece.blocks)
+            for (const furniture::Box& box : furniture::obstacles_of(piece))
+                space_->obstacles.push_back(box);
+    pieces_ = std::move(pieces);
+    meshes_.reset();
 }
 
-void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& view) const {
-    if (!extent_)
+void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& view) {
+    if (!space_)
         return;
-    const RoomExtent& e = *extent_;
-    frame.to_light = {0.25, 1, 0.35};
+    const RoomExtent& e = space_->extent;
+    if (!meshes_ || meshes_->quality != frame.quality)
+        meshes_ = std::make_unique<Meshes>(e, pieces_, frame.quality);
+    frame.to_light = {0.2, 1, 0.28};
+    frame.light = 2.5;
+    frame.surroundings = 1.45;
     frame.shadow_middle = {(e.left + e.right) / 2, e.height / 2, (e.back + e.front) / 2};
     frame.shadow_radius_m = 0.5 * length({e.right - e.left, e.height, e.front - e.back});
-    frame.objects.push_back({&*floor_, {}, floor_look, true});
-    frame.objects.push_back({&*walls_, {}, wall_look, true});
+    frame.spots = meshes_->spots;
+    for (const Meshes::Surface& surface : meshes_->surfaces) {
+        frame.objects.push_back({&surface.mesh, {}, surface.look, surface.backdrop});
+        frame.objects.back().casts_shadow = surface.casts_shadow;
+        if (surface.texture)
+            frame.objects.back().look.texture = &*surface.texture;
+    }
     const Vec3 eye = view.room_from_eye.translation;
     for (const RoomCamera& camera : *cameras_) {
         const Pose& pose = camera.calibration.room_from_camera;
         const double distance = length(pose.translation - eye);
         if (!camera.calibration.registered || distance < free_around_eye_m)
             continue;
-        frame.objects.push_back({&*mark_, pose, mark_look});
+        frame.objects.push_back({&meshes_->mark, pose, mark_look});
         if (distance < label_from_m)
             continue;
         // Cameras hang high.

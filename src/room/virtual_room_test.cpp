@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "render/ball_scene.h"
 #include "render/room_picture.h"
 #include "render/test_context.h"
 
@@ -21,10 +22,19 @@ RoomCamera camera_at(Vec3 place, const char* label, bool registered = true) {
     return camera;
 }
 
-render::SceneFrame seen(const VirtualRoom& room, const render::CameraView& view) {
+render::SceneFrame seen(VirtualRoom& room, const render::CameraView& view,
+                        render::SceneQuality quality = render::SceneQuality::low) {
     render::SceneFrame frame;
+    frame.quality = quality;
     room.add_to(frame, view);
     return frame;
+}
+
+void write_ppm(const std::string& file, const ColorImage& image) {
+    std::ofstream out(file, std::ios::binary);
+    out << "P6\n" << image.size.width << ' ' << image.size.height << "\n255\n";
+    out.write(reinterpret_cast<const char*>(image.pixels.data()),
+              std::streamsize(image.pixels.size() * sizeof(Rgb)));
 }
 
 TEST(VirtualRoom, HoldsAllCamerasAndNeverFeelsNarrow) {
@@ -47,7 +57,8 @@ TEST(VirtualRoom, IsAroundTheOriginWhereThereAreNoCameras) {
     EXPECT_EQ(extent->back, -extent->front);
     VirtualRoom room;
     room.set_cameras({});
-    EXPECT_EQ(room.extent(), extent);
+    ASSERT_TRUE(room.free_space());
+    EXPECT_EQ(room.free_space()->extent, *extent);
     EXPECT_FALSE(seen(room, render::view_towards({0, 1.7, 2}, {0, 1, 0}, 60, {64, 48})).empty());
 }
 
@@ -76,7 +87,8 @@ TEST(VirtualRoom, AppendsToWhatIsThere) {
     frame.objects.push_back({&organ, {}, {}});
     frame.quality = render::SceneQuality::low;
     room.add_to(frame, view);
-    EXPECT_EQ(frame.objects.size(), 4u) << "organ, floor, walls and a mark";
+    // The organ, six sides of the room, the furniture in one, and a mark.
+    EXPECT_EQ(frame.objects.size(), 9u);
     EXPECT_EQ(frame.objects.front().mesh, &organ);
     EXPECT_EQ(frame.quality, render::SceneQuality::low);
 }
@@ -91,11 +103,11 @@ TEST(VirtualRoom, WhoLooksFromACamerasPlaceDoesNotSeeItsMark) {
     render::SceneFrame frame = seen(room, view);
     ASSERT_EQ(frame.texts.size(), 1u);
     EXPECT_EQ(frame.texts[0].utf8, "right");
-    EXPECT_EQ(frame.objects.size(), 3u) << "floor, walls and one mark";
+    const std::size_t with_one_mark = frame.objects.size();
     // Labels right before the eye would fill the picture.
     view.room_from_eye.translation.x += 0.8;
     frame = seen(room, view);
-    EXPECT_EQ(frame.objects.size(), 4u);
+    EXPECT_EQ(frame.objects.size(), with_one_mark + 1);
     EXPECT_EQ(frame.texts.size(), 1u);
 }
 
@@ -114,27 +126,82 @@ TEST(VirtualRoom, FloorAndWallsAreSeenFromInsideAndLabelsCanBeRead) {
     constexpr Size size{640, 480};
     for (const auto quality : {render::SceneQuality::low, render::SceneQuality::high}) {
         const auto view = render::view_towards({0, 1.7, 2.5}, {0, 1.5, -1}, 70, size);
-        render::SceneFrame frame = seen(room, view);
-        frame.quality = quality;
+        render::SceneFrame frame = seen(room, view, quality);
         const auto picture = render::draw_and_read(&frame, {}, {view}, size, &passes);
-        const char* name = std::getenv("THEATRON_WRITE_SCENE");
-        if (name && quality == render::SceneQuality::high) {
-            std::ofstream out(name, std::ios::binary);
-            out << "P6\n640 480\n255\n";
-            out.write(reinterpret_cast<const char*>(picture.color.pixels.data()),
-                      std::streamsize(picture.color.pixels.size() * 3));
-        }
-        const Rgb floor = picture.color.view().row(440)[300],
-                  wall = picture.color.view().row(200)[320];
         const Rgb nothing{32, 34, 38};
-        EXPECT_NE(floor, nothing);
-        EXPECT_NE(wall, nothing);
-        EXPECT_GT(floor.g, wall.g) << "light comes from above";
+        EXPECT_NE(picture.color.view().row(440)[300], nothing);
+        EXPECT_NE(picture.color.view().row(200)[320], nothing);
+        frame.texts.clear();
+        const auto bare = render::draw_and_read(&frame, {}, {view}, size, &passes);
         int letters = 0;
-        for (const Rgb& pixel : picture.color.pixels)
-            letters += pixel.r > 190;
+        for (std::size_t i = 0; i < bare.color.pixels.size(); ++i)
+            letters += bare.color.pixels[i] != picture.color.pixels[i];
         EXPECT_GT(letters, 60);
         EXPECT_LT(letters, 3000);
+    }
+}
+
+TEST(VirtualRoom, NeverChangesTheCloudsThatAreSeenInIt) {
+    render::test_context();
+    constexpr Size size{160, 120};
+    render::CloudSet clouds;
+    render::show_golden_scene(clouds);
+    const render::CameraView view = render::golden_view();
+    render::ScenePasses passes;
+    for (const auto quality : {render::SceneQuality::low, render::SceneQuality::high}) {
+        VirtualRoom room;
+        room.set_cameras({});
+        const render::SceneFrame frame = seen(room, view, quality);
+        const render::Picture around = render::draw_and_read(&frame, {}, {view}, size, &passes);
+        for (const std::string renderer : {"splat", "mesh"}) {
+            const std::vector<render::DrawnClouds> drawn{{&clouds, renderer}};
+            const render::Picture alone =
+                render::draw_and_read(nullptr, drawn, {view}, size, &passes);
+            const render::Picture both =
+                render::draw_and_read(&frame, drawn, {view}, size, &passes);
+            int compared = 0;
+            for (std::size_t i = 0; i < alone.color.pixels.size(); ++i) {
+                const int cloud = alone.depth_mm.pixels[i], furniture = around.depth_mm.pixels[i];
+                if (cloud == 0 || (furniture != 0 && furniture < cloud + 10))
+                    continue;
+                ++compared;
+                ASSERT_EQ(alone.color.pixels[i], both.color.pixels[i]) << renderer;
+                ASSERT_EQ(alone.depth_mm.pixels[i], both.depth_mm.pixels[i]) << renderer;
+            }
+            EXPECT_GT(compared, 500) << renderer;
+        }
+    }
+}
+
+// Pictures to look at: THEATRON_WRITE_ROOM names the folder.
+TEST(VirtualRoom, CanBeLookedAt) {
+    const char* folder = std::getenv("THEATRON_WRITE_ROOM");
+    if (!folder)
+        GTEST_SKIP() << "THEATRON_WRITE_ROOM names no folder";
+    render::test_context();
+    const struct {
+        const char* name;
+        Vec3 eye, at;
+        double degrees;
+    } views[] = {{"surgeon", {0.1, 1.65, 1.5}, {-0.1, 1.1, -0.6}, 62},
+                 {"door", {-0.6, 1.65, 3.2}, {0, 1.2, -0.5}, 62},
+                 {"back", {0.4, 1.65, -3.0}, {-0.2, 1.25, 2}, 62},
+                 {"left", {-3.2, 1.7, 2.6}, {1.5, 1.1, -1.2}, 62},
+                 {"overview", {3.2, 2.85, 3.2}, {-0.4, 0.8, -0.6}, 66},
+                 {"table", {0.9, 1.5, 0.9}, {0.0, 0.9, 0}, 55},
+                 {"machine", {-0.9, 1.6, 1.9}, {-2.5, 1.0, 0.4}, 60}};
+    constexpr Size size{1280, 720};
+    render::ScenePasses passes;
+    for (const auto quality : {render::SceneQuality::low, render::SceneQuality::high}) {
+        VirtualRoom room;
+        room.set_cameras({});
+        for (const auto& v : views) {
+            const auto view = render::view_towards(v.eye, v.at, v.degrees, size);
+            render::SceneFrame frame = seen(room, view, quality);
+            const bool low = quality == render::SceneQuality::low;
+            write_ppm(std::string(folder) + "/" + v.name + (low ? "_low.ppm" : "_high.ppm"),
+                      render::draw_and_read(&frame, {}, {view}, size, &passes).color);
+        }
     }
 }
 

@@ -80,9 +80,9 @@ bool Eye::steer(const xr::Steering& steering, Size picture, TimePoint now) {
     const render::CameraView before = view(picture);
     viewpoint_ = xr::steered(*viewpoint_, steering, before.bottom - before.top, elapsed);
     const bool travels = steering.fly != Vec3{} || steering.slide != Vec2{};
-    if (walls_ && travels) {
+    if (space_ && travels) {
         Vec3& eye = viewpoint_->room_from_eye.translation;
-        const Vec3 pushed = room::kept_inside(*walls_, eye) - eye;
+        const Vec3 pushed = room::kept_inside(*space_, eye) - eye;
         eye = eye + pushed;
         viewpoint_->pivot = viewpoint_->pivot + pushed;
     }

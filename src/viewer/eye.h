@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "room/virtual_room.h"
+#include "room/moving.h"
 #include "viewer/view_choice.h"
 #include "xr/navigation.h"
 
@@ -50,8 +50,8 @@ public:
     // camera has sent a picture, unless the person has moved.
     void stand(const Pose& room_from_eye);
 
-    // The eye stays inside of these walls when it flies or slides, unless an orbit took it out.
-    void set_walls(const std::optional<room::RoomExtent>& walls) { walls_ = walls; }
+    // The eye stays in this space when it flies or slides, unless an orbit took it out.
+    void set_space(const std::optional<room::FreeSpace>& space) { space_ = space; }
 
     // Needs is_placed(). Moves the eye to this pose (z forward, y down), whose pivot is ahead of it
     // at the distance of the present one.
@@ -69,7 +69,7 @@ private:
     std::optional<xr::Viewpoint> viewpoint_;
     CameraModel lens_;
     Pose home_pose_;  // of the camera when the view started from it
-    std::optional<room::RoomExtent> walls_;
+    std::optional<room::FreeSpace> space_;
     bool moved_ = false;  // away from the home view
     bool flying_ = false;
     TimePoint steered_at_, first_picture_at_;

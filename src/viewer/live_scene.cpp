@@ -184,6 +184,8 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
     if (choice_.shown) {
+        if (!passes_)
+            frame_.quality = choice_.quality.value_or(render::usual_quality());
         room_.add_to(frame_, view);
         meeting_.add_to(frame_, view);
         add_pointers(view);
@@ -193,7 +195,6 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     if (!passes_) {
         const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
         passes_ = std::make_unique<render::ScenePasses>(&atlas);
-        frame_.quality = choice_.quality.value_or(render::usual_quality());
     }
     return &frame_;
 }

@@ -53,7 +53,7 @@ public:
     bool has_picture() const { return !newest_.empty(); }
     // The host has told its cameras, and there are none of the room.
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
-    const std::optional<room::RoomExtent>& walls() const { return room_.extent(); }
+    const std::optional<room::FreeSpace>& free_space() const { return room_.free_space(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The newest pictures of these, for cloud_pick.h; valid until take().
     std::vector<CloudCamera> cloud() const;

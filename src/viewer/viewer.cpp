@@ -199,14 +199,14 @@ void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint
 // The arc begins below the eye, so that it is seen from above.
 void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
     constexpr Vec3 hand_from_eye{0.15, 0.3, 0.1};
-    if (!eye_.is_placed() || !scene_.walls())
+    if (!eye_.is_placed() || !scene_.free_space())
         return;
     const render::CameraView view = eye_.view(picture);
     const bool was_aiming = arc_.has_value();
     if (input.aims_teleport) {
         const render::PickRay ray = render::ray_through(view, input.pointer.value_or(Vec2{.5, .5}));
-        arc_ =
-            room::teleport_arc(*scene_.walls(), view.room_from_eye * hand_from_eye, ray.direction);
+        arc_ = room::teleport_arc(*scene_.free_space(), view.room_from_eye * hand_from_eye,
+                                  ray.direction);
     } else if (was_aiming) {
         if (arc_->landing) {
             stop_following();
@@ -361,7 +361,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     while (const auto answer = participant_.take_managed())
         if (answer->refusal != wire::ManageRefusal::none)
             note(wire::text_of(answer->refusal), now);
-    eye_.set_walls(scene_.walls());
+    eye_.set_space(scene_.free_space());
     look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
     send_pose(picture, now);

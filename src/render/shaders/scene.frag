@@ -10,7 +10,7 @@ uniform mat4 light_from_room;
 uniform vec3 eye, to_light, base_color;
 uniform vec4 look;  // metallic, roughness, opacity, distance of the grid's lines
 uniform bool tells_distance;
-uniform float light;
+uniform float light, surroundings;
 uniform float shadow_texel;
 #ifdef TEXTURED
 uniform sampler2D surface_texture;  // sRGB; white where the surface has none
@@ -71,15 +71,34 @@ float line_share(vec3 n) {
 }
 
 #ifndef LOW_QUALITY
-vec3 from_lamp(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
-    vec3 h = normalize(v + to_light);
-    float nl = max(dot(n, to_light), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0);
+uniform int spot_count;
+uniform vec3 spot_place[2], spot_along[2];
+uniform vec2 spot[2];  // strength, slope of the lit cone
+
+// `d`: towards the lamp, of this strength.
+vec3 from_lamp(vec3 d, float strength, vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
+    vec3 h = normalize(v + d);
+    float nl = max(dot(n, d), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0);
     float a2 = roughness * roughness * roughness * roughness;
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    float spread = a2 / (3.14159 * d * d);
+    float width = nh * nh * (a2 - 1.0) + 1.0;
+    float spread = a2 / (3.14159 * width * width);
     float hidden = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1e-5);
     vec3 fresnel = mirror + (1.0 - mirror) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
-    return (diffuse / 3.14159 + fresnel * spread * hidden) * nl * light;
+    return (diffuse / 3.14159 + fresnel * spread * hidden) * nl * strength;
+}
+
+vec3 from_spots(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < spot_count; ++i) {
+        vec3 to_spot = spot_place[i] - v_place;
+        float ahead = -dot(to_spot, spot_along[i]);
+        float beside = length(to_spot + spot_along[i] * ahead);
+        float beam = ahead > 0.0 ? 1.0 - smoothstep(0.43 * spot[i].y, spot[i].y, beside / ahead) : 0.0;
+        if (beam > 0.0)
+            sum += from_lamp(normalize(to_spot), spot[i].x * beam / max(dot(to_spot, to_spot), 0.25), n, v, diffuse,
+                             mirror, roughness);
+    }
+    return sum;
 }
 
 vec3 from_surroundings(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughness) {
@@ -88,8 +107,8 @@ vec3 from_surroundings(vec3 n, vec3 v, vec3 diffuse, vec3 mirror, float roughnes
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
     vec3 reflected = textureLod(environment, reflect(-v, n), roughness * (last_level - 1.0)).rgb;
-    return diffuse * textureLod(environment, n, last_level).rgb +
-           reflected * (mirror * fit.x + fit.y);
+    return surroundings * (diffuse * textureLod(environment, n, last_level).rgb +
+                           reflected * (mirror * fit.x + fit.y));
 }
 #endif
 
@@ -159,7 +178,8 @@ void main() {
 #else
     vec3 diffuse = surface * (1.0 - look.x);
     vec3 mirror = mix(vec3(0.04), surface, look.x);
-    vec3 color = from_lamp(n, v, diffuse, mirror, look.y) * lit_share(n) +
+    vec3 color = from_lamp(to_light, light, n, v, diffuse, mirror, look.y) * lit_share(n) +
+                 from_spots(n, v, diffuse, mirror, look.y) +
                  from_surroundings(n, v, diffuse, mirror, look.y) * open_share(n);
 #endif
     write_surface(shown(color), distance_m);

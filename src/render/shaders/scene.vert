@@ -6,7 +6,7 @@ uniform mat4 room_from_object;
 #ifdef LOW_QUALITY
 uniform samplerCube environment;
 uniform vec3 to_light;
-uniform float light;
+uniform float light, surroundings;
 #endif
 
 layout(location = 0) in vec3 place;
@@ -33,7 +33,7 @@ void main() {
 #endif
     v_normal = mat3(room_from_object) * normal;
 #ifdef LOW_QUALITY
-    v_around = textureLod(environment, v_normal, 4.0).rgb;
+    v_around = surroundings * textureLod(environment, v_normal, 4.0).rgb;
     v_lamp = max(dot(normalize(v_normal), to_light), 0.0) * light / 3.14159;
 #endif
     gl_Position = clip_from_room * in_room;
