@@ -72,7 +72,8 @@ struct Flags {
     std::optional<std::string> renderer;  // likewise, else viewer::automatic
     std::string size = "1280x720";
     std::string view = "camera:0";
-    std::string room = "on", quality = "auto";
+    std::string room = "on";
+    std::optional<std::string> quality;  // if given, else auto, in a window that of the last one
     std::vector<std::string> people, myself;
     std::vector<std::string> cameras;  // that are sent
     bool stereo = false;
@@ -109,9 +110,7 @@ constexpr double eye_distance_m = 0.063;
 viewer::RoomChoice parse_room(const Flags& flags) {
     viewer::RoomChoice choice;
     choice.shown = flags.room == "on";
-    if (flags.quality != "auto")
-        choice.quality =
-            flags.quality == "high" ? render::SceneQuality::high : render::SceneQuality::low;
+    choice.quality = parse_quality(flags.quality.value_or("auto"));
     return choice;
 }
 
@@ -301,7 +300,7 @@ void run(const Flags& flags) {
         shown.viewer.view = viewer::parse_view(flags.view);
         shown.viewer.room = parse_room(flags);
         shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
-        use_kept_settings(shown, flags.name, flags.renderer);
+        use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
         shown.viewer.scale = parse_render_scale(flags.render_scale);
         cli::catch_stop_signals();
         xr::DesktopWindow window("Theatron", parse_size(flags.size));
@@ -460,7 +459,7 @@ void add_join_command(CLI::App& app) {
         ->add_option("--quality", flags->quality,
                      "How carefully that room is lit: low, high, or auto, which is low where no "
                      "graphics card draws. The clouds are the same in both")
-        ->capture_default_str()
+        ->default_str("that of your last window, else auto")
         ->check(CLI::IsMember({"auto", "low", "high"}));
     command
         ->add_option("--person", flags->people,

@@ -79,8 +79,15 @@ bool has_display() {
     return false;
 }
 
+std::optional<render::SceneQuality> parse_quality(const std::string& text) {
+    if (text == "auto")
+        return std::nullopt;
+    return text == "high" ? render::SceneQuality::high : render::SceneQuality::low;
+}
+
 void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& name,
-                       const std::optional<std::string>& renderer) {
+                       const std::optional<std::string>& renderer,
+                       const std::optional<std::string>& quality) {
     if (renderer)
         viewer::check_renderer_choice(*renderer);
     const std::filesystem::path folder = files::state_folder();
@@ -97,6 +104,8 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
     window.join.name = name.value_or(kept.name);
     window.settings = kept;
     window.settings.name = window.join.name;
+    window.settings.quality = quality.value_or(kept.quality);
+    window.viewer.room.quality = parse_quality(window.settings.quality);
     window.keep = [folder](const client::Settings& settings) {
         if (const std::string trouble = client::save_settings(folder, settings); !trouble.empty())
             log::say(trouble);

@@ -28,11 +28,15 @@ struct ViewerWindow {
 // True where a desktop is named by the environment; a window may still fail to open there.
 bool has_display();
 
-// The window begins with the settings that the last one ended with, and keeps changes. `name` and
-// `renderer` of the command line come first, and are kept, too. Throws Error if there is no such
-// renderer.
+// Of "low", "high" and "auto"; none: automatic.
+std::optional<render::SceneQuality> parse_quality(const std::string& text);
+
+// The window begins with the settings that the last one ended with, and keeps changes. `name`,
+// `renderer` and `quality` of the command line come first, and are kept, too. Throws Error if there
+// is no such renderer.
 void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& name,
-                       const std::optional<std::string>& renderer);
+                       const std::optional<std::string>& renderer,
+                       const std::optional<std::string>& quality);
 
 // Returns when the person leaves. Throws Error if the host refused to let the person in.
 void show(xr::DesktopWindow& window, ViewerWindow options);

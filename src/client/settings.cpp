@@ -29,13 +29,18 @@ bool read_text(const std::string& text, std::string& value) {
     return true;
 }
 
+bool read_quality(const std::string& text, std::string& value) {
+    value = text;
+    return text == "auto" || text == "low" || text == "high";
+}
+
 }  // namespace
 
 std::string settings_text(const Settings& settings) {
     const std::string name = clean_text(settings.name, wire::max_name);
     return (name.empty() ? "" : "name " + name + "\n") + "renderer " + settings.renderer +
            "\nsits " + text_of(settings.sits) + "\npeople " + text_of(settings.shows_people) +
-           "\nfacts " + text_of(settings.shows_facts) + "\n";
+           "\nfacts " + text_of(settings.shows_facts) + "\nquality " + settings.quality + "\n";
 }
 
 ParsedSettings parse_settings(const std::string& text) {
@@ -51,6 +56,7 @@ ParsedSettings parse_settings(const std::string& text) {
                               : name == "sits"     ? read(value, settings.sits)
                               : name == "people"   ? read(value, settings.shows_people)
                               : name == "facts"    ? read(value, settings.shows_facts)
+                              : name == "quality"  ? read_quality(value, settings.quality)
                                                    : clean_text(name, 100) == name;
         if (!is_right)
             return {{}, "the line '" + clean_text(line, 100) + "' is not understood"};

@@ -11,9 +11,10 @@ namespace theatron::client {
 struct Settings {
     std::string name = "guest";
     std::string renderer = "auto";
-    bool sits = false;          // the eyes' height after a teleport
-    bool shows_people = false;  // the panel of people and places
-    bool shows_facts = true;    // the line at the bottom
+    bool sits = false;             // the eyes' height after a teleport
+    bool shows_people = false;     // the panel of people and places
+    bool shows_facts = true;       // the line at the bottom
+    std::string quality = "auto";  // of the virtual room: auto, low or high
     bool operator==(const Settings&) const = default;
 };
 

@@ -10,7 +10,7 @@
 namespace theatron::client {
 namespace {
 
-const Settings mine{"Dr. Ada", "mesh", true, true, false};
+const Settings mine{"Dr. Ada", "mesh", true, true, false, "high"};
 
 TEST(Settings, AreKept) {
     const testing::TemporaryFolder home;
@@ -43,8 +43,9 @@ TEST(Settings, OfANewerProgramKeepTheRest) {
 }
 
 TEST(Settings, ADamagedFileIsOneSentenceAndTheUsualSettings) {
-    for (const std::string damaged : {"sits perhaps\n", "name \n", "name\n", "name A\tB\n",
-                                      "people", "\x01\x02\n", "name Ada\nsits\n"}) {
+    for (const std::string damaged :
+         {"sits perhaps\n", "name \n", "name\n", "name A\tB\n", "people", "\x01\x02\n",
+          "name Ada\nsits\n", "quality best\n"}) {
         const ParsedSettings parsed = parse_settings(damaged);
         EXPECT_NE(parsed.problem, "") << damaged;
         EXPECT_EQ(parsed.settings, Settings{}) << damaged;

@@ -47,9 +47,7 @@ bool is_wall(Side side) {
 }
 
 Size picture_size(Side side) {
-    return side == Side::floor ? Size{768, 768}
-           : is_wall(side)     ? Size{1024, 256}
-                               : Size{512, 512};
+    return side == Side::floor ? Size{768, 768} : is_wall(side) ? Size{1024, 256} : Size{512, 512};
 }
 
 // From 0 to 1, without any pattern.

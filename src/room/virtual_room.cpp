@@ -143,6 +143,8 @@ private:
 
 VirtualRoom::VirtualRoom() = default;
 VirtualRoom::~VirtualRoom() = default;
+VirtualRoom::VirtualRoom(VirtualRoom&&) noexcept = default;
+VirtualRoom& VirtualRoom::operator=(VirtualRoom&&) noexcept = default;
 
 void VirtualRoom::set_cameras(const std::vector<RoomCamera>& cameras) {
     if (cameras == cameras_)

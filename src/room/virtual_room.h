@@ -37,6 +37,8 @@ class VirtualRoom {
 public:
     VirtualRoom();
     ~VirtualRoom();
+    VirtualRoom(VirtualRoom&&) noexcept;
+    VirtualRoom& operator=(VirtualRoom&&) noexcept;
 
     // There is no room before. Cheap if nothing has changed.
     void set_cameras(const std::vector<RoomCamera>& cameras);
