@@ -338,6 +338,8 @@ void run(const Flags& flags) {
             (void)participant.take_frames();
 
         const auto status = participant.status();
+        if (status.phase == client::Participant::Phase::joined)
+            voice.note(status.standing);
         if (status.phase == client::Participant::Phase::refused)
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)

@@ -176,6 +176,9 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
                            -rows_per_click * std::exchange(input.steering.approach, 0));
             input.redraw = true;
         }
+        if (const auto status = participant.status();
+            options.voice && status.phase == client::Participant::Phase::joined)
+            options.voice->note(status.standing);
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
                         window.pixels(), now);
         if (const TimePoint first = viewer.first_picture_at();

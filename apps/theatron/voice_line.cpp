@@ -2,16 +2,21 @@
 #include "voice_line.h"
 
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "session/permissions.h"
 
 namespace theatron::app {
 namespace {
 
 // A frame of this level counts as speech.
 constexpr int speech_db = -50;
+
+constexpr const char* without_microphone =
+    "You have no microphone here: join with --microphone default";
 
 double to_ms_of(std::uint64_t samples) {
     return double(samples) * 1000 / voice::sample_rate;
@@ -74,16 +79,30 @@ bool VoiceLine::obey(const std::string& line) {
     is_open_ = value == "on";
     if (talker_)
         talker_->set_open(is_open_);
+    else
+        log::say(without_microphone);
     return true;
 }
 
 std::string VoiceLine::toggle_microphone() {
     const std::lock_guard lock(talker_mutex_);
     if (!talker_)
-        return "You have no microphone here: join with --microphone default";
+        return without_microphone;
     is_open_ = !is_open_;
     talker_->set_open(is_open_);
     return is_open_ ? "Microphone open" : "Microphone closed: nobody hears you";
+}
+
+void VoiceLine::note(const wire::Standing& standing) {
+    const bool may_speak = session::may(standing.role, session::Right::speak);
+    const bool is_heard = may_speak && !standing.muted;
+    const std::lock_guard lock(talker_mutex_);
+    if (!talker_ || is_heard == std::exchange(is_heard_, is_heard))
+        return;
+    log::say(is_heard    ? "The others hear you."
+             : may_speak ? "An operator has muted you: nobody hears you."
+                         : "Nobody hears you, because observers do not speak; an operator can give "
+                           "you another role.");
 }
 
 nlohmann::json VoiceLine::json() const {
@@ -91,6 +110,7 @@ nlohmann::json VoiceLine::json() const {
     {
         const std::lock_guard lock(talker_mutex_);
         result["microphone"] = !talker_ ? "none" : talker_->is_open() ? "open" : "closed";
+        result["heard"] = talker_ && talker_->is_open() && is_heard_;
         result["level_db"] = talker_ ? talker_->level_db() : -127;
     }
     result["speaker"] = speaker_ != nullptr;

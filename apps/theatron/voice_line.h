@@ -45,7 +45,11 @@ public:
     // Closes the microphone if it is open, and opens it if it is closed. Returns a line about it.
     std::string toggle_microphone();
 
-    // {"microphone":"open"|"closed"|"none","level_db","speaker","speaking":[{"id","level_db"}],
+    // Says once when the host lets nobody hear this person, and when it does again. To be called
+    // with the newest standing while joined.
+    void note(const wire::Standing& standing);
+
+    // {"microphone":"open"|"closed"|"none","heard","level_db","speaker","speaking":[{"id","level_db"}],
     // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable"}
     nlohmann::json json() const;
 
@@ -54,6 +58,7 @@ private:
     mutable std::mutex talker_mutex_, mixer_mutex_;
     std::unique_ptr<voice::Talker> talker_;  // while somebody talks
     bool is_open_ = true;
+    bool is_heard_ = true;  // the role may speak, and nobody has muted this person
     voice::Mixer mixer_;
     std::unique_ptr<sound::SoundDevice> speaker_;  // its thread uses the mixer
 };

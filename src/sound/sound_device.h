@@ -28,7 +28,7 @@ using Fill = std::function<void(std::span<float>)>;
 std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver);
 
 // The same for a loudspeaker; a file is written, of 16 bits, and complete when the device is
-// destroyed.
+// destroyed. It must not exist yet.
 std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill);
 
 }  // namespace theatron::sound

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <thread>
@@ -16,6 +17,7 @@
 
 #include "base/bytes.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "voice/packet.h"
@@ -50,22 +52,34 @@ private:
     std::thread thread_;
 };
 
+// An hour of the best quality.
+constexpr std::uintmax_t max_wav_bytes = std::uintmax_t(2) << 30;
+
 std::vector<float> read_wav(const std::string& path) {
+    const std::string name = "The sound file '" + path + "'";
+    std::error_code failed;
+    // Reading a pipe or a device would never end.
+    if (!std::filesystem::is_regular_file(path, failed))
+        throw Error(std::filesystem::exists(path, failed) ? name + " is no regular file."
+                                                          : name + " does not exist.");
+    if (std::filesystem::file_size(path, failed) > max_wav_bytes)
+        throw Error(name + " is larger than the 2 GiB that are read.");
     SDL_AudioSpec spec{};
     Uint8* bytes = nullptr;
     Uint32 size = 0;
     if (!SDL_LoadWAV(path.c_str(), &spec, &bytes, &size))
-        throw Error("The sound file '" + path + "' cannot be read (" + SDL_GetError() +
-                    "); it must be a WAV file.");
+        throw Error(name + " cannot be read (" + SDL_GetError() + "); it must be a WAV file.");
     const std::unique_ptr<Uint8, void (*)(Uint8*)> owner(bytes, SDL_FreeWAV);
     const std::unique_ptr<SDL_AudioStream, void (*)(SDL_AudioStream*)> stream(
         SDL_NewAudioStream(spec.format, spec.channels, spec.freq, AUDIO_F32SYS, 1,
                            voice::sample_rate),
         SDL_FreeAudioStream);
+    if (size == 0)
+        throw Error(name + " holds no sound.");
     if (!stream || size > Uint32(std::numeric_limits<int>::max()) ||
         SDL_AudioStreamPut(stream.get(), bytes, int(size)) != 0 ||
         SDL_AudioStreamFlush(stream.get()) != 0)
-        throw Error("The sound file '" + path + "' cannot be converted (" + SDL_GetError() + ").");
+        throw Error(name + " cannot be converted (" + SDL_GetError() + ").");
     std::vector<float> samples(std::size_t(SDL_AudioStreamAvailable(stream.get())) / sizeof(float));
     SDL_AudioStreamGet(stream.get(), samples.data(), int(samples.size() * sizeof(float)));
     return samples;
@@ -116,8 +130,11 @@ void write(std::ofstream& file, ByteView bytes) {
 
 class WavSpeaker : public SoundDevice {
 public:
-    WavSpeaker(const std::string& path, Fill fill)
-        : file_(path, std::ios::binary | std::ios::trunc), fill_(std::move(fill)) {
+    WavSpeaker(const std::string& path, Fill fill) : path_(path), fill_(std::move(fill)) {
+        if (std::error_code failed;
+            std::filesystem::exists(std::filesystem::symlink_status(path, failed)))
+            throw Error("The sound file '" + path + "' exists already; name another file.");
+        file_.open(path, std::ios::binary | std::ios::trunc);
         write(file_, wav_head(0));
         if (!file_)
             throw Error("The sound file '" + path + "' cannot be written; check its folder.");
@@ -137,11 +154,26 @@ private:
         ByteWriter out(bytes);
         for (const float v : block)
             out.put(std::int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767)));
+        // The head's sizes have 32 bits.
+        constexpr std::uint32_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 36 - 960;
+        if (is_full_)
+            return;
         write(file_, bytes);
+        file_.flush();
+        if (!file_ || size_ > most_bytes) {
+            is_full_ = true;
+            log::say("The sound file '" + path_ +
+                     (file_ ? "' is as long as a WAV file can be; it ends here."
+                            : "' cannot be written any more; it ends here. Check the disk."));
+            file_.clear();
+            return;
+        }
         size_ += std::uint32_t(bytes.size());
     }
 
+    const std::string path_;
     std::ofstream file_;
+    bool is_full_ = false;
     const Fill fill_;
     std::uint32_t size_ = 0;
     std::unique_ptr<Pace> pace_;

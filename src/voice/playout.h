@@ -58,8 +58,11 @@ public:
     };
     const Figures& figures() const { return figures_; }
     // The time that a frame waits at present, and the time that it should, both from the arrival of
-    // the quickest packets.
-    Duration delay() const { return Duration(std::int64_t(delay_us_)); }
+    // the quickest packets. The first is 0 while nothing is played.
+    Duration delay() const {
+        const bool plays = playing_ && delay_known_ && level_db_ > -127;
+        return plays ? Duration(std::int64_t(delay_us_)) : Duration{};
+    }
     Duration target() const { return target_; }
     // The level of the frame that was decoded last, in dB; -127 while the speaker is silent.
     int level_db() const { return level_db_; }

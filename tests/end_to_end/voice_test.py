@@ -105,7 +105,8 @@ class Voice(unittest.TestCase):
                 ada.wait_for(lambda f: [s["id"] for s in f["voice"]["speaking"]] == speaker, 10)
 
                 ada.say("mute Ben")
-                ben.wait_for(lambda f: f["muted"], 10)
+                ben.wait_for(lambda f: f["muted"] and not f["voice"]["heard"], 10)
+                wait_until(lambda: any("has muted you" in line for line in ben.errors), 5)
                 silent = ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
                 muted = silent["voice"]["voices"][0]["seconds"]
                 # Ben speaks on for a second, and no sample of it is heard.
@@ -138,13 +139,41 @@ class Voice(unittest.TestCase):
                 self.assertEqual(ada.hear(), (mallory.number, b"mallory"))
                 self.assertEqual(observer.hear(), (mallory.number, b"mallory"))
 
-    def test_a_missing_microphone_does_not_block_entry(self):
+    def test_sound_that_cannot_be_had_does_not_block_entry(self):
+        os.mkfifo(self.folder / "pipe.wav")
+        write_wav(self.folder / "empty.wav", array.array("h"))
+        dictation = self.folder / "dictation.wav"
+        write_wav(dictation, self.said[:4800])
+        before = dictation.read_bytes()
         with self.start() as a_host:
-            with self.member(a_host.greeting["links"]["expert"], "Ben", "--microphone",
-                             self.folder / "missing.wav") as ben:
-                figures = ben.wait_for(lambda f: f["phase"] == "joined", 20)
-                self.assertEqual(figures["voice"]["microphone"], "none")
-                wait_until(lambda: any("missing.wav" in line for line in ben.errors), 5)
+            link = a_host.greeting["links"]["expert"]
+            for option, file, sentence in (("--microphone", "missing.wav", "missing.wav' does not exist"),
+                                           ("--microphone", "pipe.wav", "pipe.wav' is no regular file"),
+                                           ("--microphone", "empty.wav", "empty.wav' holds no sound"),
+                                           ("--speaker", "dictation.wav", "dictation.wav' exists already")):
+                with self.subTest(file), self.member(link, "Ben", option, self.folder / file) as ben:
+                    figures = ben.wait_for(lambda f: f["phase"] == "joined", 20)
+                    self.assertEqual((figures["voice"]["microphone"], figures["voice"]["speaker"]), ("none", False))
+                    wait_until(lambda: any(sentence in line for line in ben.errors), 5)
+                    ben.say("microphone on")
+                    wait_until(lambda: any("You have no microphone here" in line for line in ben.errors), 5)
+        self.assertEqual(dictation.read_bytes(), before)
+
+    def test_an_observer_with_a_microphone_is_told_that_nobody_hears_it(self):
+        with self.start() as a_host, \
+                self.member(a_host.greeting["links"]["observer"], "Olga", "--microphone", self.folder / "said.wav") as olga:
+            olga.wait_for(lambda f: f["phase"] == "joined" and not f["voice"]["heard"], 20)
+            wait_until(lambda: any("observers do not speak" in line for line in olga.errors), 5)
+
+    def test_a_loudspeakers_file_on_a_full_disk_is_told(self):
+        small = self.folder / "small"
+        small.mkdir()
+        if os.system(f"mount -t tmpfs -o size=64k none {small} 2>/dev/null") != 0:
+            self.skipTest("file systems cannot be mounted here")
+        self.addCleanup(os.system, f"umount {small}")
+        with self.start() as a_host, \
+                self.member(a_host.greeting["links"]["expert"], "Ada", "--speaker", small / "ada.wav") as ada:
+            wait_until(lambda: any("cannot be written any more" in line for line in ada.errors), 20)
 
 
 if __name__ == "__main__":
