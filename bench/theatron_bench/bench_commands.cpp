@@ -362,6 +362,10 @@ void add_render(CLI::App& bench) {
                             renderer["name"].get<std::string>().c_str(),
                             renderer["frame_ms"].get<double>(),
                             renderer["upload_ms"].get<double>());
+            for (const auto& room : r["rooms"])
+                std::printf("  %-12s picture %7.2f ms  built in %6.2f ms\n",
+                            room["name"].get<std::string>().c_str(), room["frame_ms"].get<double>(),
+                            room["build_ms"].get<double>());
         });
     });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "base/error.h"
@@ -14,6 +15,9 @@
 #include "render/gl.h"
 #include "render/offscreen_context_native.h"
 #include "render/render_target.h"
+#include "render/room_picture.h"
+#include "room/people.h"
+#include "room/virtual_room.h"
 
 namespace theatron::bench {
 namespace {
@@ -106,6 +110,70 @@ void check_renderer(const RenderBenchCamera& camera, const std::string& renderer
                     std::to_string(valid) + " points of a camera in their places.");
 }
 
+// The clouds alone and in the room: a picture, and how long the room takes to be made.
+nlohmann::json bench_rooms(const RenderBench& bench, const CameraView& view,
+                           const render::RenderTarget& target, CloudSet& clouds) {
+    struct Case {
+        const char* name;
+        std::optional<render::SceneQuality> quality;
+        room::VirtualRoom room;
+        render::SceneFrame frame;
+        std::vector<double> frame_ms, build_ms;
+    };
+    Case cases[3];
+    cases[0].name = "clouds alone";
+    cases[1].name = "room low";
+    cases[1].quality = render::SceneQuality::low;
+    cases[2].name = "room high";
+    cases[2].quality = render::SceneQuality::high;
+    render::ScenePasses passes;
+    const room::People avatars;
+    // They face the eye.
+    const Pose turned{rotation_about({1, 0, 0}, std::numbers::pi), {}};
+    std::vector<room::RoomPerson> people(2);
+    for (int i = 0; i < 2; ++i) {
+        Pose head = view.room_from_eye * turned;
+        head.translation = view.room_from_eye * Vec3{i ? 0.5 : -0.5, 0.1, 1.4};
+        people[std::size_t(i)].id = ParticipantId{std::uint32_t(i + 1)};
+        people[std::size_t(i)].head = head;
+        head.translation = view.room_from_eye * Vec3{i ? 0.2 : -0.2, 0.3, 1.2};
+        people[std::size_t(i)].right_hand = head;
+    }
+    for (int round = 0; round <= bench.repetitions; ++round)
+        for (Case& c : cases) {
+            // The whole furniture, as if no camera saw any of it.
+            const auto fill = [&] {
+                c.frame.objects.clear();
+                c.frame.texts.clear();
+                c.frame.quality = *c.quality;
+                c.room.add_to(c.frame, view);
+                avatars.add_to(c.frame, people, view);
+            };
+            if (c.quality && round <= 3) {
+                c.room = {};
+                c.room.set_cameras({});
+                c.build_ms.push_back(timed_ms(fill));
+            }
+            const double ms = timed_ms([&] {
+                target.clear(black);
+                if (c.quality)
+                    fill();
+                render::draw({c.quality ? &c.frame : nullptr,
+                              {{&clouds, "mesh"}},
+                              {{view, target.target()}}},
+                             &passes);
+            });
+            if (round > 0)
+                c.frame_ms.push_back(ms);
+        }
+    nlohmann::json rows = nlohmann::json::array();
+    for (const Case& c : cases)
+        rows.push_back({{"name", c.name},
+                        {"frame_ms", median(c.frame_ms)},
+                        {"build_ms", c.build_ms.empty() ? 0.0 : median(c.build_ms)}});
+    return rows;
+}
+
 }  // namespace
 
 std::vector<RenderBenchCamera> generated_render_cameras(int count) {
@@ -133,6 +201,7 @@ nlohmann::json bench_render(const RenderBench& bench) {
 
     const int count = int(bench.cameras.size());
     std::vector<std::vector<double>> frame_ms(renderers.size()), upload_ms(renderers.size());
+    nlohmann::json rooms;
     {
         CloudSet scene;
         scene.set_depth_step(bench.depth_step);
@@ -159,6 +228,7 @@ nlohmann::json bench_render(const RenderBench& bench) {
                     frame_ms[r].push_back(frame);
                 }
             }
+        rooms = bench_rooms(bench, view, target, scene);
     }
     if (context.errors() > 0)
         throw Error("The graphics driver reports an error: " + context.first_error());
@@ -168,9 +238,13 @@ nlohmann::json bench_render(const RenderBench& bench) {
         rows.push_back({{"name", renderers[r]},
                         {"frame_ms", median(frame_ms[r])},
                         {"upload_ms", median(upload_ms[r])}});
-    return {{"gl_renderer", context.renderer_name()}, {"width", bench.picture.width},
-            {"height", bench.picture.height},         {"cameras", count},
-            {"depth_step", bench.depth_step},         {"renderers", rows}};
+    return {{"gl_renderer", context.renderer_name()},
+            {"width", bench.picture.width},
+            {"height", bench.picture.height},
+            {"cameras", count},
+            {"depth_step", bench.depth_step},
+            {"renderers", rows},
+            {"rooms", rooms}};
 }
 
 }  // namespace theatron::bench

@@ -35,9 +35,13 @@ struct RenderBench {
 // camera's depth pixels must appear within 5 mm and two pixels, in their colour. The check
 // includes the bare grid.
 //
+// Also draws the clouds with "mesh" alone and in the whole furnished room with two avatars, in both
+// qualities.
+//
 // Returns {gl_renderer, width, height, cameras, depth_step, renderers: [{name, frame_ms,
-// upload_ms}]}: medians of the wall clock around glFinish; uploads are per camera (depth and
-// colour). The row bare_grid is the yardstick: the minimum that draws depth images as surfaces.
+// upload_ms}], rooms: [{name, frame_ms, build_ms}]}: medians of the wall clock around glFinish;
+// uploads are per camera (depth and colour). The row bare_grid is the yardstick: the minimum that
+// draws depth images as surfaces.
 //
 // Throws Error for an unknown renderer, no camera, a renderer that fails the check, GL errors,
 // and if there is no GL.
