@@ -17,6 +17,7 @@
 #include "bench_render.h"
 #include "bench_report.h"
 #include "bench_sequence.h"
+#include "bench_slices.h"
 #include "bench_view.h"
 #include "capture/crop.h"
 #include "capture/tiled_recording.h"
@@ -486,6 +487,7 @@ void add_benchmarks(CLI::App& app) {
     add_interaction(app);
     add_pipeline(app);
     add_render(app);
+    add_slices_bench(app);
     add_view(app);
     add_registration(app);
 }
