@@ -26,8 +26,8 @@ setup:
 build: setup
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target theatron theatron_bench
-	@cmake --preset web > /dev/null
-	@cmake --build --preset web --target page
+	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
+	else echo "build: em++ is missing, so the host has no browser client"; fi
 
 demo: build
 	@test -e demo/case || build/release/apps/theatron/theatron case synth demo/case --dicom demo/ct

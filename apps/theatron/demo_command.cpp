@@ -144,7 +144,8 @@ void run(const Flags& flags) {
     const auto window = open_window(flags);
     const Meeting meeting(link);
 
-    std::cout << "\nThe demo room is open. Join it from another terminal:\n\n"
+    std::cout << "\nThe demo room is open. Join it from another terminal, or open the "
+                 "link in a browser:\n\n"
               << "  " << flags.program << " join '" << host.link() << "'\n\n"
               << "Two scripted people are in it, who point, hold a brick and hand it over.\n"
               << std::flush;

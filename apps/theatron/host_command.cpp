@@ -49,6 +49,7 @@ struct Flags {
     std::string places;
     std::string audit, admit = "all";
     std::string cases;
+    std::string certificate, key;
     double seconds = 0;
     double link_hours = 0;
     bool json = false;
@@ -129,6 +130,8 @@ void run(Flags& flags) {
     flags.options.state = flags.state;
     flags.options.places = flags.places;
     flags.options.cases = flags.cases;
+    flags.options.certificate = flags.certificate;
+    flags.options.key = flags.key;
     flags.options.page = host::usual_page_folder();
     flags.options.is_audited = flags.audit != "none";
     if (flags.options.is_audited)
@@ -157,7 +160,7 @@ void run(Flags& flags) {
                   << std::endl;
     } else {
         std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
-                  << "for example: theatron join '" << host.link() << "'\n\n"
+                  << "in a browser, or with: theatron join '" << host.link() << "'\n\n"
                   << "With these\n";
         for (const auto& [role, may] : others)
             std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
@@ -250,6 +253,14 @@ void add_host_command(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_option("--listen", flags->listen, "ADDRESS:PORT; port 0 lets the system choose")
         ->capture_default_str();
+    auto* certificate = command->add_option(
+        "--certificate", flags->certificate,
+        "Your organisation's certificate as a PEM file, with those of its issuers, so that "
+        "browsers do not warn (docs/browser.md); by default the host makes one itself");
+    auto* key =
+        command->add_option("--key", flags->key, "Its key, a PEM file that only you may read");
+    certificate->needs(key);
+    key->needs(certificate);
     command->add_option("--name", flags->options.name, "What participants see as the room's name")
         ->capture_default_str();
     command->add_option(

@@ -110,6 +110,7 @@ bool draw(Visit& visit, Size size) {
     const xr::WindowInput input = std::exchange(page().input, {});
     page().input.pointer = input.pointer;
     page().input.aims_teleport = input.aims_teleport;
+    page().input.points = input.points;
     page().input.steering.fly = input.steering.fly;
     page().input.steering.fast = input.steering.fast;
     visit.viewer.on_input(
@@ -186,10 +187,11 @@ EMSCRIPTEN_KEEPALIVE void theatron_key(const char* key, const char* code) {
         page().input.keys.push_back(*press);
 }
 EMSCRIPTEN_KEEPALIVE void theatron_hold(double right, double up, double ahead, int fast,
-                                        int teleport) {
+                                        int teleport, int points) {
     page().input.steering.fly = {right, up, ahead};
     page().input.steering.fast = fast != 0;
     page().input.aims_teleport = teleport != 0;
+    page().input.points = points != 0;
 }
 EMSCRIPTEN_KEEPALIVE void theatron_point(double x, double y) {
     page().input.pointer = Vec2{x, y};

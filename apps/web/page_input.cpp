@@ -19,7 +19,7 @@ std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code)
         {"k", Action::call},        {"j", Action::come},          {"u", Action::turn_away},
         {"delete", Action::remove}, {"x", Action::sit_or_stand},  {"p", Action::people},
         {"o", Action::show_case},   {"i", Action::slice_here},    {"r", Action::own_view},
-        {"home", Action::own_view},
+        {"home", Action::own_view}, {"z", Action::marks},         {"backspace", Action::undo_mark},
     };
     const auto found = actions.find(key);
     if (found == actions.end())

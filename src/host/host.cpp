@@ -90,7 +90,9 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     }
 
     room_file = std::make_unique<RoomFile>(state / "room");
-    certificate = net::load_or_make_certificate(state);
+    certificate = options.certificate.empty()
+                      ? net::load_or_make_certificate(state)
+                      : net::read_certificate(options.certificate, options.key);
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);

@@ -37,6 +37,27 @@ std::string hex(const unsigned char* bytes, std::size_t count) {
     return text;
 }
 
+X509Ptr first_of(const std::string& certificate_pem) {
+    const Bio in(BIO_new_mem_buf(certificate_pem.data(), int(certificate_pem.size())));
+    return X509Ptr(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
+}
+
+// A key with a passphrase is not asked for it.
+int no_passphrase(char*, int, int, void*) {
+    return -1;
+}
+
+// Sets the fingerprint. False if the two parts do not belong together.
+bool complete(Certificate& c) {
+    const X509Ptr x509 = first_of(c.certificate_pem);
+    const Bio key_in(BIO_new_mem_buf(c.private_key_pem.data(), int(c.private_key_pem.size())));
+    const Key key(PEM_read_bio_PrivateKey(key_in.get(), nullptr, no_passphrase, nullptr));
+    if (!x509 || !key || X509_check_private_key(x509.get(), key.get()) != 1)
+        return false;
+    c.fingerprint = certificate_fingerprint(x509.get());
+    return true;
+}
+
 std::string content(BIO* bio) {
     char* data = nullptr;
     const long size = BIO_get_mem_data(bio, &data);
@@ -99,15 +120,28 @@ Certificate load_or_make_certificate(const std::filesystem::path& folder) {
 
     Certificate c{*certificate,
                   files::read_private_file(key_path, Privacy::secret).value_or(std::string()), ""};
-    const Bio in(BIO_new_mem_buf(c.certificate_pem.data(), int(c.certificate_pem.size())));
-    const Bio key_in(BIO_new_mem_buf(c.private_key_pem.data(), int(c.private_key_pem.size())));
-    const X509Ptr x509(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
-    const Key key(PEM_read_bio_PrivateKey(key_in.get(), nullptr, nullptr, nullptr));
-    if (!x509 || !key || X509_check_private_key(x509.get(), key.get()) != 1)
+    if (!complete(c))
         throw Error("The host's identity in " + folder.string() +
                     " is damaged (host.crt and host.key must belong together); delete both to make "
                     "a new one, after which old links no longer work.");
-    c.fingerprint = certificate_fingerprint(x509.get());
+    return c;
+}
+
+Certificate read_certificate(const std::filesystem::path& certificate,
+                             const std::filesystem::path& key) {
+    using files::Privacy;
+    const auto read = [](const std::filesystem::path& file, Privacy privacy) {
+        if (auto text = files::read_private_file(file, privacy))
+            return *std::move(text);
+        throw Error("There is no file '" + file.string() + "'; name one with PEM blocks.");
+    };
+    Certificate c{read(certificate, Privacy::readable), read(key, Privacy::secret), ""};
+    if (!complete(c))
+        throw Error("'" + certificate.string() + "' and '" + key.string() +
+                    "' are no certificate with its key, both in PEM; the key must have no "
+                    "passphrase.");
+    if (X509_cmp_current_time(X509_get0_notAfter(first_of(c.certificate_pem).get())) < 0)
+        throw Error("The certificate '" + certificate.string() + "' has expired; renew it.");
     return c;
 }
 

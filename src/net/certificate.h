@@ -27,6 +27,12 @@ Certificate make_certificate();
 // is damaged, not writable, or open to others.
 Certificate load_or_make_certificate(const std::filesystem::path& folder);
 
+// Reads a certificate, perhaps followed by those of its issuers, and its key, both in PEM: those of
+// an organisation, which browsers trust. Throws Error naming the file that is missing, damaged,
+// expired, or open to others.
+Certificate read_certificate(const std::filesystem::path& certificate,
+                             const std::filesystem::path& key);
+
 // 128 random bits as 32 hex digits.
 std::string random_token();
 

@@ -75,5 +75,49 @@ TEST(CertificateFiles, AFolderThatOthersMayWriteIntoIsRefused) {
     EXPECT_THAT(problem_with(folder.path()), HasSubstr("chmod go-w"));
 }
 
+class OwnCertificate : public ::testing::Test {
+protected:
+    OwnCertificate() {
+        write("crt", made.certificate_pem + make_certificate().certificate_pem);
+        write("key", made.private_key_pem);
+    }
+    void write(const char* name, const std::string& text) {
+        files::write_private_file(folder.path() / name, text);
+    }
+    std::string problem(const char* certificate = "crt", const char* key = "key") const {
+        try {
+            (void)read_certificate(folder.path() / certificate, folder.path() / key);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    const Certificate made = make_certificate();
+    const theatron::testing::TemporaryFolder folder;
+};
+
+TEST_F(OwnCertificate, IsReadWithThoseOfItsIssuers) {
+    const Certificate read = read_certificate(folder.path() / "crt", folder.path() / "key");
+    EXPECT_EQ(read.fingerprint, made.fingerprint);
+    EXPECT_EQ(read.private_key_pem, made.private_key_pem);
+    EXPECT_GT(read.certificate_pem.size(), made.certificate_pem.size());
+}
+
+TEST_F(OwnCertificate, WhoseFilesAreMissingDamagedOrOfDifferentKeysIsRefusedByName) {
+    EXPECT_THAT(problem("other"), HasSubstr("other"));
+    EXPECT_THAT(problem("crt", "other"), HasSubstr("other"));
+    EXPECT_THAT(problem("key", "crt"), HasSubstr("PEM"));
+    write("key", make_certificate().private_key_pem);
+    EXPECT_THAT(problem(), HasSubstr("no certificate with its key"));
+    write("key", "");
+    EXPECT_THAT(problem(), HasSubstr("no certificate with its key"));
+}
+
+TEST_F(OwnCertificate, WhoseKeyOthersMayReadIsRefused) {
+    fs::permissions(folder.path() / "key", fs::perms::group_read, fs::perm_options::add);
+    EXPECT_THAT(problem(), HasSubstr("key"));
+}
+
 }  // namespace
 }  // namespace theatron::net

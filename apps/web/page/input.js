@@ -63,7 +63,8 @@ export function listen(canvas, client, help) {
         const sum = [0, 0, 0];
         for (const code of held)
             walking[code]?.forEach((part, i) => sum[i] += part);
-        client.hold(...sum.map(part => Math.sign(part)), event?.shiftKey ? 1 : 0, held.has("KeyT") ? 1 : 0);
+        client.hold(...sum.map(part => Math.sign(part)), event?.shiftKey ? 1 : 0, 
+                    held.has("KeyT") ? 1 : 0, held.has("KeyF") ? 1 : 0);
     };
     canvas.addEventListener("keydown", event => {
         if (event.ctrlKey || event.altKey || event.metaKey)

@@ -33,7 +33,7 @@ async function load_client() {
         state: ["string", []],
         command: [null, numbers(1)],
         key: [null, ["string", "string"]],
-        hold: [null, numbers(5)],
+        hold: [null, numbers(6)],
         point: [null, numbers(2)],
         grab: [null, numbers(3)],
         release: [null, []],
