@@ -33,7 +33,7 @@ struct HostOptions {
     std::filesystem::path cases;  // the folder of cases that are offered; empty: none
     // Of an organisation, for browsers (net::read_certificate); empty: the host's own one.
     std::filesystem::path certificate, key;
-    std::filesystem::path page;   // the browser client (host/page.h); empty: none
+    std::filesystem::path page;  // the browser client (host/page.h); empty: none
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
