@@ -65,6 +65,19 @@ std::string recorded_text(const ParticipantFigures& figures) {
     return text;
 }
 
+wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
+                             bool is_thinned) {
+    constexpr double silent_ms = 2000, silent_ms_thinned = 5000;
+    const bool is_silent =
+        depth.frames > 0 && depth.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
+    if (said.condition != wire::CameraCondition::live || !is_silent)
+        return said;
+    wire::CameraState state = said;
+    state.condition = wire::CameraCondition::stale;
+    state.problem = {wire::TextCode::no_pictures_come};
+    return state;
+}
+
 ParticipantFigures figures_of(const Participant& participant) {
     ParticipantFigures figures;
     figures.status = participant.status();
@@ -79,6 +92,8 @@ ParticipantFigures figures_of(const Participant& participant) {
             else if (description.has_color && stream.stream == description.color_stream)
                 of_camera.color = stream;
         }
+        of_camera.camera.state =
+            state_here(of_camera.camera.state, of_camera.depth, figures.status.delivery.level > 0);
         figures.cameras.push_back(std::move(of_camera));
     }
     for (const Participant::Recording& one : participant.recordings())

@@ -42,6 +42,13 @@ struct ParticipantFigures {
 // "recorded by Anna, 12 s; Ben, 3 min"; empty if nobody records.
 std::string recorded_text(const ParticipantFigures& figures);
 
+// The state of a camera as it shows here: one that is said to be live is stale while its pictures
+// do not arrive, because its publisher or the host has stopped or the link is cut. `is_thinned`:
+// the host leaves out frames for this participant. Without any frame so far, as it was said.
+wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
+                             bool is_thinned);
+
+// With the cameras' states as they show here.
 ParticipantFigures figures_of(const Participant& participant);
 
 }  // namespace theatron::client

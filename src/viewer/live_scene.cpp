@@ -6,6 +6,7 @@
 
 #include "base/camera_names.h"
 #include "base/error.h"
+#include "client/participant_figures.h"
 #include "session/room_object.h"
 #include "wire/condition_text.h"
 #include "xr/font.h"
@@ -16,6 +17,7 @@ namespace {
 // Presence of a stale camera, and the time of a fade from 1 to 0.
 constexpr double stale_presence = 0.3;
 constexpr double fading_seconds = 0.5;
+constexpr Duration judge_every = std::chrono::milliseconds(200);
 
 LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
     return {camera.description.session, camera.description.name};
@@ -220,11 +222,15 @@ std::vector<render::DrawnClouds> LiveScene::clouds(const std::string& renderer) 
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     const double step = to_seconds(now - faded_at_) / fading_seconds;
     faded_at_ = now;
-    std::uint64_t generation = 0;
+    if (now - judged_at_ >= judge_every) {
+        judged_at_ = now;
+        live_.clear();
+        for (const auto& one : client::figures_of(participant).cameras)
+            live_[one.camera.description.id] =
+                one.camera.state.condition == wire::CameraCondition::live;
+    }
     bool changed = false;
-    for (const auto& camera : participant.cameras(generation)) {
-        const CameraId id = camera.description.id;
-        const bool live = camera.state.condition == wire::CameraCondition::live;
+    for (const auto& [id, live] : live_) {
         if (person_clouds_.has(id))
             person_clouds_.set_live(id, live);
         if (calibrations_.count(id) == 0)

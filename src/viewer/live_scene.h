@@ -93,7 +93,8 @@ private:
     std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
     std::uint64_t generation_ = 0;
     std::map<CameraId, double> presence_;
-    TimePoint faded_at_;
+    TimePoint faded_at_, judged_at_;
+    std::map<CameraId, bool> live_;  // as judged last
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
     std::map<CameraId, receive::CameraFramePtr> newest_;

@@ -76,6 +76,7 @@ constexpr Row rows[] = {
      "register LINK --output NEW' and the board."},
     {TextCode::camera_without_depth,
      "The camera {0} has no depth, which this version cannot show; it is left out."},
+    {TextCode::no_pictures_come, "Its pictures do not arrive any more."},
 
     {TextCode::all_encodings_taken,
      "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},

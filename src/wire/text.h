@@ -55,6 +55,7 @@ enum class TextCode : std::uint16_t {
     camera_moved = 213,             // {0}: mm, {1}: degrees
     cameras_apart = 214,            // {0}: another camera's name, {1}: mm
     camera_without_depth = 215,     // {0}: name
+    no_pictures_come = 216,
 
     // Notes to a participant.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for

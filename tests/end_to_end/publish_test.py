@@ -76,6 +76,13 @@ class Publishing(unittest.TestCase):
                 self.assertEqual(code, 0, errors)
                 listed, = json.loads(out)["published"]
                 self.assertEqual((listed["name"], listed["id"], listed["state"]), ("face", 1, "live"))
+                # It stands still with its connection open: nobody may take its last picture for the present.
+                cart.send(signal.SIGSTOP)
+                stale = seen.wait_for(lambda f: camera(f, 1)["state"] == "stale", 10)
+                self.assertEqual(camera(stale, 1)["problem"], "Its pictures do not arrive any more.")
+                self.assertEqual(camera(stale, 0)["state"], "live")
+                cart.send(signal.SIGCONT)
+                seen.wait_for(lambda f: camera(f, 1)["state"] == "live", 10)
                 cart.send(signal.SIGTERM)
                 self.assertEqual(cart.end(), 0)
             seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/participant_figures.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::client {
+namespace {
+
+using Condition = wire::CameraCondition;
+
+Condition condition(double age_now_ms, std::uint64_t frames = 10, bool is_thinned = false,
+                    Condition said = Condition::live) {
+    receive::StreamFigures depth;
+    depth.frames = frames;
+    depth.age_now_ms = age_now_ms;
+    return state_here({CameraId{0}, said, {}, ""}, depth, is_thinned).condition;
+}
+
+TEST(CameraState, IsStaleHereWhileItsPicturesDoNotArrive) {
+    EXPECT_EQ(condition(30), Condition::live);
+    EXPECT_EQ(condition(1900), Condition::live);
+    EXPECT_EQ(condition(2100), Condition::stale);
+    EXPECT_EQ(condition(2100, 10, true), Condition::live) << "few frames are sent";
+    EXPECT_EQ(condition(5100, 10, true), Condition::stale);
+    EXPECT_EQ(condition(5100, 0), Condition::live) << "none was asked for";
+    EXPECT_EQ(condition(5100, 10, false, Condition::ended), Condition::ended);
+}
+
+TEST(CameraState, SaysWhyItIsStale) {
+    receive::StreamFigures depth;
+    depth.frames = 1;
+    depth.age_now_ms = 9000;
+    const wire::CameraState state =
+        state_here({CameraId{3}, Condition::live, {}, "median"}, depth, false);
+    EXPECT_EQ(state.camera, CameraId{3});
+    EXPECT_EQ(state.filter, "median");
+    EXPECT_EQ(wire::english(state.problem), "Its pictures do not arrive any more.");
+}
+
+}  // namespace
+}  // namespace theatron::client
