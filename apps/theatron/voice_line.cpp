@@ -62,6 +62,8 @@ VoiceLine::Talking::Talking(VoiceLine& line, client::Participant& participant) {
                                                  const std::lock_guard lock(line.talker_mutex_);
                                                  line.talker_->take(samples, now);
                                              });
+        const std::lock_guard lock(line.talker_mutex_);
+        line.microphone_began_ = microphone_->began();
     } catch (const Error& error) {
         log::say(error.what());
         const std::lock_guard lock(line.talker_mutex_);
@@ -111,9 +113,13 @@ nlohmann::json VoiceLine::json() const {
         const std::lock_guard lock(talker_mutex_);
         result["microphone"] = !talker_ ? "none" : talker_->is_open() ? "open" : "closed";
         result["heard"] = talker_ && talker_->is_open() && is_heard_;
+        if (microphone_began_)
+            result["microphone_began_us"] = to_us(*microphone_began_);
         result["level_db"] = talker_ ? talker_->level_db() : -127;
     }
     result["speaker"] = speaker_ != nullptr;
+    if (const auto began = speaker_ ? speaker_->began() : std::nullopt)
+        result["speaker_began_us"] = to_us(*began);
     result["speaking"] = result["voices"] = nlohmann::json::array();
     const std::lock_guard lock(mixer_mutex_);
     for (const voice::Mixer::Speaker& speaker : mixer_.speakers()) {

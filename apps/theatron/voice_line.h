@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "client/participant.h"
@@ -50,6 +51,7 @@ public:
     void note(const wire::Standing& standing);
 
     // {"microphone":"open"|"closed"|"none","heard","level_db","speaker","speaking":[{"id","level_db"}],
+    // "microphone_began_us","speaker_began_us" (of files, this machine's steady clock),
     // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable"}
     nlohmann::json json() const;
 
@@ -57,6 +59,7 @@ private:
     const Options options_;
     mutable std::mutex talker_mutex_, mixer_mutex_;
     std::unique_ptr<voice::Talker> talker_;  // while somebody talks
+    std::optional<TimePoint> microphone_began_;
     bool is_open_ = true;
     bool is_heard_ = true;  // the role may speak, and nobody has muted this person
     voice::Mixer mixer_;

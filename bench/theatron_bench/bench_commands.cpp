@@ -19,6 +19,7 @@
 #include "bench_sequence.h"
 #include "bench_slices.h"
 #include "bench_view.h"
+#include "bench_voice.h"
 #include "capture/crop.h"
 #include "capture/tiled_recording.h"
 #include "cli/camera_option.h"
@@ -488,6 +489,7 @@ void add_benchmarks(CLI::App& app) {
     add_pipeline(app);
     add_render(app);
     add_slices_bench(app);
+    add_voice_bench(app);
     add_view(app);
     add_registration(app);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_interaction.h"
 
-#include <fcntl.h>
 #include <sched.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "base/statistics.h"
 #include "base/steady_clock.h"
 #include "bench_grabs.h"
+#include "bench_network.h"
 #include "child_process.h"
 #include "client/participant.h"
 #include "process_usage.h"
@@ -26,18 +26,6 @@ namespace theatron::bench {
 namespace {
 
 using client::Participant;
-
-// Processes and sockets that this thread begins from now on are in the namespace.
-void enter_namespace(const std::string& name) {
-    if (name.empty())
-        return;
-    const int file = open(("/run/netns/" + name).c_str(), O_RDONLY | O_CLOEXEC);
-    const bool entered = file >= 0 && setns(file, CLONE_NEWNET) == 0;
-    if (file >= 0)
-        close(file);
-    if (!entered)
-        throw Error("Cannot enter the network namespace " + name + "; that needs root.");
-}
 
 // Threads of decoders share core 0 with busy ones.
 class Crowd {

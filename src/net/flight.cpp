@@ -43,9 +43,10 @@ constexpr std::size_t max_chunks = 8192;
 
 }  // namespace
 
-void Flight::sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now) {
+void Flight::note_sent(std::size_t bytes, Chunk chunk) {
     sent_ += bytes;
-    chunks_.push_back({sent_, now, queued, ends_message, held_back_});
+    chunk.end = sent_;
+    chunks_.push_back(chunk);
     if (chunks_.size() > max_chunks)
         chunks_.pop_front();
 }
@@ -162,8 +163,10 @@ std::size_t Flight::unsent_limit() const {
 }
 
 Duration Flight::take_delay(TimePoint now) {
-    if (answering_ && !chunks_.empty())
-        delay_ = std::max(delay_, now - chunks_.front().queued);
+    const auto media = std::find_if(chunks_.begin(), chunks_.end(),
+                                    [](const Chunk& chunk) { return chunk.is_media; });
+    if (answering_ && media != chunks_.end())
+        delay_ = std::max(delay_, now - media->queued);
     // An answer takes about half of the round trip to come back.
     return std::max(std::exchange(delay_, Duration(0)) - round_trip() / 2, Duration(0));
 }

@@ -21,6 +21,14 @@
 namespace theatron::net {
 
 class Flight {
+    struct Chunk {
+        std::uint64_t end = 0;  // of all bytes sent, after it
+        TimePoint sent, queued;
+        bool ends_message = false;
+        bool is_media = false;
+        bool held_back = false;  // had to wait for the window
+    };
+
 public:
     // The window before the first measurement, and the smallest one; bytes.
     static constexpr double first_window = 1 << 20;
@@ -35,9 +43,13 @@ public:
     static Duration allowed_queue(double bytes_per_second);
 
     // A chunk of media is sent. `queued` is the time when its message entered the outbox.
-    void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now);
-    // An envelope of control, states or voice is sent.
-    void sent_interaction(std::size_t bytes, TimePoint now) { sent(bytes, now, false, now); }
+    void sent(std::size_t bytes, TimePoint queued, bool ends_message, TimePoint now) {
+        note_sent(bytes, {0, now, queued, ends_message, true, held_back_});
+    }
+    // An envelope of control, states, voice or content is sent.
+    void sent_interaction(std::size_t bytes, TimePoint now) {
+        note_sent(bytes, {0, now, now, false, false, held_back_});
+    }
 
     // The peer has taken `total` bytes since the beginning and waited for `held` before it sent
     // this. Totals that are impossible or not newer are ignored.
@@ -61,17 +73,13 @@ public:
     double bytes_per_second(TimePoint now) const;
     Duration round_trip() const;  // the shortest of the last seconds
 
-    // The longest time from queued to arrived, of messages that arrived since the
-    // last call and of the oldest that has not.
+    // The longest time from queued to arrived, of media messages that arrived since the last call
+    // and of the oldest that has not. Other bytes are no measure of it: without media a peer
+    // acknowledges them in lots.
     Duration take_delay(TimePoint now);
 
 private:
-    struct Chunk {
-        std::uint64_t end = 0;  // sent_ after it
-        TimePoint sent, queued;
-        bool ends_message = false;
-        bool held_back = false;  // had to wait for the window
-    };
+    void note_sent(std::size_t bytes, Chunk chunk);
 
     double rate() const { return busy_bytes_ / busy_seconds_; }  // if busy_seconds_ > 0
     void note_round_trip(Duration round_trip, TimePoint now);

@@ -102,5 +102,28 @@ TEST(Flight, AnswersThatCannotBeAreIgnored) {
     EXPECT_EQ(flight.round_trip(), 50ms);
 }
 
+// Without media, a peer acknowledges 8 KiB at once: half a second of one voice.
+TEST(Flight, VoiceAloneIsNoSignOfASlowLink) {
+    Flight flight;
+    TimePoint now = from_us(1'000'000);
+    std::uint64_t total = 0;
+    flight.sent(chunk, now, true, now);
+    total += chunk;
+    now += 10ms;
+    flight.acknowledge(total, {}, now);
+    (void)flight.take_delay(now);
+    for (int packet = 0; packet < 100; ++packet) {
+        flight.sent_interaction(100, now);
+        now += 20ms;
+        EXPECT_EQ(flight.take_delay(now), Duration(0)) << packet;
+    }
+    flight.acknowledge(total + 100 * 100, {}, now);
+    EXPECT_EQ(flight.take_delay(now), Duration(0));
+    // A picture behind it counts.
+    flight.sent_interaction(100, now);
+    flight.sent(chunk, now, true, now);
+    EXPECT_GE(flight.take_delay(now + 500ms), 490ms);
+}
+
 }  // namespace
 }  // namespace theatron::net

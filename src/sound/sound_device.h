@@ -5,8 +5,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "base/time.h"
 
 namespace theatron::sound {
 
@@ -17,6 +20,9 @@ inline constexpr int block_samples = 480;
 class SoundDevice {
 public:
     virtual ~SoundDevice() = default;
+    // The time at which the first sample was spoken or is heard, if it is known: of a file, as if
+    // it were a sound card with two blocks.
+    virtual std::optional<TimePoint> began() const { return std::nullopt; }
 };
 
 using Deliver = std::function<void(std::span<const float>)>;

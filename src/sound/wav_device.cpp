@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
+#include "sound/wav_bytes.h"
 #include "voice/packet.h"
 
 namespace theatron::sound {
@@ -31,9 +33,9 @@ constexpr Duration block_time = std::chrono::milliseconds(10);
 class Pace {
 public:
     explicit Pace(std::function<void()> block)
-        : thread_([this, block = std::move(block)] {
+        : begin_(steady_now()), thread_([this, block = std::move(block)] {
               name_this_thread("sound");
-              TimePoint next = steady_now();
+              TimePoint next = begin_;
               while (!ends_) {
                   block();
                   next += block_time;
@@ -47,7 +49,10 @@ public:
     Pace(const Pace&) = delete;
     Pace& operator=(const Pace&) = delete;
 
+    TimePoint begin() const { return begin_; }  // of the first call
+
 private:
+    const TimePoint begin_;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
 };
@@ -90,6 +95,9 @@ public:
     WavMicrophone(const std::string& path, Deliver deliver)
         : samples_(read_wav(path)), deliver_(std::move(deliver)), pace_([this] { next(); }) {}
 
+    // A block is taken when it has been spoken.
+    std::optional<TimePoint> began() const override { return pace_.begin() - block_time; }
+
 private:
     void next() {
         std::vector<float> block(block_samples);
@@ -104,25 +112,6 @@ private:
     std::size_t done_ = 0;
     Pace pace_;
 };
-
-// The head of a WAV file of 16 bits; its sizes are those of `data_size` bytes of samples.
-Bytes wav_head(std::uint32_t data_size) {
-    Bytes head;
-    ByteWriter out(head);
-    out.put_bytes(as_bytes("RIFF"));
-    out.put(std::uint32_t(data_size + 36));
-    out.put_bytes(as_bytes("WAVEfmt "));
-    out.put(std::uint32_t(16));
-    out.put(std::uint16_t(1));  // PCM
-    out.put(std::uint16_t(1));  // channel
-    out.put(std::uint32_t(voice::sample_rate));
-    out.put(std::uint32_t(voice::sample_rate * 2));
-    out.put(std::uint16_t(2));
-    out.put(std::uint16_t(16));
-    out.put_bytes(as_bytes("data"));
-    out.put(data_size);
-    return head;
-}
 
 void write(std::ofstream& file, ByteView bytes) {
     file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
@@ -145,6 +134,9 @@ public:
         file_.seekp(0);
         write(file_, wav_head(size_));
     }
+
+    // A sound card plays the block before meanwhile.
+    std::optional<TimePoint> began() const override { return pace_->begin() + block_time; }
 
 private:
     void next() {

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_voice.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <thread>
+
+#include "base/error.h"
+#include "base/statistics.h"
+#include "base/steady_clock.h"
+#include "bench_network.h"
+#include "bench_report.h"
+#include "child_process.h"
+#include "cli/camera_option.h"
+#include "client/participant.h"
+#include "files/file_bytes.h"
+#include "process_usage.h"
+#include "sound/wav_bytes.h"
+#include "voice/opus_codec.h"
+#include "voice/packet.h"
+
+namespace theatron::bench {
+namespace {
+
+using client::Participant;
+using std::numbers::pi;
+
+constexpr std::size_t click_period = voice::sample_rate / 2, click_samples = 480;
+
+// A quiet tone, so that the voice never pauses, with a loud burst each half second.
+std::vector<std::int16_t> clicks(double seconds) {
+    std::vector<std::int16_t> samples(std::size_t(seconds * voice::sample_rate));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double t = double(i) / voice::sample_rate;
+        const bool is_click = i % click_period < click_samples;
+        samples[i] = std::int16_t(32767 * (is_click ? 0.8 * std::sin(2 * pi * 1000 * t + pi / 2)
+                                                    : 0.03 * std::sin(2 * pi * 220 * t)));
+    }
+    return samples;
+}
+
+// Numbers of the samples with which clicks begin.
+std::vector<std::size_t> onsets(const std::vector<std::int16_t>& samples) {
+    constexpr int loud = 8000;
+    std::vector<std::size_t> found;
+    std::size_t last_loud = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (std::abs(int(samples[i])) < loud)
+            continue;
+        if (found.empty() || i - last_loud > click_period / 4)
+            found.push_back(i);
+        last_loud = i;
+    }
+    return found;
+}
+
+class Folder {
+public:
+    Folder()
+        : path_(std::filesystem::temp_directory_path() /
+                ("theatron_voice_" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string file(const char* name) const { return (path_ / name).string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::unique_ptr<ChildProcess> start_host(const Folder& folder, const VoiceBench& bench,
+                                         std::string& link) {
+    const bool is_shaped = !bench.host_namespace.empty();
+    std::vector<std::string> arguments = {
+        "host",   "--listen", is_shaped ? "10.77.0.1:0" : "127.0.0.1:0",
+        "--json", "--state",  folder.file("state")};
+    for (const std::string& camera : bench.cameras)
+        arguments.insert(arguments.end(), {"--camera", camera});
+    auto host = std::make_unique<ChildProcess>(arguments);
+    const auto greeting = nlohmann::json::parse(host->read_line(), nullptr, false);
+    if (!greeting.is_object())
+        throw Error("The host did not start; its message is above.");
+    link = greeting["link"].get<std::string>();
+    return host;
+}
+
+// Reads the lines of a participant until this time. Returns the newest "voice" of it.
+nlohmann::json follow(ChildProcess& member, TimePoint end) {
+    nlohmann::json newest;
+    while (steady_now() < end) {
+        const auto line = nlohmann::json::parse(member.read_line(), nullptr, false);
+        if (!line.is_object())
+            throw Error("A participant ended; its message is above.");
+        newest = line["voice"];
+    }
+    return newest;
+}
+
+double us_of(const nlohmann::json& voice, const char* key) {
+    if (!voice.contains(key) || !voice[key].is_number())
+        throw Error("A participant did not open its sound file; its message is above.");
+    return voice[key].get<double>();
+}
+
+}  // namespace
+
+nlohmann::json mouth_to_ear(const VoiceBench& bench) {
+    constexpr double settling_seconds = 4;
+    const Folder folder;
+    files::write_file(folder.file("said.wav"),
+                      sound::wav_bytes(clicks(bench.seconds + settling_seconds + 20)));
+    enter_namespace(bench.host_namespace);
+    std::string link;
+    const auto host = start_host(folder, bench, link);
+    enter_namespace(bench.listener_namespace);
+    ChildProcess listener({"join", link, "--no-window", "--name", "listener", "--every", "0.2",
+                           "--speaker", folder.file("heard.wav")});
+    enter_namespace(bench.host_namespace);
+    ChildProcess speaker({"join", link, "--no-window", "--name", "speaker", "--every", "0.2",
+                          "--max-mbit", "0.1", "--microphone", folder.file("said.wav"),
+                          "--voice-frame", std::to_string(bench.frame_ms)});
+    const TimePoint begin = steady_now();
+    const auto length = seconds_to_duration(bench.seconds + settling_seconds);
+    nlohmann::json said, heard;
+    std::thread other([&] { said = follow(speaker, begin + length); });
+    heard = follow(listener, begin + length);
+    other.join();
+    listener.interrupt();
+    speaker.interrupt();
+    listener.wait();
+    speaker.wait();
+
+    const double mouth_us = us_of(said, "microphone_began_us"),
+                 ear_us = us_of(heard, "speaker_began_us");
+    const double us_per_sample = 1e6 / voice::sample_rate;
+    std::vector<double> delays;
+    for (const std::size_t onset :
+         onsets(sound::samples_of_wav(files::read_file(folder.file("heard.wav"))))) {
+        const double since_us = ear_us + double(onset) * us_per_sample - mouth_us;
+        if (since_us < settling_seconds * 1e6)
+            continue;
+        const double period_us = double(click_period) * us_per_sample;
+        delays.push_back(std::fmod(since_us, period_us) / 1000);
+    }
+    if (double(delays.size()) < bench.seconds)
+        throw Error("Only " + std::to_string(delays.size()) + " clicks were heard.");
+    return {{"p50", percentile(delays, 0.5)},
+            {"p95", percentile(delays, 0.95)},
+            {"max", percentile(delays, 1)},
+            {"count", delays.size()}};
+}
+
+nlohmann::json host_cores_of_24(double seconds) {
+    constexpr int participants = 24, speakers = 4, frame_ms = 20;
+    const Folder folder;
+    std::string link;
+    const auto host = start_host(folder, {}, link);
+    std::atomic<std::uint64_t> heard = 0;
+    std::vector<std::unique_ptr<Participant>> people;
+    for (int i = 0; i < participants; ++i) {
+        Participant::Options options;
+        options.link = net::parse_link(link);
+        options.name = "person " + std::to_string(i);
+        options.voice = [&heard](ParticipantId, ByteView) { ++heard; };
+        people.push_back(std::make_unique<Participant>(std::move(options)));
+    }
+    const TimePoint patience = steady_now() + 20s;
+    for (const auto& one : people)
+        while (one->status().phase != Participant::Phase::joined) {
+            if (steady_now() > patience)
+                throw Error("A participant did not join: " + one->status().problem);
+            std::this_thread::sleep_for(10ms);
+        }
+    const auto cores_while = [&](const auto& work) {
+        const double before = usage_of(host->pid()).cpu_seconds;
+        const TimePoint begin = steady_now();
+        work(begin);
+        return (usage_of(host->pid()).cpu_seconds - before) / to_seconds(steady_now() - begin);
+    };
+    const double idle =
+        cores_while([&](TimePoint) { std::this_thread::sleep_for(seconds_to_duration(seconds)); });
+
+    voice::Encoder encoder(frame_ms);
+    std::vector<float> frame(encoder.frame_samples());
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        frame[i] = float(0.3 * std::sin(2 * pi * 300 * double(i) / voice::sample_rate));
+    Bytes opus, packet_bytes;
+    const double speaking = cores_while([&](TimePoint begin) {
+        const int frames = int(seconds * 1000 / frame_ms);
+        for (int n = 0; n < frames; ++n) {
+            (void)encoder.encode(frame, opus);
+            voice::Packet packet;
+            packet.number = std::uint32_t(n);
+            packet.time = steady_now();
+            packet.frame_ms = frame_ms;
+            packet.level_db = -20;
+            packet.opus = opus;
+            voice::write_packet(packet, packet_bytes);
+            for (int s = 0; s < speakers; ++s)
+                people[std::size_t(s)]->send_voice(packet_bytes);
+            std::this_thread::sleep_until(
+                std::chrono::steady_clock::now() +
+                (begin + n * std::chrono::milliseconds(frame_ms) - steady_now()));
+        }
+    });
+    const double expected = seconds * 1000 / frame_ms * speakers * (participants - 1);
+    return {{"cores", speaking}, {"idle_cores", idle}, {"arrived_share", double(heard) / expected}};
+}
+
+void add_voice_bench(CLI::App& bench) {
+    struct Flags {
+        VoiceBench bench;
+        std::string json;
+    };
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "voice", "Voice from a mouth to an ear through real processes, the host's cost, losses");
+    command->footer(
+        "Example: theatron bench voice --json -\n"
+        "tests/end_to_end/voice_run.py puts a slow link between host and listener.");
+    cli::add_camera_option(*command, flags->bench.cameras);
+    command->add_option("--seconds", flags->bench.seconds, "Measured time")
+        ->capture_default_str()
+        ->check(CLI::Range(2.0, 3600.0));
+    command->add_option("--voice-frame", flags->bench.frame_ms, "Milliseconds of a packet")
+        ->capture_default_str()
+        ->check(CLI::IsMember({10, 20}));
+    command->add_option("--host-namespace", flags->bench.host_namespace,
+                        "Network namespace of host and speaker; only mouth to ear is measured");
+    command
+        ->add_option("--listener-namespace", flags->bench.listener_namespace,
+                     "Network namespace of the listener")
+        ->needs("--host-namespace");
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        const VoiceBench& b = flags->bench;
+        nlohmann::json r{{"frame_ms", b.frame_ms},
+                         {"device_period_ms", 10},
+                         {"cameras", b.cameras.size()},
+                         {"mouth_to_ear_ms", mouth_to_ear(b)}};
+        if (b.host_namespace.empty()) {
+            const nlohmann::json cores = host_cores_of_24(b.seconds);
+            r["host_cores_24_participants"] = cores["cores"];
+            r["host_idle_cores"] = cores["idle_cores"];
+            r["arrived_share"] = cores["arrived_share"];
+            r["lost_5_percent"] = lost_5_percent(b.frame_ms);
+        }
+        report(r, flags->json, [&] {
+            const auto& delay = r["mouth_to_ear_ms"];
+            std::printf("mouth to ear, packets of %d ms: p50 %.1f ms, p95 %.1f ms, max %.1f ms\n",
+                        b.frame_ms, delay["p50"].get<double>(), delay["p95"].get<double>(),
+                        delay["max"].get<double>());
+            if (!r.contains("lost_5_percent"))
+                return;
+            std::printf("host, 24 participants: %.3f cores with 4 speakers, %.3f without\n",
+                        r["host_cores_24_participants"].get<double>(),
+                        r["host_idle_cores"].get<double>());
+            const auto& lost = r["lost_5_percent"];
+            std::printf("5 %% lost, 30 ms of jitter: longest gap %.0f ms, %.2f %% concealed\n",
+                        lost["longest_gap_ms"].get<double>(),
+                        lost["concealed_percent"].get<double>());
+        });
+    });
+}
+
+}  // namespace theatron::bench

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// `theatron bench voice`: from a mouth to an ear through real processes, the host's cost of many
+// speakers, and the jitter buffer's losses.
+//
+// Devices are WAV files with blocks of 10 ms: a sample counts as spoken 10 ms before its block is
+// taken, and as heard 10 ms after its block was asked for, as with a sound card of two blocks.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace theatron::bench {
+
+struct VoiceBench {
+    std::vector<std::string> cameras;  // specifications; the listener receives them all
+    double seconds = 20;               // of clicks, two a second
+    int frame_ms = 20;                 // 10 or 20
+    // Network namespaces as in InteractionBench: the speaker is with the host.
+    std::string host_namespace, listener_namespace;
+};
+
+// {p50,p95,max,count}: milliseconds from the saying of a click to its hearing. Throws Error.
+nlohmann::json mouth_to_ear(const VoiceBench& bench);
+
+// {cores,idle_cores}: of a host without cameras with 24 participants, 4 of whom speak. Throws
+// Error.
+nlohmann::json host_cores_of_24(double seconds);
+
+// {longest_gap_ms,concealed_percent,beyond_lost_percent}: a minute of voice through the jitter
+// buffer, with 5 % of the frames lost and up to 30 ms of delay, in simulated time.
+nlohmann::json lost_5_percent(int frame_ms);
+
+void add_voice_bench(CLI::App& bench);
+
+}  // namespace theatron::bench
