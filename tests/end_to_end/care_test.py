@@ -75,7 +75,7 @@ class Care(unittest.TestCase):
             code, _, errors = run("join", greeting["link"].replace(token, other), "--no-window", "--seconds", "1")
             self.assertNotEqual(code, 0)
             self.assertIn("token is wrong", errors)
-            self.assertIn("Theatron host", get(greeting, "/")[2])
+            self.assertIn("Theatron", get(greeting, "/")[2])
 
     def if_all_went_on(self, before, now):
         """`now` if both cameras are live and have had 30 frames since `before`."""
