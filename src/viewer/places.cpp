@@ -10,7 +10,7 @@ namespace theatron::viewer {
 namespace {
 
 constexpr double side_distance_m = 0.9, above_m = 1.0, overview_distance_m = 2.6,
-                 overview_height_m = 2.1, beside_m = 0.6;
+                 overview_height_m = 2.1, beside_m = 0.6, elbow_room_m = 0.45;
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -50,11 +50,22 @@ std::vector<Place> places_of(const ViewableCameras& cameras) {
             {"Overview", standing(ahead * -overview_distance_m, overview_height_m)}};
 }
 
-Pose beside(const Pose& room_from_head) {
+Pose beside(const Pose& room_from_head, const std::vector<Vec3>& heads) {
     const Pose eye = room_from_head * Pose{Quat{0, 1, 0, 0}, {}};
     const Vec3 right = rotate(eye.rotation, {1, 0, 0});
     const double flat = std::hypot(right.x, right.z);
     const Vec3 aside = flat > 1e-3 ? Vec3{right.x / flat, 0, right.z / flat} : Vec3{1, 0, 0};
+    const auto is_free = [&](Vec3 place) {
+        return std::none_of(heads.begin(), heads.end(), [&](Vec3 head) {
+            return std::hypot(head.x - place.x, head.z - place.z) < elbow_room_m;
+        });
+    };
+    // One place is free: each head takes two at most.
+    for (std::size_t i = 1; i <= heads.size() + 1; ++i)
+        for (const double side : {1.0, -1.0})
+            if (const Vec3 place = eye.translation + aside * (side * double(i) * beside_m);
+                is_free(place))
+                return {eye.rotation, place};
     return {eye.rotation, eye.translation + aside * beside_m};
 }
 

@@ -19,7 +19,8 @@ struct Place {
 std::vector<Place> places_of(const ViewableCameras& cameras);
 
 // The eye of somebody who joins a conversation with the person at `room_from_head` (y up, -z
-// forward): beside this person, with the same direction.
-Pose beside(const Pose& room_from_head);
+// forward): beside this person, with the same direction, at the nearest place to the right or left
+// where nobody else is. `heads`: of the others.
+Pose beside(const Pose& room_from_head, const std::vector<Vec3>& heads = {});
 
 }  // namespace theatron::viewer

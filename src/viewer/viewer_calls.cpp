@@ -11,7 +11,11 @@ void Viewer::go_to_person(ParticipantId id, TimePoint now) {
         return note("This person has left", now);
     stop_following();
     scene_changed_ = true;
-    eye_.go_to(beside(*person->head));
+    std::vector<Vec3> heads;
+    for (const room::RoomPerson& other : scene_.meeting().people())
+        if (other.id != id && other.head)
+            heads.push_back(other.head->translation);
+    eye_.go_to(beside(*person->head, heads));
     note("Beside " + person->name, now);
 }
 
