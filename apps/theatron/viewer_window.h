@@ -28,7 +28,7 @@ struct ViewerWindow {
 // True where a desktop is named by the environment; a window may still fail to open there.
 bool has_display();
 
-// Of "low", "high" and "auto"; none: automatic.
+// The quality that "low" or "high" names; none for "auto".
 std::optional<render::SceneQuality> parse_quality(const std::string& text);
 
 // The window begins with the settings that the last one ended with, and keeps changes. `name`,

@@ -43,7 +43,8 @@ struct Visit {
     xr::ScaledPicture picture;
 };
 
-// Of the page: objects of GL must not outlive it, so nothing is destroyed when it is closed.
+// The page's state. Objects of GL must not outlive their context, so nothing is destroyed when the
+// page is closed.
 struct Page {
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
     std::unique_ptr<Visit> visit;
@@ -82,7 +83,7 @@ void open_context() {
     page().context = context;
 }
 
-// Of hex digits that the page made itself.
+// The digits are not checked: the page made them itself.
 Bytes bytes_of_hex(const std::string& digits) {
     Bytes bytes;
     for (std::size_t i = 0; i + 1 < digits.size(); i += 2)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page's panels show, as JSON.
+// The content of the page's panels, as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -17,7 +17,7 @@
 
 namespace theatron::client {
 
-// What makes connections, one after the other.
+// The loop that makes connections, one after the other.
 struct Participant::Loop {
     virtual ~Loop() = default;
 };

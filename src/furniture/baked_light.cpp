@@ -12,7 +12,7 @@ namespace theatron::furniture {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// What comes from directions without furniture, and what furniture gives back.
+// Light from directions without furniture, and the share that furniture reflects.
 constexpr double ceiling_light = 1.62, wall_light = 1.06, floor_light = 0.78, bounced_light = 0.16;
 constexpr double exposure = 1.25;
 constexpr double around_reach_m = 1.6;

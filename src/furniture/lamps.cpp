@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hangs from the ceiling.
+// Furniture that hangs from the ceiling.
 #include <cmath>
 #include <numbers>
 

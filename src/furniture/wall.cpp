@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hangs on the walls.
+// Furniture that hangs on the walls.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

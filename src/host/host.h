@@ -31,7 +31,8 @@ struct HostOptions {
     std::filesystem::path audit;  // empty: audit.jsonl in the state folder
     bool is_audited = true;
     std::filesystem::path cases;  // the folder of cases that are offered; empty: none
-    // Of an organisation, for browsers (net::read_certificate); empty: the host's own one.
+    // Files of an organisation's certificate, for browsers (net::read_certificate); empty: the
+    // host's own one.
     std::filesystem::path certificate, key;
     std::filesystem::path page;  // the browser client (host/page.h); empty: none
 };

@@ -23,8 +23,8 @@ struct ReplayedRoom {
     Duration begin{};               // of the recording, at the camera's first picture
     std::optional<Duration> round;  // of a loop; else the recording is played once
 };
-// Of the first of these camera specifications that plays a recording with a room; empty if there is
-// none. Throws Error for a file that cannot be read.
+// The room of the first of these camera specifications that plays a recording with one; empty if
+// there is none. Throws Error for a file that cannot be read.
 std::optional<ReplayedRoom> find_replayed_room(const std::vector<std::string>& specifications);
 // True for a camera of the same recording.
 bool plays(const ReplayedRoom& room, const std::string& specification);

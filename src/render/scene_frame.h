@@ -27,7 +27,7 @@ struct MeshData {
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    // Of each corner, for surfaces with baked light (SurfaceLook); none: white.
+    // One for each corner, for surfaces with baked light (SurfaceLook); none: white.
     std::vector<Rgb> colors;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people point at: a dotted ray to the surface that it meets, and there a dot with the name.
+// The pointing of people: a dotted ray to the surface that it meets, and there a dot with the name.
 #pragma once
 
 #include <optional>

@@ -36,7 +36,7 @@ public:
 
     // A part whose surface is here, shown, and not quite transparent.
     bool is_drawn(const session::CaseInRoom::Part& part) const;
-    // What is cut away of the organ, if it is cut.
+    // The removed side of the organ, if it is cut.
     std::optional<render::Cut> cut() const;
     std::optional<Monitor::SliceFrame> slice_frame() const;
 

@@ -42,7 +42,7 @@ public:
         return std::nullopt;
     }
 
-    // Of the surface around a place of it, towards the camera.
+    // The normal of the surface around a place of it, towards the camera.
     Vec3 normal(Vec3 place) const {
         const auto pixel = project(camera_.calibration->depth, place);
         constexpr double reach = 3;

@@ -153,7 +153,7 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
             for sentence in ("lacks the file 'part_1.thmesh'", "ct.thvolume' is", "case.json"):
                 self.wait_for_error(h, sentence)
-            # Of two of the same name, both can be opened.
+            # Two cases of the same name can both be opened.
             write_case(self.cases / "whole2", "Whole", tumour=False)
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole", "Whole (2)"], 10)
             shutil.rmtree(self.cases / "whole2")

@@ -8,7 +8,7 @@ import { language, text } from "./texts.js";
 const $ = id => document.getElementById(id);
 const texts_every_ms = 250;
 
-// What the link says behind its '#', which no request contains.
+// The link's part behind '#', which no request contains.
 const link = new URLSearchParams(location.hash.slice(1));
 const host = location.hostname.replace(/^\[|\]$/g, "");
 const port = Number(location.port || 443);
