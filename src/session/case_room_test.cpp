@@ -2,8 +2,7 @@
 // A case in the room, over messages: a host's and two members' halves.
 #include <gtest/gtest.h>
 
-#include "session/host_room.h"
-#include "session/member_room.h"
+#include "session/room_members_testing.h"
 
 namespace theatron::session {
 namespace {
@@ -20,38 +19,13 @@ CaseFacts liver(std::uint8_t number, std::size_t parts = 3) {
     return facts;
 }
 
-class CaseInRoom : public ::testing::Test {
+class CaseInRoom : public RoomMembers {
 protected:
     CaseInRoom() {
         host.set_cases({liver(1), liver(2, 5)});
         join(anna, Role::expert);
         join(ben, Role::expert);
         join(observer, Role::observer);
-    }
-    void join(ParticipantId id, Role role) {
-        members[id].begin(id);
-        host.join(id, {role, false, "person"}, true);
-        deliver();
-    }
-    void deliver() {
-        for (bool more = true; std::exchange(more, false);) {
-            for (const Action& next : std::exchange(actions, {})) {
-                const auto& send = std::get<action::Send>(next);
-                members[send.participant].on_message(send.message);
-                more = true;
-            }
-            for (auto& [id, member] : members)
-                for (const wire::RoomRequest& request : member.take_requests()) {
-                    host.on_request(id, request);
-                    more = true;
-                }
-        }
-    }
-    Refusal ask(ParticipantId by, const Request& request) {
-        members[by].ask(request);
-        deliver();
-        const auto refusal = members[by].take_refusal();
-        return refusal ? refusal->second : Refusal::none;
     }
     Refusal open(ParticipantId by, const CaseFacts& facts, const Pose& place = {}) {
         return ask(by, request::Create{ObjectKind::organ, place, 1,
@@ -64,10 +38,6 @@ protected:
         return found;
     }
     ObjectId organ() { return of_case(anna).begin()->first; }
-
-    std::vector<Action> actions;
-    HostRoom host{{}, actions};
-    std::map<ParticipantId, MemberRoom> members;
 };
 
 TEST_F(CaseInRoom, IsOpenedWholeForEverybody) {

@@ -2,17 +2,16 @@
 // Marks in the room, over messages: a host's and members' halves.
 #include <gtest/gtest.h>
 
-#include "session/host_room.h"
 #include "session/mark.h"
 #include "session/mark_rules.h"
-#include "session/member_room.h"
+#include "session/room_members_testing.h"
 
 namespace theatron::session {
 namespace {
 
 constexpr ParticipantId anna{1}, ben{2}, observer{3}, chief{4};
 
-class MarksInRoom : public ::testing::Test {
+class MarksInRoom : public RoomMembers {
 protected:
     MarksInRoom() {
         CaseFacts liver;
@@ -25,30 +24,8 @@ protected:
         join(chief, Role::operator_, "Dora Oe");
     }
     void join(ParticipantId id, Role role, const std::string& name, const Bytes& person = {}) {
-        members[id].begin(id);
         names[id] = name;
-        host.join(id, {role, false, name}, true, {}, person);
-        deliver();
-    }
-    void deliver() {
-        for (bool more = true; std::exchange(more, false);) {
-            for (const Action& next : std::exchange(actions, {})) {
-                const auto& send = std::get<action::Send>(next);
-                members[send.participant].on_message(send.message);
-                more = true;
-            }
-            for (auto& [id, member] : members)
-                for (const wire::RoomRequest& request : member.take_requests()) {
-                    host.on_request(id, request);
-                    more = true;
-                }
-        }
-    }
-    Refusal ask(ParticipantId by, const Request& request) {
-        members[by].ask(request);
-        deliver();
-        const auto refusal = members[by].take_refusal();
-        return refusal ? refusal->second : Refusal::none;
+        RoomMembers::join(id, role, name, person);
     }
     Mark pin(ParticipantId by) {
         Mark mark;
@@ -93,9 +70,6 @@ protected:
         return {};
     }
 
-    std::vector<Action> actions;
-    HostRoom host{{}, actions};
-    std::map<ParticipantId, MemberRoom> members;
     std::map<ParticipantId, std::string> names;
 };
 

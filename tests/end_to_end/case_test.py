@@ -79,19 +79,23 @@ def parts_of(figures):
     return {part["name"]: part for part in figures["cases"]["open"]["parts"]}
 
 
+def case_host(folder, cases):
+    """Starts a host with a camera and the cases of a folder."""
+    recording = make_recording(folder / "box", width=160, height=120, frames=4)
+    # The camera stands 1.3 m above the floor and looks level along -z.
+    lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+    pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
+    (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+    return lambda: host(folder / "state", f"folder:{recording},loop=1,preload=1", options=("--cases", cases))
+
+
 class Case(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_case_"))
         self.addCleanup(shutil.rmtree, self.folder)
-        recording = make_recording(self.folder / "box", width=160, height=120, frames=4)
-        # The camera stands 1.6 m above the floor and looks level along -z.
-        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
-        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
-        (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
         self.cases = self.folder / "cases"
         self.cases.mkdir()
-        self.start = lambda: host(self.folder / "state", f"folder:{recording},loop=1,preload=1",
-                                  options=("--cases", self.cases))
+        self.start = case_host(self.folder, self.cases)
 
     def test_a_case_dropped_in_is_opened_by_one_and_had_by_three(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, \

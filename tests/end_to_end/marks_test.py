@@ -7,10 +7,10 @@ import struct
 import tempfile
 import unittest
 
-from case_test import has_all, parts_of, write_case
+from case_test import case_host, has_all, parts_of, write_case
 from raw_peer import RawPeer
 from room_test import ROOM, member, people
-from theatron_process import Process, host, make_recording, read_png, run, wait_until
+from theatron_process import Process, host, read_png, run, wait_until
 
 CREATE, CLEAR, MARK = 1, 7, 5  # docs/formats/room.md
 TOO_MANY, MALFORMED, TOO_OFTEN, OF_ANOTHER = 6, 7, 8, 11
@@ -34,14 +34,9 @@ class Marks(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_marks_"))
         self.addCleanup(shutil.rmtree, self.folder)
-        recording = make_recording(self.folder / "box", width=160, height=120, frames=4)
-        # The camera stands 1.3 m above the floor and looks level along -z.
-        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
-        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
-        (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
         self.cases = self.folder / "cases"
         write_case(self.cases / "liver")
-        self.start = lambda: host(self.folder / "state", f"folder:{recording},loop=1,preload=1", options=("--cases", self.cases))
+        self.start = case_host(self.folder, self.cases)
 
     def wait_for_error(self, process, text, timeout=10):
         wait_until(lambda: any(text in line for line in process.errors), timeout, 0.02)

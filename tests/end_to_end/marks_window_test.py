@@ -36,18 +36,7 @@ class MarksWindow(unittest.TestCase):
         self.screen.do(*before, "mousemove", *begin, "sleep", 0.15, "mousedown", 1, "sleep", 0.15, *steps, "mouseup", 1, *after)
 
     def buttons(self):
-        """Middles of the panel's buttons, from top to bottom and left to right."""
-        rows, color, found = self.screen.pixels(0, 0, WIDTH, HEIGHT), bytes((84, 66, 52)), []
-        for y, row in enumerate(rows):
-            x = 0
-            while x < WIDTH:
-                end = x
-                while end < WIDTH and row[4 * end:4 * end + 3] == color:
-                    end += 1
-                if end - x > 20 and not any(abs(x + (end - x) // 2 - bx) < 30 and y - by < 30 for bx, by in found):
-                    found.append((x + (end - x) // 2, y + 3))
-                x = end + 1
-        return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
+        return self.screen.buttons(WIDTH, HEIGHT, apart=30)
 
     def press(self, place):
         self.screen.do("mousemove", *place, "click", 1)

@@ -51,6 +51,22 @@ class VirtualScreen:
             return [image[start + y * stride + 4 * left:start + y * stride + 4 * (left + width)]
                     for y in range(top, top + height)]
 
+    def buttons(self, width, height, apart=40):
+        """Middles of the panels' buttons, from top to bottom and left to right; `apart`: pixels between two of a row."""
+        rows = self.pixels(0, 0, width, height)
+        color = bytes((84, 66, 52))
+        found = []
+        for y, row in enumerate(rows):
+            x = 0
+            while x < width:
+                end = x
+                while end < width and row[4 * end:4 * end + 3] == color:
+                    end += 1
+                if end - x > 20 and not any(abs(x + (end - x) // 2 - bx) < apart and y - by < 30 for bx, by in found):
+                    found.append((x + (end - x) // 2, y + 3))
+                x = end + 1
+        return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
+
 
 def difference(one, other):
     """Share of the pixels that differ visibly."""

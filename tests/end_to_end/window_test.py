@@ -100,20 +100,7 @@ class Window(unittest.TestCase):
             self.assertNotIn("reported", "".join(viewer.errors))  # errors of the driver
 
     def buttons(self):
-        """Middles of the panel's buttons, from top to bottom and left to right."""
-        rows = self.screen.pixels(0, 0, WIDTH, HEIGHT)
-        color = bytes((84, 66, 52))
-        found = []
-        for y, row in enumerate(rows):
-            x = 0
-            while x < WIDTH:
-                end = x
-                while end < WIDTH and row[4 * end:4 * end + 3] == color:
-                    end += 1
-                if end - x > 20 and not any(abs(x + (end - x) // 2 - bx) < 40 and y - by < 30 for bx, by in found):
-                    found.append((x + (end - x) // 2, y + 3))
-                x = end + 1
-        return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
+        return self.screen.buttons(WIDTH, HEIGHT)
 
     @staticmethod
     def repainted(one, other):
