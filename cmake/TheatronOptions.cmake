@@ -12,9 +12,14 @@ option(THEATRON_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(THEATRON_CUDA "Build the CUDA kernels (needs nvcc)" OFF)
 
 find_program(CCACHE ccache)
-if(CCACHE AND NOT EMSCRIPTEN)
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+if(CCACHE)
+  set(launcher ${CCACHE})
+  if(EMSCRIPTEN)
+    # It does not know em++ by its name.
+    set(launcher ${CMAKE_COMMAND} -E env CCACHE_COMPILERTYPE=clang ${CCACHE})
+  endif()
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 
 add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field-initializers)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks every tracked source: clang-format, and the licence line at its top."""
+"""Checks every tracked source: clang-format, the licence line at its top, and comments whose subject is named."""
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -9,6 +10,24 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 LICENSED = {".h", ".cpp", ".cu", ".py", ".sh", ".cmake", ".fbs", ".glsl", ".vert", ".frag", ".js", ".mjs"}
 FORMATTED = {".h", ".cpp", ".cu"}
+COMMENT_MARKS = {".h": "//", ".cpp": "//", ".cu": "//", ".js": "//", ".mjs": "//", ".vert": "//", ".frag": "//",
+                 ".glsl": "//", ".py": "#", ".sh": "#", ".cmake": "#"}
+# A sentence that begins so does not name its subject.
+UNNAMED_SUBJECT = re.compile(r"(?:^|[.:;!?] )(What|Whatever|Who|Whoever|Whose|Of|Which|Whether) [^?]*$")
+
+
+def comment_blocks(file, text):
+    """(line number, text) of each run of lines that are comments as a whole."""
+    mark = COMMENT_MARKS.get(file.suffix)
+    block, begin = [], 0
+    for number, line in enumerate(text.splitlines() + [""] if mark else [], 1):
+        words = line.strip()
+        if words.startswith(mark) and LICENCE not in words:
+            begin = begin if block else number
+            block.append(words[len(mark):].strip())
+        elif block:
+            yield begin, " ".join(block)
+            block = []
 
 
 def main():
@@ -18,8 +37,12 @@ def main():
     problems = []
     for file in files:
         if file.suffix in LICENSED or file.name in {"CMakeLists.txt", "Makefile"}:
-            head = file.read_text(errors="replace")[:300]
-            if LICENCE not in head:
+            text = file.read_text(errors="replace")
+            for number, comment in comment_blocks(file, text):
+                if any(UNNAMED_SUBJECT.search(sentence) for sentence in re.split(r"(?<=[.!?]) ", comment)):
+                    problems.append(f"{file.relative_to(ROOT)}:{number}: a sentence of this comment begins without its "
+                                    "subject")
+            if LICENCE not in text[:300]:
                 problems.append(f"{file.relative_to(ROOT)}: the licence line is missing")
     formatted = [str(f) for f in files if f.suffix in FORMATTED]
     for start in range(0, len(formatted), 50):

@@ -4,8 +4,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "capture/camera.h"
 #include "capture/k4a_device.h"
+#include "capture/x11_windows.h"
 #include "commands.h"
 #include "files/json_text.h"
 
@@ -15,8 +17,43 @@ namespace {
 using capture::k4a::FoundDevice;
 using capture::k4a::FoundDevices;
 
+struct FoundWindows {
+    std::vector<capture::X11Window> windows;
+    std::string problem;  // why there are none
+};
+
+FoundWindows find_windows() {
+    try {
+        return {capture::list_windows(), ""};
+    } catch (const Error& problem) {
+        return {{}, problem.what()};
+    }
+}
+
 std::string specification(const FoundDevice& device) {
     return "k4a:" + std::to_string(device.index);
+}
+
+nlohmann::json to_json(const FoundWindows& found) {
+    nlohmann::json windows = nlohmann::json::array();
+    for (const capture::X11Window& window : found.windows)
+        windows.push_back({{"camera", "x11:" + capture::number_text(window.number)},
+                           {"title", window.title},
+                           {"program", window.program},
+                           {"size", {window.size.width, window.size.height}}});
+    return windows;
+}
+
+void print(const FoundWindows& found) {
+    std::puts("\nWindows of this display, as given to --share (x11:display is all of it):");
+    for (const capture::X11Window& window : found.windows)
+        std::printf("  x11:%-10s  %dx%d  %s: %s\n", capture::number_text(window.number).c_str(),
+                    window.size.width, window.size.height, window.program.c_str(),
+                    window.title.c_str());
+    if (!found.problem.empty())
+        std::printf("  %s\n", found.problem.c_str());
+    else if (found.windows.empty())
+        std::puts("  none is visible");
 }
 
 nlohmann::json to_json(const FoundDevices& found) {
@@ -50,15 +87,23 @@ void print(const FoundDevices& found) {
 void add_cameras_command(CLI::App& app) {
     const auto json = std::make_shared<bool>(false);
     CLI::App* command =
-        app.add_subcommand("cameras", "List the kinds of camera and the live ones that are there");
+        app.add_subcommand("cameras",
+                           "List the kinds of camera, the live ones that are there, and the "
+                           "windows that can be shared");
     command->add_flag("--json", *json, "Print as JSON");
     command->footer("Example: theatron cameras");
     command->callback([json] {
         const FoundDevices found = capture::k4a::find_devices();
-        if (*json)
-            std::cout << files::json_text(to_json(found), 2) << std::endl;
-        else
+        const FoundWindows windows = find_windows();
+        if (*json) {
+            nlohmann::json all = to_json(found);
+            all["windows"] = to_json(windows);
+            all["windows_problem"] = windows.problem;
+            std::cout << files::json_text(all, 2) << std::endl;
+        } else {
             print(found);
+            print(windows);
+        }
     });
 }
 

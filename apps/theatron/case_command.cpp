@@ -95,6 +95,8 @@ void import(ImportArguments& arguments) {
     for (const medical::Part& part : report.manifest.parts)
         std::printf("part: %s (%s)\n", part.name.c_str(),
                     std::string(medical::to_text(part.role)).c_str());
+    for (const medical::CasePicture& picture : report.manifest.pictures)
+        std::printf("picture: %s\n", picture.name.c_str());
     std::printf(
         "The case lies in '%s'. Everybody in a session sees the names above: none may be "
         "the patient's.\n",
@@ -106,8 +108,9 @@ void add_import(CLI::App& group) {
     cases::ImportOptions& options = arguments->options;
     CLI::App* command = group.add_subcommand(
         "import",
-        "Makes a case of DICOM images, surfaces (STL, OBJ, PLY, GLB) and label maps "
-        "(NIfTI, NRRD).");
+        "Makes a case of DICOM images, surfaces (STL, OBJ, PLY, GLB), label maps "
+        "(NIfTI, NRRD) and pictures (PNG, JPEG).");
+    command->footer("Example: theatron case import patient-17 cases/patient-17 --name \"Case 17\"");
     command->add_option("SOURCE", arguments->source, "The folder, or one file")->required();
     command->add_option("CASE", arguments->folder, "The case's folder, which is made")->required();
     command->add_option("--name", options.name, "The case's name; usually that of its folder");
@@ -115,6 +118,8 @@ void add_import(CLI::App& group) {
     command->add_option("--credit", options.credit, "Whom the data is by");
     command->add_flag("--deidentified", arguments->deidentified,
                       "What names the patient was taken out before");
+    command->add_flag("--without-pictures", options.without_pictures,
+                      "Leave out PNG and JPEG pictures");
     command
         ->add_option("--unit", arguments->unit,
                      "Unit of surfaces: mm, cm or m; usually m in GLB, else mm")
@@ -146,7 +151,7 @@ struct ShowArguments {
     std::string folder, png, plane = "parts", window;
     cases::PartsView from = cases::PartsView::corner;
     double at_mm = std::nan("");
-    int series = 1;
+    int series = 1, picture = 0;
 };
 
 // A preset's name, or centre and width as in 40,400.
@@ -169,6 +174,14 @@ medical::Window window_of(const std::string& text) {
 
 void show(const ShowArguments& arguments) {
     const cases::LoadedCase loaded = cases::read_case(arguments.folder);
+    if (arguments.picture != 0) {
+        if (std::size_t(arguments.picture) > loaded.pictures.size())
+            throw Error("The case has " + std::to_string(loaded.pictures.size()) +
+                        " pictures, so there is no picture " + std::to_string(arguments.picture) +
+                        ".");
+        files::write_png(arguments.png, loaded.pictures[std::size_t(arguments.picture - 1)].view());
+        return;
+    }
     if (arguments.plane == "parts") {
         files::write_png(arguments.png,
                          cases::picture_of_parts(loaded, {1000, 800}, arguments.from).view());
@@ -224,6 +237,8 @@ void add_show(CLI::App& group) {
                         "40,400; usually that of the images");
     command->add_option("--series", arguments->series, "Number of the series, from 1")
         ->capture_default_str();
+    command->add_option("--picture", arguments->picture, "Number of a picture instead, from 1")
+        ->check(CLI::Range(1, 64));
     command->callback([arguments] { show(*arguments); });
 }
 

@@ -76,7 +76,7 @@ std::size_t find_part(const client::Participant& participant, const std::string&
                 "; it has " + names + ".");
 }
 
-// "slice axial", "slice 12.5", "window liver", "window 60 400".
+// "slice axial", "slice 12.5", "window liver", "window 60 400", "series 2", "picture 1".
 bool change_screen(client::Participant& participant, const std::string& what, std::istream& words) {
     std::uint64_t version = 0;
     const auto open = participant.open_case(version);
@@ -86,7 +86,18 @@ bool change_screen(client::Participant& participant, const std::string& what, st
     session::CaseScreen screen = room->screen->facts;
     std::string which;
     words >> which;
-    if (what == "slice") {
+    if (what == "picture" || what == "series") {
+        const std::size_t count = what == "picture" ? open->pictures.size() : open->volumes.size();
+        if (count == 0)
+            return false;
+        std::istringstream number(which);
+        const int chosen = int(read_number(number, 1, double(count), "The number"));
+        if (what == "picture")
+            screen.picture = std::uint16_t(chosen - 1);
+        else
+            screen =
+                viewer::of_series(screen, chosen - 1, open->volumes[std::size_t(chosen - 1)].get());
+    } else if (what == "slice") {
         const auto volume =
             screen.series < open->volumes.size() ? open->volumes[screen.series] : nullptr;
         if (!volume)
@@ -104,6 +115,7 @@ bool change_screen(client::Participant& participant, const std::string& what, st
             std::istringstream number(which);
             screen.position_mm = read_number(number, -100'000, 100'000, "The place in millimetres");
             screen = viewer::scrolled(screen, *volume, 0);  // within the images
+            screen.picture.reset();
         }
     } else {
         const auto presets = medical::window_presets();
@@ -149,7 +161,14 @@ bool carry_out(client::Participant& participant, const std::string& what, std::i
         return viewer::set_scale(participant, read_number(words, 0.01, 100, "The scale"));
     if (what == "cut" || what == "whole")
         return viewer::cut_at_slice(participant, what == "cut");
-    if (what == "slice" || what == "window")
+    if (what == "present") {
+        std::string off;
+        words >> off;
+        if (!off.empty() && off != "off")
+            throw Error("The line is 'case present' or 'case present off'.");
+        return viewer::present(participant, off.empty());
+    }
+    if (what == "slice" || what == "window" || what == "series" || what == "picture")
         return change_screen(participant, what, words);
     throw Error("There is no such line on cases; 'theatron join --help' lists them.");
 }
@@ -159,6 +178,9 @@ nlohmann::json screen_json(const session::CaseInRoom& room) {
         return nullptr;
     const session::CaseScreen& screen = room.screen->facts;
     return {{"object", std::uint32_t(room.screen->id)},
+            {"series", screen.series},
+            {"picture", screen.picture ? nlohmann::json(*screen.picture + 1) : nullptr},
+            {"presenter", std::uint32_t(screen.presenter)},
             {"orientation", screen.orientation},
             {"position_mm", screen.position_mm},
             {"center", screen.center},
@@ -172,7 +194,8 @@ const char* case_lines_help() {
            "'case opacity PERCENT PART', 'case explode PERCENT', 'case together', 'case scale "
            "FACTOR',\n"
            "'case slice axial|coronal|sagittal [MM]', 'case slice MM', 'case window PRESET',\n"
-           "'case window CENTRE WIDTH', 'case cut', 'case whole'";
+           "'case window CENTRE WIDTH', 'case series NUMBER', 'case picture NUMBER',\n"
+           "'case present', 'case present off', 'case cut', 'case whole'";
 }
 
 bool obey_case_line(client::Participant& participant, const std::string& line) {
@@ -183,7 +206,7 @@ bool obey_case_line(client::Participant& participant, const std::string& line) {
         return false;
     try {
         if (!carry_out(participant, what, words))
-            log::say("'" + line + "': No case is open, or it has no such part.");
+            log::say("'" + line + "': No case is open, or it has no such part, or no images.");
     } catch (const Error& error) {
         log::say("'" + line + "': " + error.what());
     }
@@ -220,6 +243,7 @@ nlohmann::json case_json(const client::Participant& participant) {
                     {"explosion", room->organ.explosion / 255.0},
                     {"cut", room->organ.cut},
                     {"screen", screen_json(*room)},
+                    {"pictures", open->pictures.size()},
                     {"parts", parts}};
     return json;
 }

@@ -16,7 +16,7 @@ const char* case_lines_help();
 bool obey_case_line(client::Participant& participant, const std::string& line);
 
 // {"offered":[names],"open":{"name","hash","complete","got","all","problem","parts":[{"object",
-// "name","shown","opacity","is_here"}],"screen"}}; "open" is null without a case.
+// "name","shown","opacity","is_here"}],"pictures","screen"}}; "open" is null without a case.
 nlohmann::json case_json(const client::Participant& participant);
 
 }  // namespace theatron::app

@@ -20,6 +20,7 @@
 #include "files/png_file.h"
 #include "host/host.h"
 #include "host/page.h"
+#include "or_screen_window.h"
 #include "participant_json.h"
 #include "scripted_people.h"
 #include "viewer/offscreen_view_native.h"
@@ -74,8 +75,13 @@ private:
 
 void show_pictures(const Flags& flags, const std::filesystem::path& folder, const net::Link& link) {
     client::Participant viewer(viewer_options(link));
-    constexpr Size size{1280, 720};
+    constexpr Size size{1280, 720}, screen_size{1920, 1080};
     viewer::OffscreenView scene;
+    client::Participant::Options screen_options = viewer_options(link);
+    screen_options.name = or_screen_name;
+    client::Participant screen_viewer(std::move(screen_options));
+    const VoiceLine silence({});  // the scripted people do not speak
+    OrScreenPicture screen(screen_size, (folder / "or_screen.png").string(), silence);
     const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
                           {"from_between.png", "blend", {CameraId{0}, -45, 5}},
                           {"as_mesh.png", "mesh", {CameraId{0}, -45, 5}},
@@ -89,14 +95,20 @@ void show_pictures(const Flags& flags, const std::filesystem::path& folder, cons
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         viewer.wait_for_frame(20ms);
         scene.take(viewer);
+        screen.take(screen_viewer);
         const TimePoint now = steady_now();
-        if (scene.can_draw() && now >= next_picture) {
+        if (scene.can_draw() && screen.has_picture() && now >= next_picture) {
             for (const View& view : views)
                 files::write_png(folder / view.file,
                                  scene.picture({view.choice, size, view.renderer, {}}).view());
-            if (!std::exchange(announced, true))
+            screen.take(screen_viewer);  // what came while the others were drawn
+            screen.write();
+            if (!std::exchange(announced, true)) {
                 for (const View& view : views)
                     std::cout << "  " << (folder / view.file).string() << "\n";
+                std::cout << "  " << (folder / "or_screen.png").string()
+                          << ", the screen in the operating room\n";
+            }
             next_picture = steady_now() + 5s;
         }
         if (announced && now >= next_line) {

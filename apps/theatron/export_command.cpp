@@ -11,6 +11,7 @@
 #include "export/export_formats.h"
 #include "export/export_places.h"
 #include "export/room_of_recording.h"
+#include "export/voices_of_recording.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "host/filter_choice.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct Flags {
     std::string file;
-    std::string ply, png, k4a, room;
+    std::string ply, png, k4a, room, voices;
     std::optional<int> camera;
     bool merged = false;
     bool undistort = false;
@@ -100,10 +101,31 @@ void say_places(const exporting::ExportSource& source) {
                   << std::endl;
 }
 
+// False if packets are damaged.
+bool save_voices(const Flags& flags, const Recording& recording) {
+    exporting::VoicesSummary voices;
+    const auto files = exporting::export_voices(recording, flags.voices, flags.overwrite, voices);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (flags.json)
+            std::cout << files::json_text({{"format", "voice"},
+                                           {"path", files[i].string()},
+                                           {"name", voices.people[i].name},
+                                           {"seconds", voices.people[i].seconds},
+                                           {"damaged", voices.damaged}})
+                      << std::endl;
+        else
+            std::cout << files[i].string() << ": " << voices.people[i].name << std::endl;
+    if (files.empty())
+        std::cerr << "Nobody whose voice may be recorded has spoken." << std::endl;
+    return voices.damaged == 0;
+}
+
 void run(const Flags& flags) {
-    if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty() && flags.room.empty())
+    if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty() && flags.room.empty() &&
+        flags.voices.empty())
         throw Error(
-            "Say into what to export: --ply DIR, --png DIR, --k4a FILE.mkv or --room FILE.jsonl.");
+            "Say into what to export: --ply DIR, --png DIR, --k4a FILE.mkv, --room "
+            "FILE.jsonl or --voices DIR.");
     if (flags.merged && flags.ply.empty())
         throw Error("Only points can be merged; --merged goes with --ply.");
     if (flags.undistort && flags.png.empty())
@@ -132,6 +154,10 @@ void run(const Flags& flags) {
 
     if (!flags.room.empty() && !recording->room().present)
         throw Error("'" + flags.file + "' has no room: only recordings of sessions have one.");
+    if (!flags.voices.empty() && recording->voices().empty())
+        throw Error(
+            "'" + flags.file +
+            "' has no voices: only recordings of sessions have those of people who agreed.");
     for (const std::string& file : {flags.k4a, flags.room}) {
         if (file.empty())
             continue;
@@ -222,6 +248,8 @@ void run(const Flags& flags) {
         else
             std::cout << flags.room << ": " << lines << " moments" << std::endl;
     }
+    if (!flags.voices.empty())
+        damaged |= !save_voices(flags, recording);
     if (!damaged)
         return;
     std::cerr << "Parts of the recording are damaged or missing; what is whole was exported. "
@@ -245,6 +273,7 @@ void add_export_command(CLI::App& app) {
         "  theatron export operation.mkv --png for_others --undistort\n"
         "  theatron export operation.mkv --png rgbd --registered\n"
         "  theatron export operation.mkv --room room.jsonl\n"
+        "  theatron export operation.mkv --voices said\n"
         "  theatron host --camera folder:pictures,loop=1\n"
         "  theatron export operation.mkv --camera 0 --k4a kinect.mkv");
     command->add_option("file", flags->file, "The recording")->required();
@@ -265,6 +294,9 @@ void add_export_command(CLI::App& app) {
     command->add_option("--room", flags->room,
                         "Write people, objects and poses into this file, a JSON line for each "
                         "moment at which something changed");
+    command->add_option("--voices", flags->voices,
+                        "Write what each person said into this folder, a WAV file for each; all "
+                        "begin with the recording's first picture");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")
         ->check(CLI::Range(0, 62));
     command->add_flag("--overwrite", flags->overwrite,

@@ -14,6 +14,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "camera_lines.h"
 #include "capture/camera.h"
 #include "cli/camera_option.h"
 #include "cli/progress.h"
@@ -27,6 +28,7 @@
 #include "host/page.h"
 #include "input_lines.h"
 #include "people_lines.h"
+#include "playback_lines.h"
 #include "region_text.h"
 #include "viewer/renderer_text.h"
 
@@ -84,7 +86,8 @@ void change_region(host::Host& host, std::istringstream words) {
 
 // Throws Error if it cannot be done.
 void obey(host::Host& host, const std::string& line) {
-    if (obey_people_line(host, line))
+    if (obey_people_line(host, line) || obey_camera_line(host, line) ||
+        obey_playback_line(host, line))
         return;
     std::istringstream words(line);
     std::string what, rest;
@@ -97,7 +100,8 @@ void obey(host::Host& host, const std::string& line) {
         host.set_renderer(text.who, text.word);
     } else if (!what.empty()) {
         throw Error("There is no command '" + what +
-                    "'; lines begin with region or renderer, or are " + people_help() + ".");
+                    "'; lines begin with region or renderer, or are " + people_help() + ", " +
+                    camera_lines_help() + ", " + playback_lines_help() + ".");
     }
 }
 
@@ -226,6 +230,10 @@ void add_host_command(CLI::App& app) {
         "                                 decisions on people, as of an operator; revoke makes\n"
         "                                 the link of that person invalid\n"
         "  end session                    for all\n"
+        "  nudge 0 10 0 -5 0 1.5 0        moves camera 0 by 10 mm along x and -5 along z, turns\n"
+        "                                 it by 1.5 degrees about y, from where it is registered,\n"
+        "                                 for all; 'nudge 0 none'\n"
+        "  pause, play, seek 60, seek +5  the recording of recording:FILE, for all\n"
         "\nExamples:\n"
         "  theatron host --camera folder:recordings/table,loop=1\n"
         "  theatron host --camera mkv:left.mkv,loop=1 --camera mkv:right.mkv,loop=1 "

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "export/room_of_recording.h"
 #include "export/verify_recording.h"
+#include "export/voices_of_recording.h"
 #include "geometry/calibration.h"
 #include "host/filter_choice.h"
 #include "record/recording_file.h"
@@ -184,6 +185,23 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
     return json;
 }
 
+// Decodes all voices. True if nothing of them is damaged.
+bool add_voices(const std::shared_ptr<const record::RecordingFile>& recording, Json& json) {
+    const exporting::VoicesSummary voices = exporting::summarize_voices(recording);
+    Json people = Json::array();
+    for (const exporting::RecordedPerson& person : voices.people)
+        people.push_back({{"participant", std::uint32_t(person.id)},
+                          {"name", person.name},
+                          {"packets", person.packets},
+                          {"seconds", person.seconds}});
+    json["voices"] = {{"tracks", recording->voices().size()},
+                      {"packets", voices.blocks},
+                      {"bytes", voices.bytes},
+                      {"damaged", voices.damaged},
+                      {"people", std::move(people)}};
+    return voices.damaged == 0;
+}
+
 // Reads the whole track of the room. True if nothing of it is damaged.
 bool add_room(const std::shared_ptr<const record::RecordingFile>& recording, Json& json) {
     const exporting::RoomSummary room = exporting::summarize_room(recording);
@@ -291,6 +309,16 @@ void print_room(const Json& room) {
               (unsigned long long)room["damaged"], (unsigned long long)room["undecodable"]);
 }
 
+void print_voices(const Json& voices) {
+    for (const Json& person : voices["people"])
+        print("voice of %s: %.1f s\n", std::string(person["name"]).c_str(),
+              double(person["seconds"]));
+    if (voices["people"].empty())
+        print("no voice\n");
+    if (voices["damaged"] > 0)
+        print("  %llu packets of voices are damaged\n", (unsigned long long)voices["damaged"]);
+}
+
 // Decodes everything.
 exporting::Verification add_verification(
     const std::shared_ptr<const record::RecordingFile>& recording, const std::string& file,
@@ -333,10 +361,11 @@ void run(const std::string& file, bool as_json, bool verified) {
         record::RecordingFile::open(file);
     Json json = describe(file, *recording);
     const bool room_is_whole = !json.contains("room") || add_room(recording, json["room"]);
+    const bool voices_are_whole = recording->voices().empty() || add_voices(recording, json);
     exporting::Verification found;
     if (verified)
         found = add_verification(recording, file, json);
-    found.damaged_pictures |= verified && !room_is_whole;
+    found.damaged_pictures |= verified && !(room_is_whole && voices_are_whole);
     found.damaged |= found.damaged_pictures;
     if (as_json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
@@ -356,6 +385,8 @@ void run(const std::string& file, bool as_json, bool verified) {
         }
         if (json.contains("room"))
             print_room(json["room"]);
+        if (json.contains("voices"))
+            print_voices(json["voices"]);
         if (verified)
             print("%s\n", verdict(*recording, found));
     }

@@ -16,21 +16,24 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "camera_lines.h"
 #include "case_lines.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant.h"
-#include "client/person_id.h"
 #include "commands.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/png_file.h"
-#include "files/state_folder.h"
 #include "input_lines.h"
+#include "join_flags.h"
+#include "join_pictures.h"
+#include "join_window.h"
 #include "link_argument.h"
 #include "mark_lines.h"
 #include "participant_json.h"
 #include "people_lines.h"
+#include "playback_lines.h"
 #include "published_cameras.h"
 #include "room_lines.h"
 #include "session/renderer_choice.h"
@@ -45,149 +48,17 @@
 namespace theatron::app {
 namespace {
 
-// The host chooses where H.264 can be decoded here.
-std::string best_color() {
-    const auto h264 = video::parse_color_setting("h264").setting;
-    return video::missing_color_decoder(h264).empty() ? std::string(video::auto_color)
-                                                      : video::ColorSetting().text;
-}
-
-// A codec setting in one spelling. Throws Error with one sentence if this build does not have it.
-std::string checked_color(const std::string& text) {
-    const bool automatic = text == video::auto_color;
-    const auto parsed = video::parse_color_setting(automatic ? "h264" : text);
-    for (const std::string& problem :
-         {parsed.problem, video::missing_color_decoder(parsed.setting)})
-        if (!problem.empty())
-            throw Error(problem);
-    return automatic ? text : parsed.setting.text;
-}
-
-struct Flags {
-    std::string link;
-    std::optional<std::string> name;  // none: the kept one in a window, else "guest"
-    std::string depth_codec = "strata";
-    std::string color_codec = best_color();
-    std::string offscreen, depth_file;
-    std::optional<std::string> renderer;  // likewise, else viewer::automatic
-    std::string size = "1280x720";
-    std::string view = "camera:0";
-    std::string room = "on";
-    std::optional<std::string> quality;  // if given, else auto, in a window that of the last one
-    std::vector<std::string> people, myself;
-    std::vector<std::string> cameras;  // that are sent
-    bool stereo = false;
-    double seconds = 0;
-    double warmup = 0;
-    double every = 0;
-    unsigned target_latency_ms = 150;
-    double max_mbit = 0;
-    bool json = false;
-    bool no_window = false;
-    bool may_record = false;
-    std::string render_scale = "auto";
-    std::string microphone, speaker;
-    int voice_frame_ms = 20;
-
-    // Whoever asks for files or figures wants no window.
-    bool window() const {
-        return offscreen.empty() && depth_file.empty() && every <= 0 && !json && !no_window;
-    }
-};
-
-Size parse_size(const std::string& text) {
-    Size size;
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 ||
-        !is_valid(size))
-        throw Error("The size '" + text + "' is not WIDTHxHEIGHT, for example 1280x720.");
-    return size;
-}
-
-// Mean distance of an adult's eyes.
-constexpr double eye_distance_m = 0.063;
-
-viewer::RoomChoice parse_room(const Flags& flags) {
-    viewer::RoomChoice choice;
-    choice.shown = flags.room == "on";
-    choice.quality = parse_quality(flags.quality.value_or("auto"));
-    return choice;
-}
-
-// 0 for "auto".
-double parse_render_scale(const std::string& text) {
-    if (text == "auto")
-        return 0;
-    char* end = nullptr;
-    const double scale = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != '\0' || !(scale >= 0.1 && scale <= 1))
-        throw Error("The render scale '" + text + "' is neither auto nor between 0.1 and 1.");
-    return scale;
-}
-
-// Draws the newest pictures of all cameras from one viewpoint into files.
-struct OffscreenPicture {
-    explicit OffscreenPicture(const Flags& flags)
-        : size(parse_size(flags.size)),
-          view(viewer::parse_view(flags.view)),
-          renderer(flags.renderer.value_or(viewer::automatic)),
-          scene(parse_room(flags), viewer::parse_seen_people(flags.people, flags.myself)) {
-        viewer::check_renderer_choice(renderer.renderer());
-    }
-
-    // Takes over new cameras and frames, and the host's renderer command. The picture's viewpoint
-    // is this person's head for others.
-    void take(client::Participant& participant, RoomLines& room) {
-        scene.take(participant);
-        if (scene.can_draw() && !stands) {
-            room.stand(scene.view(view, size).room_from_eye * Pose{Quat{0, 1, 0, 0}, {}});
-            stands = true;
-        }
-        if (const auto word = participant.take_renderer_word())
-            if (const std::string problem = viewer::follow_host(renderer, *word); !problem.empty())
-                std::fprintf(stderr, "%s\n", problem.c_str());
-        participant.tell_renderer(drawn_with());
-    }
-
-    std::string drawn_with() const {
-        return viewer::renderer_for(renderer.renderer(), scene.cameras());
-    }
-
-    void write(const Flags& flags) {
-        if (!scene.can_draw())
-            throw Error("No picture came from the host, so none was written.");
-        viewer::OffscreenView::Wish wish{view, size, drawn_with(), {}};
-        if (flags.stereo)
-            wish.eye_distance_m = eye_distance_m;
-        if (!flags.offscreen.empty())
-            files::write_png(flags.offscreen, scene.picture(wish).view());
-        if (!flags.depth_file.empty())
-            files::write_png(flags.depth_file, scene.distances(wish).view());
-    }
-
-    Size size;
-    viewer::ViewChoice view;
-    session::RendererChoice renderer;
-    viewer::OffscreenView scene;
-    bool stands = false;
-};
-
-// A picture is written at the end; an impossible file name is reported at the beginning.
-void check_picture_file(const std::string& file) {
-    if (file.empty())
-        return;
-    std::string ending = std::filesystem::path(file).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    for (const char* other : {".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".ppm"})
-        if (ending == other)
-            throw Error("Pictures are written as PNG; name '" + file + "' with the ending .png.");
-    files::require_writable(file);
-    files::require_own_kind(file, files::png_beginning, "a PNG picture");
-}
-
-std::uint32_t to_kbit(double mbit) {
-    return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
+ViewPicture view_picture(const JoinFlags& flags) {
+    ViewPicture picture;
+    picture.size = parse_size(flags.size);
+    picture.view = viewer::parse_view(flags.view);
+    picture.renderer = flags.renderer.value_or(viewer::automatic);
+    picture.room = parse_room(flags);
+    picture.people = viewer::parse_seen_people(flags.people, flags.myself);
+    picture.color_file = flags.offscreen;
+    picture.depth_file = flags.depth_file;
+    picture.stereo = flags.stereo;
+    return picture;
 }
 
 void choose_delivery(client::Participant& participant, bool latency, double value) {
@@ -218,13 +89,23 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
     }
 }
 
+// "voice-recording on" or "voice-recording off". False if it is another line.
+bool obey_consent_line(client::Participant& participant, const std::string& line) {
+    const bool agrees = line == "voice-recording on";
+    if (!agrees && line != "voice-recording off")
+        return false;
+    participant.allow_voice_recording(agrees);
+    return true;
+}
+
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           const std::string& line) {
-    if (voice.obey(line) || obey_people_line(participant, line) ||
-        obey_case_line(participant, line) || obey_mark_line(participant, line) ||
-        room.obey(line, participant))
+    if (voice.obey(line) || obey_consent_line(participant, line) ||
+        obey_people_line(participant, line) || obey_camera_line(participant, line) ||
+        obey_playback_line(participant, line) || obey_case_line(participant, line) ||
+        obey_mark_line(participant, line) || room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -237,11 +118,12 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
                                 std::sscanf(value.c_str(), "%lf", &number) == 1 && number >= 0)
         choose_delivery(participant, what == "latency", number);
     else if (!what.empty())
-        std::fprintf(
-            stderr,
-            "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-            "MBIT', 'quit', in the room %s, on cases %s, on marks %s, or as an operator %s.\n",
-            RoomLines::help(), case_lines_help(), mark_lines_help(), people_help());
+        std::fprintf(stderr,
+                     "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
+                     "MBIT', 'quit', in the room %s, on cases %s, on marks %s, on a recording "
+                     "that the host plays %s, or as an operator %s, %s.\n",
+                     RoomLines::help(), case_lines_help(), mark_lines_help(), playback_lines_help(),
+                     people_help(), camera_lines_help());
     return true;
 }
 
@@ -258,61 +140,62 @@ bool has_no_camera(const client::Participant& participant) {
     return participant.cameras(generation).empty();
 }
 
-nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice) {
+nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice,
+                       const JoinPicture* picture) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
     json["voice"] = voice.json();
+    json["voice"]["may_record"] = participant.voice_may_record();
+    if (picture)
+        picture->add_to(json);
     return json;
 }
 
-void run(const Flags& flags) {
-    client::Participant::Options options;
-    options.link = parse_link_argument(flags.link);
-    options.name = flags.name.value_or("guest");
-    const auto depth = video::parse_depth_setting(flags.depth_codec);
-    for (const std::string& problem : {depth.problem, video::missing_depth_decoder(depth.setting)})
-        if (!problem.empty())
-            throw Error(problem);
-    options.depth_codec = depth.setting.text;
-    options.color_codec = checked_color(flags.color_codec);
-    options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
-    options.person = client::load_or_make_person_id(files::state_folder());
-    options.remark = [](const std::string& text) { log::say(text); };
-    options.keeps_room = true;
-    options.keeps_cases = true;
-    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms});
-    options.voice = [&voice](ParticipantId speaker, ByteView packet) {
-        voice.hear(speaker, packet);
-    };
-
-    std::unique_ptr<publish::CameraPublisher> publisher;
-    if (!flags.cameras.empty()) {
-        publisher =
-            open_published(flags.cameras, {}, "", {flags.may_record, wire::CameraFrame::person});
-        options.publishing = publisher->events();
-    }
-
-    if (flags.window()) {
-        ViewerWindow shown{.join = options, .publisher = publisher.get()};
-        shown.voice = &voice;
-        shown.seconds = flags.seconds;
-        shown.viewer.view = viewer::parse_view(flags.view);
-        shown.viewer.room = parse_room(flags);
-        shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
-        use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
-        shown.viewer.scale = parse_render_scale(flags.render_scale);
-        cli::catch_stop_signals();
-        xr::DesktopWindow window("Theatron", parse_size(flags.size));
-        show(window, std::move(shown));
+void list_devices(bool as_json) {
+    const sound::DeviceList found = sound::devices();
+    if (as_json) {
+        std::cout << files::json_text({{"microphones", found.microphones},
+                                       {"loudspeakers", found.loudspeakers},
+                                       {"problem", found.problem}})
+                  << std::endl;
         return;
     }
+    if (!found.problem.empty())
+        return void(std::cout << found.problem << std::endl);
+    const auto list = [](const char* kind, const std::vector<std::string>& names) {
+        std::cout << kind << ":" << (names.empty() ? " none" : "") << "\n";
+        for (const std::string& name : names)
+            std::cout << "  " << name << "\n";
+    };
+    list("microphones", found.microphones);
+    list("loudspeakers", found.loudspeakers);
+}
 
-    std::unique_ptr<OffscreenPicture> picture;
+void run(const JoinFlags& flags) {
+    if (flags.list_devices)
+        return list_devices(flags.json);
+    if (flags.window() && !flags.or_screen)
+        return join_in_window(flags);
+    if (flags.link.empty())
+        throw Error("Name the link that the host printed: theatron join LINK.");
+    if (flags.window())
+        return join_as_or_screen(flags);
+    client::Participant::Options options = participant_options(flags);
+    options.link = parse_link_argument(flags.link);
+    options.name = flags.name.value_or("guest");
+    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
+                     parse_cleaning(flags.echo_cancellation)});
+    voice.hear_by(options);
+    const auto publisher = open_own_cameras(flags, options);
+
+    std::unique_ptr<JoinPicture> picture;
     check_picture_file(flags.offscreen);
     check_picture_file(flags.depth_file);
-    if (!flags.offscreen.empty() || !flags.depth_file.empty())
-        picture = std::make_unique<OffscreenPicture>(flags);
+    if (flags.or_screen && !flags.offscreen.empty())
+        picture = std::make_unique<OrScreenPicture>(parse_size(flags.size), flags.offscreen, voice);
+    else if (!flags.offscreen.empty() || !flags.depth_file.empty())
+        picture = std::make_unique<OffscreenPicture>(view_picture(flags));
 
     cli::catch_stop_signals();
     client::Participant participant(options);
@@ -346,6 +229,7 @@ void run(const Flags& flags) {
             break;
         if (!obey(participant, room, voice, input))
             break;
+        voice.hold(false, steady_now());
         room.on_tick(participant);
         print_managed(participant);
         const TimePoint now = steady_now();
@@ -365,7 +249,7 @@ void run(const Flags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(json_of(participant, voice)) << std::endl;
+            std::cout << files::json_text(json_of(participant, voice, picture.get())) << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -374,9 +258,9 @@ void run(const Flags& flags) {
     }
     if (live_line)
         std::cout << "\n";
-    const nlohmann::json figures = json_of(participant, voice);
+    const nlohmann::json figures = json_of(participant, voice, picture.get());
     if (picture)
-        picture->write(flags);
+        picture->write();
     if (flags.json)
         std::cout << files::json_text(figures) << std::endl;
     else if (!live_line)
@@ -393,7 +277,7 @@ std::string join_names(const std::vector<std::string>& names) {
 }  // namespace
 
 void add_join_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<JoinFlags>();
     CLI::App* command = app.add_subcommand("join", "Join a session with the link of its host");
     command->footer(
         "Depth codecs: " + join_names(video::depth_codec_names()) +
@@ -404,18 +288,24 @@ void add_join_command(CLI::App& app) {
         "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20', "
         "or act in the shared room\n(docs/room.md):\n" +
         RoomLines::help() + ".\nOn the case in the room (docs/cases.md):\n" + case_lines_help() +
+        ".\nOn a recording that the host plays (docs/views.md):\n" + playback_lines_help() +
         ".\nOperators decide on people (docs/room.md):\n" + people_help() +
+        ".\nThey adjust cameras for all (docs/registration.md):\n" + camera_lines_help() +
         ".\n"
         "\nExamples:\n"
+        "  theatron join\n"
         "  theatron join LINK\n"
         "  theatron join LINK --offscreen view.png --renderer mesh --size 1280x720 --seconds 3\n"
         "  theatron join LINK --depth-codec zstd --color-codec jpeg:quality=60 --seconds 10 "
         "--json\n"
         "  theatron join LINK --target-latency 250 --max-mbit 15\n"
+        "  theatron join --list-devices\n"
+        "  theatron join LINK --microphone default --speaker default\n"
         "  theatron join LINK --publish k4a:0\n"
         "  theatron join LINK --person 1=0.2:1.65:-0.4,reach=1 --myself 0=0:1.7:0.5,yaw=180");
-    command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
-        ->required();
+    command->add_option("link", flags->link,
+                        "The link that the host printed, or @FILE with it. In a window it can be "
+                        "left out: a form asks for it");
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->default_str("that of your last window, else guest");
     command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")
@@ -427,11 +317,10 @@ void add_join_command(CLI::App& app) {
                      "A camera of yours that the others see, spelt as for theatron host --camera; "
                      "needs the host's link for those who may. Repeat for more")
         ->allow_extra_args(false);
-    command
-        ->add_flag("--may-record", flags->may_record,
-                   "Agree that other participants record your cameras; without it the host sends "
-                   "them to no recorder")
-        ->needs("--publish");
+    add_share_option(*command, flags->shared);
+    command->add_flag("--may-record", flags->may_record,
+                      "Agree that other participants record your cameras and screens; without it "
+                      "the host sends them to no recorder");
     command->add_option("--offscreen", flags->offscreen,
                         "Without a window: draw the last picture into this PNG file");
     command->add_option("--depth", flags->depth_file,
@@ -463,6 +352,11 @@ void add_join_command(CLI::App& app) {
                      "graphics card draws. The clouds are the same in both")
         ->default_str("that of your last window, else auto")
         ->check(CLI::IsMember({"auto", "low", "high"}));
+    command
+        ->add_option("--save-to", flags->save_to,
+                     "The folder into which F9 and F10 in the window save pictures and points")
+        ->capture_default_str()
+        ->check(CLI::ExistingDirectory);
     command
         ->add_option("--person", flags->people,
                      "CAMERA=X:Y:Z, a person seen by that camera (number from 0 or name) and where "
@@ -508,6 +402,21 @@ void add_join_command(CLI::App& app) {
                         "Speak to the others: default, the name of a microphone, or a WAV file. "
                         "Without it you only listen. In the window L closes and opens it, "
                         "elsewhere the lines 'microphone off' and 'microphone on'");
+    command->add_flag("--list-devices", flags->list_devices,
+                      "Print the microphones and loudspeakers of this machine, and end");
+    command
+        ->add_option("--echo-cancellation", flags->echo_cancellation,
+                     "Take echo of the loudspeaker, noise and differences of loudness out of your "
+                     "microphone: on, off, or auto, which is on for devices and off for files")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "on", "off"}));
+    command->add_flag("--push-to-talk", flags->push_to_talk,
+                      "Speak only while a key is held: Enter in the window, where F7 switches, "
+                      "elsewhere between the lines 'talk on' and 'talk off'");
+    command->add_flag("--voice-may-record", flags->voice_may_record,
+                      "Agree that other participants record your voice; without it the host sends "
+                      "it to no recorder. In the window F8, elsewhere the lines "
+                      "'voice-recording on' and 'voice-recording off' change it");
     command->add_option("--speaker", flags->speaker,
                         "Hear the others: default, the name of a loudspeaker, or a WAV file that "
                         "is written");
@@ -517,6 +426,12 @@ void add_join_command(CLI::App& app) {
                      "more of the link")
         ->capture_default_str()
         ->check(CLI::IsMember({10, 20}));
+    command->add_flag(
+        "--or-screen", flags->or_screen,
+        "For a monitor in the operating room, full screen and without keyboard: who "
+        "is here and speaks, and what they point at in the picture of the camera that "
+        "sees it best. With @FILE as the link it begins and comes back by itself; "
+        "with --offscreen it is a picture");
     command->add_flag("--no-window", flags->no_window,
                       "Receive and tell the figures, draw nothing");
     command

@@ -27,6 +27,10 @@ void cover_token_of_link(char* argument) {
 
 }  // namespace
 
+bool is_link_file(const std::string& argument) {
+    return argument.starts_with('@') && argument != "@/dev/stdin";
+}
+
 net::Link parse_link_argument(const std::string& argument) {
     if (!argument.starts_with('@'))
         return net::parse_link(argument);

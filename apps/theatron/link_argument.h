@@ -13,6 +13,9 @@ namespace theatron::app {
 // Parses a link, or @FILE, a file that begins with a link; @/dev/stdin reads standard input.
 net::Link parse_link_argument(const std::string& argument);  // throws Error
 
+// True for @FILE; not for standard input, which can be read only once.
+bool is_link_file(const std::string& argument);
+
 // Characters that are read from a file at most; no link is longer.
 inline constexpr std::size_t max_link_characters = 4096;
 

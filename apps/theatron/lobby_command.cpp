@@ -10,24 +10,20 @@
 #include "files/png_file.h"
 #include "host/lobby.h"
 #include "link_argument.h"
+#include "lobby_fields.h"
 
 namespace theatron::app {
 namespace {
 
-std::string text(const nlohmann::json& from, const char* field) {
-    return from.contains(field) && from[field].is_string() ? from[field].get<std::string>()
-                                                           : std::string();
-}
-bool is_set(const nlohmann::json& from, const char* field) {
-    return from.contains(field) && from[field].is_boolean() && from[field].get<bool>();
-}
 // The names of a list, each with another field behind it.
 std::string names(const nlohmann::json& session, const char* list, const char* field) {
     std::string all;
     if (session.contains(list) && session[list].is_array())
-        for (const auto& entry : session[list])
-            all +=
-                (all.empty() ? "" : ", ") + text(entry, "name") + " (" + text(entry, field) + ")";
+        for (const auto& entry : session[list]) {
+            const std::string adjusted = text(entry, "adjusted");
+            all += (all.empty() ? "" : ", ") + text(entry, "name") + " (" + text(entry, field) +
+                   (adjusted.empty() ? "" : "; by operators: " + adjusted) + ")";
+        }
     return all;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <vector>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -87,9 +89,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        constexpr theatron::sandbox::Reader readers[] = {theatron::capture::foreign_readers[0],
-                                                         theatron::cases::foreign_readers[0],
-                                                         theatron::cases::foreign_readers[1]};
+        std::vector<theatron::sandbox::Reader> readers(
+            std::begin(theatron::capture::foreign_readers),
+            std::end(theatron::capture::foreign_readers));
+        readers.insert(readers.end(), std::begin(theatron::cases::foreign_readers),
+                       std::end(theatron::cases::foreign_readers));
         theatron::sandbox::run_as_child(argc, argv, readers);
         theatron::log::flush_before_abort();
         return run(argc, argv);

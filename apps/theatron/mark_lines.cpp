@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mark_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -57,7 +58,10 @@ Mark read_mark(MarkKind kind, std::istream& words, const client::Participant::Ro
         (kind != MarkKind::stroke && points != needed))
         throw Error(
             "A pin needs one place, an arrow and a distance two, a stroke two or more, "
-            "each X Y Z in metres: for example 'mark pin 0.2 1.25 0.3'.");
+            "each X Y Z in metres, none beyond 1000: for example 'mark pin 0.2 1.25 0.3'.");
+    if (kind != MarkKind::stroke && needed == 2 &&
+        std::equal(values.begin(), values.begin() + 3, values.begin() + 3))
+        throw Error("An arrow and a distance need two different places.");
     for (std::size_t i = 0; i < points; ++i) {
         const Vec3 place{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
         mark.points.push_back({place, normal_at(mark.surface, place)});
@@ -67,8 +71,10 @@ Mark read_mark(MarkKind kind, std::istream& words, const client::Participant::Ro
 
 bool carry_out(client::Participant& participant, const std::string& what, std::istream& words) {
     std::string all;
-    if (what == "undo")
+    if (what == "undo" && !(words >> all))
         return viewer::undo_mark(participant);
+    if (what == "undo")
+        throw Error("'mark undo' removes your newest mark and takes no number.");
     if (what == "clear" && (!(words >> all) || all == "all"))
         return viewer::clear_marks(participant, all == "all");
     for (const MarkKind kind :

@@ -7,6 +7,7 @@
 #include "base/hex_text.h"
 #include "base/utc.h"
 #include "client/participant_figures.h"
+#include "viewer/playing.h"
 #include "wire/condition_text.h"
 
 namespace theatron::app {
@@ -48,6 +49,11 @@ std::string codecs_of_last(const client::ParticipantFigures& figures) {
     return camera.depth.codec + (camera.color.codec.empty() ? "" : " " + camera.color.codec);
 }
 
+nlohmann::json position_json(const Calibration& calibration) {
+    const Vec3& place = calibration.room_from_camera.translation;
+    return {place.x, place.y, place.z};
+}
+
 nlohmann::json camera_json(const client::CameraFigures& figures) {
     const auto& [camera, depth, color] = figures;
     return {{"id", int(camera.description.id)},
@@ -56,6 +62,8 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"state", wire::text_of(camera.state.condition)},
             {"problem", wire::english(camera.state.problem)},
             {"filter", camera.state.filter},
+            {"adjusted", client::adjustment_text(camera.description)},
+            {"position", position_json(camera.calibration)},
             {"fps", depth.frames_per_second},
             {"frames", depth.frames},
             {"mbit_per_s", figures.mbit_per_second()},
@@ -67,6 +75,16 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"depth_codec", depth.codec},
             {"depth_exact", text_of(depth.exact)},
             {"color_codec", color.codec}};
+}
+
+nlohmann::json playback_json(const client::Participant& participant) {
+    const auto playback = participant.playback();
+    if (!playback)
+        return nullptr;
+    return {{"position_s", to_seconds(viewer::position_at(*playback, participant.now()))},
+            {"length_s", to_seconds(playback->length)},
+            {"paused", playback->paused},
+            {"by", playback->by}};
 }
 
 nlohmann::json visitors_json(const std::vector<wire::Visitor>& visitors) {
@@ -95,6 +113,7 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"session_us", to_us(participant.now())},
             {"host", status.host_name},
             {"recordings", recordings},
+            {"playback", playback_json(participant)},
             {"phase", client::text_of(status.phase)},
             {"cameras", cameras},
             {"fps", figures.frames_per_second()},

@@ -26,7 +26,7 @@ namespace {
 struct Flags {
     std::string link;
     std::string name = "cameras";
-    std::vector<std::string> cameras, filters;
+    std::vector<std::string> cameras, shared, filters;
     std::string places;
     double seconds = 0, every = 0;
     bool may_record = false;
@@ -77,13 +77,16 @@ std::string status_line(const publish::CameraPublisher& publisher,
 }
 
 void run(const Flags& flags) {
+    const std::vector<std::string> cameras = with_shared(flags.cameras, flags.shared);
+    if (cameras.empty())
+        throw Error("Name what is sent: --camera CAMERA, or --share SOURCE for a screen.");
     client::Participant::Options options;
     options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     options.sends_only = true;
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
-    const auto publisher = open_published(flags.cameras, flags.filters, flags.places,
+    const auto publisher = open_published(cameras, flags.filters, flags.places,
                                           {flags.may_record, wire::CameraFrame::room});
     options.publishing = publisher->events();
 
@@ -126,10 +129,13 @@ void add_publish_command(CLI::App& app) {
         "cameras\nand shows the session.\n"
         "\nExamples:\n"
         "  theatron publish LINK --camera k4a:0\n"
-        "  theatron publish LINK --camera k4a:0 --camera k4a:1 --places places.json");
+        "  theatron publish LINK --camera k4a:0 --camera k4a:1 --places places.json\n"
+        "  theatron publish LINK --share endoscope.mp4,loop=1,width=1.2,place=0:1.9:-1.8\n"
+        "  theatron publish LINK --share x11:endoscope --share rtsp://tower.local/live");
     command->add_option("link", flags->link, "The link for publishers, or @FILE with it")
         ->required();
-    cli::add_camera_option(*command, flags->cameras)->required();
+    cli::add_camera_option(*command, flags->cameras);
+    add_share_option(*command, flags->shared);
     command
         ->add_option("--filter", flags->filters,
                      "Filters of depth: off, paper, default, a line of filters or a JSON file; "

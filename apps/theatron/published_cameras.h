@@ -2,6 +2,7 @@
 // Cameras that a command sends to a session.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,5 +17,11 @@ std::unique_ptr<publish::CameraPublisher> open_published(const std::vector<std::
                                                          const std::vector<std::string>& filters,
                                                          const std::string& places,
                                                          const publish::Sharing& sharing);
+
+// --share: sources that are shown as screens in the room.
+void add_share_option(CLI::App& command, std::vector<std::string>& sources);
+// `cameras`, then those of the shared sources.
+std::vector<std::string> with_shared(std::vector<std::string> cameras,
+                                     const std::vector<std::string>& sources);
 
 }  // namespace theatron::app

@@ -156,6 +156,18 @@ nlohmann::json describe(record::RecordSource& source, TimePoint begin, Missing& 
     return cameras;
 }
 
+nlohmann::json describe_voices(const std::vector<record::Intake::Voice>& voices) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const record::Intake::Voice& voice : voices)
+        list.push_back({{"participant", std::uint32_t(voice.who.person)},
+                        {"name", voice.who.name},
+                        {"packets", voice.figures.packets},
+                        {"missing", voice.figures.missing},
+                        {"left_out", voice.figures.left_out},
+                        {"dropped", voice.dropped}});
+    return list;
+}
+
 // Replaces the counts of pictures that came by those of the finished file, and counts the others,
 // which waited when the recording ended by itself.
 void count_written(nlohmann::json& cameras, const record::Intake& intake,
@@ -338,6 +350,9 @@ void run(const Flags& flags) {
                                     {"dropped", missing.dropped},
                                     {"lost", missing.lost},
                                     {"room_bytes", f.room_bytes},
+                                    {"voice_bytes", f.voice_bytes},
+                                    {"voices", describe_voices(intake.voices())},
+                                    {"voices_not_agreed", source->voices_not_agreed()},
                                     {"not_agreed", source->not_agreed()},
                                     {"cut_bytes", f.cut_bytes},
                                     {"missing_end_seconds", missing_end},

@@ -40,6 +40,9 @@ void print(const record::RecordingFile& recording, const record::Recovered& save
                     (unsigned long long)s["saved"], (unsigned long long)s["damaged"],
                     (unsigned long long)s["undecodable"]);
         }
+    if (const record::RecoveredStream& voices = saved.voices; voices.saved + voices.damaged > 0)
+        std::printf("voices: %llu packets saved; %llu damaged ones were left out\n",
+                    (unsigned long long)voices.saved, (unsigned long long)voices.damaged);
     if (const record::RecoveredStream& room = saved.room; room.saved + room.damaged > 0)
         std::printf(
             "room: %llu parts saved; %llu damaged and %llu that refer to them were left out\n",
@@ -102,6 +105,7 @@ void run(const Flags& flags) {
                           {"foreign_bytes", foreign.bytes},
                           {"missing_ends", ends},
                           {"cameras", cameras},
+                          {"voices", describe(saved.voices)},
                           {"room", describe(saved.room)}}
                          .dump(-1, ' ', false, Json::error_handler_t::replace)
                   << std::endl;

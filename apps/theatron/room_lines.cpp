@@ -43,7 +43,7 @@ Pose towards(Vec3 place, Vec3 at) {
 }  // namespace
 
 const char* RoomLines::help() {
-    return "'stand X Y Z AT_X AT_Y AT_Z', 'point X Y Z AT_X AT_Y AT_Z', 'call', 'brick X Y Z',\n"
+    return "'stand X Y Z AT_X AT_Y AT_Z', 'point [X Y Z AT_X AT_Y AT_Z]', 'call', 'brick X Y Z',\n"
            "'grab NUMBER', 'move X Y Z [DEGREES]', 'release', 'give NAME', 'remove' (metres)";
 }
 
@@ -67,6 +67,12 @@ bool RoomLines::obey(const std::string& line, client::Participant& participant) 
 
 std::string RoomLines::change(const std::string& what, std::istream& words,
                               client::Participant& participant) {
+    if (what == "point" && (words >> std::ws).eof()) {
+        pose_.points = false;
+        pose_.right_hand.reset();
+        sent_ = {};
+        return "";
+    }
     if (what == "stand" || what == "point") {
         Vec3 place, at;
         if (!read(words, place) || !read(words, at))
@@ -194,7 +200,7 @@ nlohmann::json room_json(const client::Participant& participant) {
     nlohmann::json people = nlohmann::json::array(), objects = nlohmann::json::array();
     for (const auto& [id, object] : room.objects) {
         if (object.kind == session::ObjectKind::person) {
-            if (const auto facts = session::decode_person(object.properties))
+            if (const auto facts = session::decode_person(object.properties)) {
                 people.push_back(
                     {{"id", std::uint32_t(object.creator)},
                      {"name", facts->name},
@@ -203,7 +209,15 @@ nlohmann::json room_json(const client::Participant& participant) {
                      {"calls", poses.contains(object.creator) && poses.at(object.creator).calls},
                      {"points", poses.contains(object.creator) && poses.at(object.creator).points},
                      {"role", wire::text_of(facts->role)},
-                     {"muted", facts->muted}});
+                     {"muted", facts->muted},
+                     {"voice_recorded", facts->voice_recorded}});
+                if (const auto pose = poses.find(object.creator); pose != poses.end())
+                    for (const auto& [name, part] : {std::pair{"head", &pose->second.head},
+                                                     {"left_hand", &pose->second.left_hand},
+                                                     {"right_hand", &pose->second.right_hand}})
+                        if (*part)
+                            people.back()[name] = (*part)->position;
+            }
             continue;
         }
         const Vec3& p = object.room_from_object.translation;

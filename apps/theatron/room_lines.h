@@ -17,7 +17,7 @@ public:
     // A text for the user that lists the commands.
     static const char* help();
 
-    // Carries out a line: "stand X Y Z AT_X AT_Y AT_Z", "point X Y Z AT_X AT_Y AT_Z",
+    // Carries out a line: "stand X Y Z AT_X AT_Y AT_Z", "point [X Y Z AT_X AT_Y AT_Z]",
     // "call", "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "release", "give NAME",
     // "remove". False if it is none of these. A sentence on a wrong line is printed.
     bool obey(const std::string& line, client::Participant& participant);
@@ -53,9 +53,10 @@ private:
     std::uint8_t next_color_ = 0;
 };
 
-// {"hash","self","people":[{"id","name","records","role","muted","calls","points"}],"objects":[{"id","kind","creator","held_by",
-// "position","scale","mark"}]}; `position` in metres, `held_by` 0 if no participant holds the
-// object.
+// {"hash","self","people":[{"id","name","records","role","muted","calls","points","head",
+// "left_hand","right_hand"}],"objects":[{"id","kind","creator","held_by","position","scale","mark"}]};
+// `position`, and places of heads and hands that are known, in metres; `held_by` 0 if no
+// participant holds the object.
 nlohmann::json room_json(const client::Participant& participant);
 
 }  // namespace theatron::app

@@ -57,6 +57,8 @@ wire::PersonPose pose_at(std::size_t person, double seconds, TimePoint now) {
     pose.time = now;
     pose.head = towards(head, looks_at);
     pose.right_hand = towards(hand, hand + reach);
+    // The expert shows the student the situs while the brick rests.
+    pose.points = person == 0 && attention == 0;
     return pose;
 }
 

@@ -10,9 +10,11 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
+#include "files/png_file.h"
 #include "files/state_folder.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
+#include "saved_view.h"
 #include "viewer/renderer_text.h"
 #include "xr/overlay_native.h"
 #include "xr/scaled_picture.h"
@@ -20,7 +22,7 @@
 namespace theatron::app {
 namespace {
 
-constexpr Duration texts_every = 250ms;
+constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms, voices_every = 100ms;
 
 // Remarks of the participant's thread for the window's thread.
 class Remarks {
@@ -58,6 +60,38 @@ private:
     static constexpr Duration confirm_within = 3s;
     TimePoint pressed_at_ = TimePoint(-confirm_within);
 };
+
+std::string save_seen(xr::Action action, viewer::Viewer& viewer, Size pixels,
+                      const std::filesystem::path& folder) {
+    if (viewer.first_picture_at() == TimePoint{})
+        return "There is no picture yet";
+    if (action == xr::Action::save_picture)
+        return save_view(folder, ".png", files::encode_png(viewer.picture(pixels).view()));
+    const std::vector<ColoredPoint> points = viewer.points();
+    if (points.empty())
+        return "No camera of the room has sent points";
+    return save_view(folder, ".ply", encode_ply(points));
+}
+
+// Each returns a line about it.
+std::string change_push_to_talk(VoiceLine& voice, ViewerWindow& options) {
+    const std::string text = voice.toggle_push_to_talk();
+    options.settings.push_to_talk = voice.pushes_to_talk();
+    if (options.keep)
+        options.keep(options.settings);
+    return text;
+}
+
+std::string change_voice_recording(client::Participant& participant, ViewerWindow& options) {
+    const bool agrees = !participant.voice_may_record();
+    participant.allow_voice_recording(agrees);
+    options.settings.voice_may_record = agrees;
+    if (options.keep)
+        options.keep(options.settings);
+    if (agrees && !participant.asks_voice_consent())
+        return "Your voice is not recorded: this host is too old to ask you";
+    return agrees ? "Your voice may be recorded" : "Your voice is not recorded";
+}
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                const xr::DesktopWindow& window) {
@@ -114,7 +148,7 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
         window.keep(window.settings);
 }
 
-void show(xr::DesktopWindow& window, ViewerWindow options) {
+WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     xr::ScaledPicture picture;
     xr::Overlay overlay;
     Remarks remarks;
@@ -140,7 +174,9 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
     xr::OverlayContent texts;
     std::string title;
     Leaving leaving;
-    TimePoint next_picture{}, next_texts{};
+    TimePoint next_picture{}, next_texts{}, next_voices{};
+    std::optional<xr::Overlay::Slider> slider;  // held with the mouse
+    WindowEnd end = WindowEnd::closed;
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
         const bool picture_is_due = before < next_picture || viewer.is_animated();
@@ -159,15 +195,34 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
                 left = true;
             else if (key.action == xr::Action::microphone && options.voice)
                 viewer.note(options.voice->toggle_microphone(), now);
+            else if (key.action == xr::Action::push_to_talk && options.voice)
+                viewer.note(change_push_to_talk(*options.voice, options), now);
+            else if (key.action == xr::Action::voice_recording)
+                viewer.note(change_voice_recording(participant, options), now);
+            else if (key.action == xr::Action::save_picture ||
+                     key.action == xr::Action::save_points)
+                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to), now);
             else if (leave)
                 viewer.note("Press Esc again to leave the session", now);
         }
-        if (left)
+        if (left) {
+            end = WindowEnd::left;
             break;
+        }
+        if (input.released)
+            slider.reset();
         if (input.grabbed && overlay.covers(*input.grabbed)) {
-            if (const auto command = overlay.command_at(*input.grabbed))
+            if (slider = overlay.slider_at(*input.grabbed); slider && input.grabbed_left) {
+                viewer.press(slider->command, now);
+                viewer.slide(slider->value_at(*input.grabbed));
+            } else if (const auto command = overlay.command_at(*input.grabbed))
                 viewer.press(*command, now);
             input.grabbed.reset();
+            next_texts = now;
+        }
+        if (slider && input.pointer) {
+            viewer.slide(slider->value_at(*input.pointer));
+            input.steering.turn = {};
             next_texts = now;
         }
         if (input.steering.approach != 0 && input.pointer && overlay.covers(*input.pointer)) {
@@ -176,9 +231,19 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
                            -rows_per_click * std::exchange(input.steering.approach, 0));
             input.redraw = true;
         }
+        input.pointer_covered = input.pointer && overlay.covers(*input.pointer);
         if (const auto status = participant.status();
             options.voice && status.phase == client::Participant::Phase::joined)
             options.voice->note(status.standing);
+        if (options.voice)
+            options.voice->hold(input.talks, now);
+        if (options.voice && now >= next_voices) {
+            viewer::Voices voices = options.voice->voices();
+            if (participant.asks_voice_consent())
+                voices.may_record = participant.voice_may_record();
+            viewer.set_voices(std::move(voices));
+            next_voices = now + voices_every;
+        }
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
                         window.pixels(), now);
         if (const TimePoint first = viewer.first_picture_at();
@@ -199,7 +264,7 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
             xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
             texts_changed = content != texts;
             texts = std::move(content);
-            next_texts = now + texts_every;
+            next_texts = now + (texts.pictures.empty() ? texts_every : camera_pictures_every);
             if (const auto settings = viewer.settings(options.settings);
                 options.keep && settings != options.settings)
                 options.keep(options.settings = settings);
@@ -218,6 +283,7 @@ void show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.on_presented(now, steady_now());
     }
     print_end(viewer, participant, window);
+    return end;
 }
 
 }  // namespace theatron::app

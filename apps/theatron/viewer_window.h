@@ -2,6 +2,7 @@
 // theatron join with a window: the loop around a viewer.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,8 +22,9 @@ struct ViewerWindow {
     // Called with the person's settings whenever they have changed from `settings`.
     client::Settings settings;
     std::function<void(const client::Settings&)> keep;
-    std::string greeting;  // shown for some seconds after the first picture
-    double seconds = 0;    // end this long after the first picture; 0: never
+    std::string greeting;                 // shown for some seconds after the first picture
+    std::filesystem::path save_to = ".";  // the folder of saved pictures and points
+    double seconds = 0;                   // end this long after the first picture; 0: never
 };
 
 // True where a desktop is named by the environment; a window may still fail to open there.
@@ -38,7 +40,12 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
                        const std::optional<std::string>& renderer,
                        const std::optional<std::string>& quality);
 
-// Returns when the person leaves. Throws Error if the host refused to let the person in.
-void show(xr::DesktopWindow& window, ViewerWindow options);
+enum class WindowEnd {
+    left,    // the person left the session, or it ended
+    closed,  // the person closed the window, or the program must end
+};
+
+// Throws Error if the host refused to let the person in.
+WindowEnd show(xr::DesktopWindow& window, ViewerWindow options);
 
 }  // namespace theatron::app

@@ -24,82 +24,188 @@ double to_ms_of(std::uint64_t samples) {
 
 }  // namespace
 
-VoiceLine::VoiceLine(const Options& options) : options_(options) {
-    if (options_.speaker.empty())
-        return;
-    try {
-        speaker_ = sound::open_speaker(options_.speaker, [this](std::span<float> out) {
-            const std::lock_guard lock(mixer_mutex_);
-            mixer_.pull(out, steady_now());
-        });
-    } catch (const Error& error) {
-        log::say(error.what());
+VoiceLine::VoiceLine(const Options& options) : options_(options), is_pushed_(options.push_to_talk) {
+    if (options_.cleaning != Options::Cleaning::off) {
+        try {
+            canceller_ = std::make_unique<sound::EchoCanceller>();
+        } catch (const Error& error) {
+            log::say(error.what());
+        }
     }
+    if (!options_.speaker.empty())
+        use_speaker(options_.speaker);
+}
+
+void VoiceLine::use_speaker(const std::string& name) {
+    if (speaker_) {
+        (void)speaker_->change(name);
+        return;
+    }
+    const auto open = [this](const std::string& wanted) {
+        return sound::open_speaker(wanted, [this](std::span<float> out) {
+            {
+                const std::lock_guard lock(mixer_mutex_);
+                mixer_.pull(out, steady_now());
+            }
+            if (cleans_)
+                canceller_->played(out);
+        });
+    };
+    speaker_ = std::make_unique<sound::KeptDevice>("loudspeaker", name, open,
+                                                   [](const std::string& text) { log::say(text); });
+    plays_ = true;
+}
+
+void VoiceLine::hear_by(client::Participant::Options& options) {
+    options.voice = [this](ParticipantId speaker, ByteView packet) { hear(speaker, packet); };
 }
 
 void VoiceLine::hear(ParticipantId speaker, ByteView packet) {
-    // Without a loudspeaker nothing would take the packets.
-    if (!speaker_)
-        return;
+    const TimePoint now = steady_now();
     const std::lock_guard lock(mixer_mutex_);
-    mixer_.put(speaker, packet, steady_now());
+    speakers_.hear(speaker, packet, now);
+    // Without a loudspeaker nothing would take the packets.
+    if (plays_)
+        mixer_.put(speaker, packet, now);
 }
 
-VoiceLine::Talking::Talking(VoiceLine& line, client::Participant& participant) {
-    if (line.options_.microphone.empty())
-        return;
+VoiceLine::Talking::Talking(VoiceLine& line, client::Participant& participant) : line_(line) {
     {
         const std::lock_guard lock(line.talker_mutex_);
         line.talker_ = std::make_unique<voice::Talker>(
             line.options_.frame_ms,
             [&participant](ByteView packet) { participant.send_voice(packet); });
-        line.talker_->set_open(line.is_open_);
+        line.apply();
     }
-    try {
-        microphone_ = sound::open_microphone(line.options_.microphone,
-                                             [&line, &participant](std::span<const float> samples) {
-                                                 const TimePoint now = participant.now();
-                                                 const std::lock_guard lock(line.talker_mutex_);
-                                                 line.talker_->take(samples, now);
-                                             });
-        const std::lock_guard lock(line.talker_mutex_);
-        line.microphone_began_ = microphone_->began();
-    } catch (const Error& error) {
-        log::say(error.what());
-        const std::lock_guard lock(line.talker_mutex_);
-        line.talker_.reset();
+    line.participant_ = &participant;
+    if (!line.options_.microphone.empty())
+        line.use_microphone(line.options_.microphone);
+}
+
+VoiceLine::Talking::~Talking() {
+    line_.microphone_.reset();
+    line_.participant_ = nullptr;
+    const std::lock_guard lock(line_.talker_mutex_);
+    line_.talker_.reset();
+}
+
+void VoiceLine::use_microphone(const std::string& name) {
+    if (microphone_) {
+        (void)microphone_->change(name);
+        return;
     }
+    const auto open = [this](const std::string& wanted) {
+        using Cleaning = Options::Cleaning;
+        cleans_ = canceller_ && (options_.cleaning == Cleaning::on || !sound::is_file(wanted));
+        return sound::open_microphone(wanted,
+                                      [this](std::span<const float> samples) { take(samples); });
+    };
+    microphone_ = std::make_unique<sound::KeptDevice>(
+        "microphone", name, open, [](const std::string& text) { log::say(text); });
+}
+
+// The microphone has delivered these samples just now.
+void VoiceLine::take(std::span<const float> samples) {
+    const TimePoint now = participant_->now();
+    if (cleans_) {
+        uncleaned_.insert(uncleaned_.end(), samples.begin(), samples.end());
+        constexpr std::size_t block = sound::EchoCanceller::block;
+        const std::size_t whole = uncleaned_.size() / block * block;
+        for (std::size_t i = 0; i < whole; i += block)
+            canceller_->clean(std::span<float, block>(uncleaned_.data() + i, block));
+        const auto end = uncleaned_.begin() + std::ptrdiff_t(whole);
+        cleaned_.assign(uncleaned_.begin(), end);
+        uncleaned_.erase(uncleaned_.begin(), end);
+        samples = cleaned_;
+    }
+    const std::lock_guard lock(talker_mutex_);
+    talker_->take(samples, now);
+}
+
+bool VoiceLine::has_microphone() const {
+    return microphone_ && microphone_->works();
 }
 
 bool VoiceLine::obey(const std::string& line) {
     std::istringstream words(line);
     std::string what, value;
     words >> what >> value;
-    if (what != "microphone" || (value != "on" && value != "off"))
+    if (what == "talk" && (value == "on" || value == "off")) {
+        {
+            const std::lock_guard lock(talker_mutex_);
+            line_holds_ = value == "on";
+        }
+        hold(false, steady_now());
+        return true;
+    }
+    if (what == "use" && (value == "microphone" || value == "speaker")) {
+        std::string name;
+        std::getline(words >> std::ws, name);
+        if (name.empty())
+            name = "default";
+        if (value == "speaker")
+            use_speaker(name);
+        else if (participant_)
+            use_microphone(name);
+        return true;
+    }
+    if (what != "microphone" || (value != "on" && value != "off" && value != "push"))
         return false;
-    const std::lock_guard lock(talker_mutex_);
-    is_open_ = value == "on";
-    if (talker_)
-        talker_->set_open(is_open_);
-    else
+    if (!has_microphone())
         log::say(without_microphone);
+    const std::lock_guard lock(talker_mutex_);
+    is_open_ = value != "off";
+    if (is_open_)
+        is_pushed_ = value == "push";
+    apply();
     return true;
 }
 
-std::string VoiceLine::toggle_microphone() {
+void VoiceLine::apply() {
+    if (talker_)
+        talker_->set_open(is_open_ && (!is_pushed_ || talks_));
+}
+
+void VoiceLine::hold(bool is_held, TimePoint now) {
     const std::lock_guard lock(talker_mutex_);
-    if (!talker_)
+    is_held = is_held || line_holds_;
+    if (is_held)
+        held_at_ = now;
+    const bool talks = is_held || (talks_ && now - held_at_ < release_time);
+    if (std::exchange(talks_, talks) != talks)
+        apply();
+}
+
+std::string VoiceLine::toggle_push_to_talk() {
+    const std::lock_guard lock(talker_mutex_);
+    is_pushed_ = !is_pushed_;
+    apply();
+    return is_pushed_ ? "Push to talk: hold Enter to speak"
+                      : "Open microphone: the others hear you";
+}
+
+bool VoiceLine::pushes_to_talk() const {
+    const std::lock_guard lock(talker_mutex_);
+    return is_pushed_;
+}
+
+std::string VoiceLine::toggle_microphone() {
+    if (!has_microphone())
         return without_microphone;
+    const std::lock_guard lock(talker_mutex_);
     is_open_ = !is_open_;
-    talker_->set_open(is_open_);
-    return is_open_ ? "Microphone open" : "Microphone closed: nobody hears you";
+    apply();
+    return !is_open_    ? "Microphone closed: nobody hears you"
+           : is_pushed_ ? "Push to talk: hold Enter to speak"
+                        : "Microphone open";
 }
 
 void VoiceLine::note(const wire::Standing& standing) {
     const bool may_speak = session::may(standing.role, session::Right::speak);
     const bool is_heard = may_speak && !standing.muted;
+    const bool has = has_microphone();
     const std::lock_guard lock(talker_mutex_);
-    if (!talker_ || is_heard == std::exchange(is_heard_, is_heard))
+    if (!has || is_heard == std::exchange(is_heard_, is_heard))
         return;
     log::say(is_heard    ? "The others hear you."
              : may_speak ? "An operator has muted you: nobody hears you."
@@ -107,26 +213,58 @@ void VoiceLine::note(const wire::Standing& standing) {
                            "you another role.");
 }
 
-nlohmann::json VoiceLine::json() const {
-    nlohmann::json result;
+std::set<ParticipantId> VoiceLine::speaking() const {
+    const std::lock_guard lock(mixer_mutex_);
+    return speakers_.speaking(steady_now());
+}
+
+viewer::Voices VoiceLine::voices() const {
+    using viewer::Microphone;
+    viewer::Voices voices;
+    const bool has = has_microphone();
     {
         const std::lock_guard lock(talker_mutex_);
-        result["microphone"] = !talker_ ? "none" : talker_->is_open() ? "open" : "closed";
-        result["heard"] = talker_ && talker_->is_open() && is_heard_;
-        if (microphone_began_)
-            result["microphone_began_us"] = to_us(*microphone_began_);
-        result["level_db"] = talker_ ? talker_->level_db() : -127;
+        voices.microphone = !microphone_         ? Microphone::none
+                            : !has || !talker_   ? Microphone::missing
+                            : !is_open_          ? Microphone::closed
+                            : talker_->is_open() ? Microphone::open
+                                                 : Microphone::waits;
+        if (has && talker_)
+            voices.own_level_db = talker_->level_db();
     }
-    result["speaker"] = speaker_ != nullptr;
+    const std::lock_guard lock(mixer_mutex_);
+    voices.speaking = speakers_.levels_db(steady_now());
+    return voices;
+}
+
+nlohmann::json VoiceLine::json() const {
+    nlohmann::json result;
+    const bool has = has_microphone();
+    {
+        const std::lock_guard lock(talker_mutex_);
+        const bool talks = has && talker_ && talker_->is_open();
+        result["microphone"] = !has ? "none" : !is_open_ ? "closed" : is_pushed_ ? "push" : "open";
+        result["talks"] = talks;
+        result["heard"] = talks && is_heard_;
+        result["level_db"] = has && talker_ ? talker_->level_db() : -127;
+    }
+    if (has) {
+        result["microphone_name"] = microphone_->name();
+        result["echo_cancellation"] = cleans_.load();
+        if (const auto began = microphone_->began())
+            result["microphone_began_us"] = to_us(*began);
+    }
+    result["speaker"] = speaker_ && speaker_->works();
     if (const auto began = speaker_ ? speaker_->began() : std::nullopt)
         result["speaker_began_us"] = to_us(*began);
     result["speaking"] = result["voices"] = nlohmann::json::array();
     const std::lock_guard lock(mixer_mutex_);
     for (const voice::Mixer::Speaker& speaker : mixer_.speakers()) {
         if (speaker.level_db >= speech_db)
-            result["speaking"].push_back({{"id", int(speaker.id)}, {"level_db", speaker.level_db}});
+            result["speaking"].push_back(
+                {{"id", std::uint32_t(speaker.id)}, {"level_db", speaker.level_db}});
         result["voices"].push_back(
-            {{"id", int(speaker.id)},
+            {{"id", std::uint32_t(speaker.id)},
              {"delay_ms", to_ms(speaker.delay)},
              {"seconds", to_ms_of(speaker.figures.samples) / 1000},
              {"concealed_ms", to_ms_of(speaker.figures.concealed)},

@@ -3,15 +3,20 @@
 // and left out; the person takes part without it.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "client/participant.h"
-#include "sound/sound_device.h"
+#include "sound/echo_canceller.h"
+#include "sound/kept_device.h"
+#include "viewer/voices.h"
 #include "voice/mixer.h"
+#include "voice/speakers.h"
 #include "voice/talker.h"
 
 namespace theatron::app {
@@ -22,13 +27,18 @@ public:
         std::string microphone;  // as in sound::open_microphone(); empty: none
         std::string speaker;     // the same for the loudspeaker
         int frame_ms = 20;
+        bool push_to_talk = false;  // see hold()
+        // Echo, noise and loudness of the microphone are treated (sound/echo_canceller.h).
+        // automatic: of devices, not of files.
+        enum class Cleaning { automatic, on, off } cleaning = Cleaning::automatic;
     };
 
     // Opens the loudspeaker.
     explicit VoiceLine(const Options& options);
 
-    // To be called with all packets of voice (client::Participant::Options::voice).
-    void hear(ParticipantId speaker, ByteView packet);
+    // Lets a participant with these options take its packets of voice here. This object must
+    // outlive the participant.
+    void hear_by(client::Participant::Options& options);
 
     // Opens the microphone and sends what it hears until this object is destroyed, which must be
     // before the participant is.
@@ -36,12 +46,26 @@ public:
     public:
         Talking(VoiceLine& line, client::Participant& participant);
 
+        ~Talking();
+        Talking(const Talking&) = delete;
+        Talking& operator=(const Talking&) = delete;
+
     private:
-        std::unique_ptr<sound::SoundDevice> microphone_;
+        VoiceLine& line_;
     };
 
-    // Carries out a line: "microphone on" or "microphone off". False if it is another one.
+    // Carries out a line: "microphone on", "microphone off", "microphone push" (only while the key
+    // is held), "talk on" or "talk off" (the key), "use microphone NAME" or "use speaker NAME" for
+    // another device. False if it is another one. From the thread that made the Talking.
     bool obey(const std::string& line);
+
+    // The key of push to talk is down, or not. The microphone stays open for release_time, so that
+    // the end of a word is heard. Call it a few times a second.
+    static constexpr Duration release_time = std::chrono::milliseconds(200);
+    void hold(bool is_held, TimePoint now);
+    // Between an open microphone and push to talk. Returns a line about it.
+    std::string toggle_push_to_talk();
+    bool pushes_to_talk() const;
 
     // Closes the microphone if it is open, and opens it if it is closed. Returns a line about it.
     std::string toggle_microphone();
@@ -50,20 +74,42 @@ public:
     // with the newest standing while joined.
     void note(const wire::Standing& standing);
 
-    // {"microphone":"open"|"closed"|"none","heard","level_db","speaker","speaking":[{"id","level_db"}],
+    // The others who speak, known without a loudspeaker, too.
+    std::set<ParticipantId> speaking() const;
+    // For a window.
+    viewer::Voices voices() const;
+
+    // {"microphone":"open"|"closed"|"push"|"none","talks","heard","level_db","speaker","speaking":[{"id","level_db"}],
     // "microphone_began_us","speaker_began_us" (of files, this machine's steady clock),
     // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable"}
     nlohmann::json json() const;
 
 private:
+    void hear(ParticipantId speaker, ByteView packet);
+
     const Options options_;
     mutable std::mutex talker_mutex_, mixer_mutex_;
     std::unique_ptr<voice::Talker> talker_;  // while somebody talks
-    std::optional<TimePoint> microphone_began_;
+    void use_microphone(const std::string& name);
+    void use_speaker(const std::string& name);
+    bool has_microphone() const;
+    void apply();  // with talker_mutex_ held
     bool is_open_ = true;
-    bool is_heard_ = true;  // the role may speak, and nobody has muted this person
+    bool is_pushed_ = false;   // push to talk
+    bool talks_ = false;       // its key is held, or was until just now
+    bool line_holds_ = false;  // by a line
+    TimePoint held_at_;
+    bool is_heard_ = true;      // the role may speak, and nobody has muted this person
+    voice::Speakers speakers_;  // under mixer_mutex_
     voice::Mixer mixer_;
-    std::unique_ptr<sound::SoundDevice> speaker_;  // its thread uses the mixer
+    client::Participant* participant_ = nullptr;     // of the present Talking
+    std::unique_ptr<sound::KeptDevice> microphone_;  // likewise; its thread uses the talker
+    void take(std::span<const float> samples);
+    std::unique_ptr<sound::EchoCanceller> canceller_;  // null: off
+    std::atomic<bool> cleans_ = false;                 // the present microphone is treated
+    std::vector<float> uncleaned_, cleaned_;           // the microphone's thread only
+    std::atomic<bool> plays_ = false;                  // there is a speaker_
+    std::unique_ptr<sound::KeptDevice> speaker_;       // its thread uses the mixer
 };
 
 }  // namespace theatron::app

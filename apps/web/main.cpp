@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that page/page.js calls: join, one picture, input, and what the panels show.
 //
-// The page has one thread; everything runs in its events.
+// The page has one thread; everything but decoding runs in its events. Its decoding workers run the
+// same program, of which they call the last two functions alone.
 #include <GLES3/gl3.h>
 #include <emscripten/emscripten.h>
 #include <emscripten/html5.h>
@@ -13,9 +14,33 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "client/decoder_pool_web.h"
+#include "client/decoder_worker_web.h"
+#include "codec/depth_stream.h"
+#include "flat_view.h"
+#include "headset_input.h"
 #include "page_input.h"
 #include "page_state.h"
+#include "render/gl_driver.h"
+#include "voice/packet.h"
 #include "xr/scaled_picture.h"
+
+// `post_work` is set by page/decoding.js, `post_reply` by page/decoder.js.
+EM_JS(void, theatron_post_work, (unsigned worker, const void* data, unsigned size),
+      { Module.post_work(worker, HEAPU8.slice(data, data + size)); });
+// The framebuffer of the headset's pictures, which page/headset.js sets, by a name of GL. The
+// program is one module of JavaScript.
+EM_JS(unsigned, theatron_headset_framebuffer, (unsigned name), {
+    const framebuffer = Module.headset_framebuffer;
+    if (!framebuffer)
+        return 0;
+    name = name || GL.getNewId(GL.framebuffers);
+    GL.framebuffers[name] = framebuffer;
+    framebuffer.name = name;
+    return name;
+});
+EM_JS(void, theatron_post_reply, (const void* data, unsigned size),
+      { Module.post_reply(HEAPU8.slice(data, data + size)); });
 
 namespace theatron::web {
 namespace {
@@ -27,12 +52,15 @@ struct Visit {
           options(viewer_options(join)),
           participant(std::move(join)),
           viewer(options, participant) {}
+    ~Visit() { glDeleteSync(drawing); }
 
     static viewer::Viewer::Options viewer_options(const client::Participant::Options& join) {
         viewer::Viewer::Options options;
         options.depth_codec = join.depth_codec;
         options.color_codec = join.color_codec;
         options.shows_people = true;
+        options.room.in_steps = true;
+        options.has_gpu = !render::is_software(render::driver_name());
         return options;
     }
 
@@ -41,16 +69,35 @@ struct Visit {
     client::Participant participant;
     viewer::Viewer viewer;
     xr::ScaledPicture picture;
+    unsigned headset_framebuffer = 0;  // its name, once it was used
+    GLsync drawing = nullptr;          // of a picture that the GPU has not finished
+    TimePoint drawing_began;
+};
+
+// A page that joined and only shows a camera's picture.
+struct FlatVisit {
+    FlatVisit(client::Participant::Options join, std::string host_address)
+        : address(std::move(host_address)), participant(std::move(join)), view(participant) {}
+
+    std::string address;
+    client::Participant participant;
+    FlatView view;
 };
 
 // The page's state. Objects of GL must not outlive their context, so nothing is destroyed when the
 // page is closed.
 struct Page {
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
-    std::unique_ptr<Visit> visit;
-    xr::WindowInput input;  // since the last picture
-    std::string problem;    // why the visit ended; a sentence
-    std::string text;       // that the last function returned
+    std::unique_ptr<Visit> visit;     // this
+    std::unique_ptr<FlatVisit> flat;  // or this, or none
+    xr::WindowInput input;            // since the last picture
+    std::string problem;              // why the visit ended; a sentence
+    std::string text;                 // that the last function returned
+    Bytes bytes;                      // that the script writes for the next function
+
+    client::Participant* participant() const {
+        return visit ? &visit->participant : flat ? &flat->participant : nullptr;
+    }
 };
 
 Page& page() {
@@ -66,6 +113,7 @@ void guarded(Work work) {
     } catch (const std::exception& e) {
         page().problem = e.what();
         page().visit.reset();
+        page().flat.reset();
     }
 }
 
@@ -91,6 +139,10 @@ Bytes bytes_of_hex(const std::string& digits) {
     return bytes;
 }
 
+// Gives a packet of another's voice to the page. The program is one module of JavaScript.
+EM_JS(void, give_voice, (unsigned speaker, const void* packet, int size),
+      { Module.on_voice(speaker, HEAPU8.slice(packet, packet + size)); });
+
 client::Participant::Options join_options(const net::Link& link, const char* name,
                                           const char* person) {
     client::Participant::Options options;
@@ -98,15 +150,32 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.name = name;
     options.keeps_room = options.keeps_cases = true;
     options.person = bytes_of_hex(person);
+    options.voice = [](ParticipantId speaker, ByteView packet) {
+        give_voice(unsigned(speaker), packet.data(), int(packet.size()));
+    };
     options.remark = [](const std::string& text) {
         std::puts(text.c_str());
         if (page().visit)
             page().visit->viewer.note(text, steady_now());
+        if (page().flat)
+            page().flat->view.note(text, steady_now());
     };
     return options;
 }
 
-bool draw(Visit& visit, Size size) {
+// True once the GPU has finished the last picture. Waiting for it would block the page.
+bool finish_drawing(Visit& visit) {
+    if (!visit.drawing || glClientWaitSync(visit.drawing, 0, 0) == GL_TIMEOUT_EXPIRED)
+        return false;
+    glDeleteSync(std::exchange(visit.drawing, nullptr));
+    visit.viewer.on_presented(visit.drawing_began, steady_now());
+    return true;
+}
+
+// Begins a picture if there is a new one and the GPU is free.
+void draw(Visit& visit, Size size) {
+    if (visit.drawing)
+        return;
     const TimePoint now = steady_now();
     const xr::WindowInput input = std::exchange(page().input, {});
     page().input.pointer = input.pointer;
@@ -118,15 +187,43 @@ bool draw(Visit& visit, Size size) {
         input, input.grabbed ? visit.picture.distance_at(*input.grabbed) : std::nullopt, size, now);
     const bool changed = visit.viewer.step(size, now);
     if (!changed && !input.redraw)
-        return false;
+        return;
     if (changed)
         visit.viewer.draw(size, visit.picture.begin(size, visit.viewer.way().scale), now);
     visit.picture.show(size);
-    // The driver works later: without this the time of drawing would look like nothing.
-    glFinish();
-    if (changed)
-        visit.viewer.on_presented(now, steady_now());
-    return changed;
+    if (changed) {
+        visit.drawing = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        visit.drawing_began = now;
+    }
+    glFlush();
+}
+
+// A picture for a headset, whatever is new: its display needs one each time.
+void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
+    const TimePoint now = steady_now();
+    // The window's size does not matter here.
+    constexpr Size any{16, 9};
+    page().input = {};
+    visit.viewer.on_headset(frame, now);
+    (void)visit.viewer.step(any, now);
+    const unsigned framebuffer = visit.headset_framebuffer =
+        theatron_headset_framebuffer(visit.headset_framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    if (real_room)
+        glClearColor(0, 0, 0, 0);
+    else
+        glClearColor(0.09f, 0.10f, 0.12f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    visit.viewer.draw_headset(frame, framebuffer, now);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    // While the GPU is behind, one picture in several is measured.
+    if (!visit.drawing) {
+        visit.drawing = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        visit.drawing_began = now;
+    }
+    glFlush();
 }
 
 }  // namespace
@@ -142,6 +239,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_join(const char* host, int port, const char* 
                                         const char* name, const char* person) {
     page().problem.clear();
     page().visit.reset();
+    page().flat.reset();
     web::guarded([&] {
         web::open_context();
         const net::Link link{host, std::uint16_t(port), token, ""};
@@ -150,16 +248,101 @@ EMSCRIPTEN_KEEPALIVE void theatron_join(const char* host, int port, const char* 
     });
 }
 
-EMSCRIPTEN_KEEPALIVE void theatron_leave() {
-    web::guarded([] { page().visit.reset(); });
+// The same for the 2D view (flat_view.h), which needs no WebGL.
+EMSCRIPTEN_KEEPALIVE void theatron_join_flat(const char* host, int port, const char* token,
+                                             const char* name, const char* person) {
+    page().problem.clear();
+    page().visit.reset();
+    page().flat.reset();
+    web::guarded([&] {
+        const net::Link link{host, std::uint16_t(port), token, ""};
+        page().flat = std::make_unique<web::FlatVisit>(web::join_options(link, name, person),
+                                                       link.host + ":" + std::to_string(link.port));
+    });
 }
 
-// One picture in the page's rhythm: pixels of the canvas. 1 if a new one was drawn.
+// The 2D view's picture if it is a new one, else null: 4 bytes for each of these pixels.
+EMSCRIPTEN_KEEPALIVE const std::byte* theatron_flat_picture() {
+    bool is_new = false;
+    if (page().flat)
+        web::guarded([&] { is_new = page().flat->view.take(); });
+    return is_new && page().flat ? page().flat->view.pixels().data() : nullptr;
+}
+EMSCRIPTEN_KEEPALIVE int theatron_flat_width() {
+    return page().flat ? page().flat->view.size().width : 0;
+}
+EMSCRIPTEN_KEEPALIVE int theatron_flat_height() {
+    return page().flat ? page().flat->view.size().height : 0;
+}
+EMSCRIPTEN_KEEPALIVE void theatron_flat_next() {
+    if (page().flat)
+        page().flat->view.next_camera();
+}
+
+EMSCRIPTEN_KEEPALIVE void theatron_leave() {
+    web::guarded([] {
+        page().visit.reset();
+        page().flat.reset();
+    });
+}
+
+// In the page's rhythm, with the pixels of the canvas: begins the next picture unless the GPU still
+// works on one. 1 while it does.
 EMSCRIPTEN_KEEPALIVE int theatron_draw(int width, int height) {
-    bool drawn = false;
     if (page().visit)
-        web::guarded([&] { drawn = web::draw(*page().visit, {width, height}); });
-    return drawn ? 1 : 0;
+        web::guarded([&] { web::draw(*page().visit, {width, height}); });
+    return page().visit && page().visit->drawing;
+}
+
+// In the page's rhythm, also while the GPU draws: a step of the work on the room. The clouds come
+// first.
+EMSCRIPTEN_KEEPALIVE void theatron_prepare() {
+    if (page().visit && page().visit->viewer.pictures() > 0)
+        web::guarded([] { page().visit->viewer.prepare(); });
+}
+
+// 1 if the GPU has finished a picture since the last call.
+EMSCRIPTEN_KEEPALIVE int theatron_finish_drawing() {
+    bool finished = false;
+    if (page().visit)
+        web::guarded([&] { finished = web::finish_drawing(*page().visit); });
+    return finished ? 1 : 0;
+}
+
+// Until theatron_leave_headset() the page draws for a headset, whose display shows this number of
+// pictures a second.
+EMSCRIPTEN_KEEPALIVE void theatron_enter_headset(int real_room, double pictures_per_s) {
+    if (page().visit)
+        web::guarded([&] {
+            page().visit->viewer.enter_headset(real_room != 0, pictures_per_s, steady_now());
+        });
+}
+// Numbers as in headset_input.h, in theatron_memory().
+EMSCRIPTEN_KEEPALIVE void theatron_draw_headset(int real_room) {
+    const auto frame = web::read_headset_frame(page().bytes);
+    if (page().visit && page().visit->viewer.has_headset() && frame)
+        web::guarded([&] { web::draw_headset(*page().visit, *frame, real_room != 0); });
+}
+// The share of the layer's pixels on each side that the client can draw at the display's rate.
+EMSCRIPTEN_KEEPALIVE double theatron_headset_scale() {
+    return page().visit ? page().visit->viewer.way().scale : 1;
+}
+EMSCRIPTEN_KEEPALIVE void theatron_recentre() {
+    if (page().visit)
+        web::guarded([] { page().visit->viewer.recentre_headset(); });
+}
+// The person's choice in the headset's menu since the last call: 1: the microphone, 2: to leave
+// the headset, 0: nothing.
+EMSCRIPTEN_KEEPALIVE int theatron_headset_wish(int microphone_open) {
+    if (!page().visit)
+        return 0;
+    page().visit->viewer.set_microphone_open(microphone_open != 0);
+    const auto wish = page().visit->viewer.take_headset_wish();
+    return !wish ? 0 : *wish == viewer::MenuAction::microphone ? 1 : 2;
+}
+EMSCRIPTEN_KEEPALIVE void theatron_leave_headset() {
+    if (page().visit)
+        web::guarded([] { page().visit->viewer.leave_headset(); });
 }
 
 // JSON for the panels: page_state.h, or {"problem": sentence} without a visit.
@@ -170,16 +353,41 @@ EMSCRIPTEN_KEEPALIVE const char* theatron_state() {
             state = web::page_state(page().visit->viewer, page().visit->participant,
                                     page().visit->address, steady_now());
         });
-    if (!page().visit)
+    if (page().flat)
+        web::guarded([&] { state = page().flat->view.state(page().flat->address, steady_now()); });
+    if (!page().participant())
         state = {{"phase", "left"}, {"problem", page().problem}};
     page().text = state.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return page().text.c_str();
+}
+
+// Rates, ages and drops begin anew; for measurements.
+EMSCRIPTEN_KEEPALIVE void theatron_reset_figures() {
+    if (page().participant())
+        page().participant()->reset_figures();
 }
 
 // A button of a panel.
 EMSCRIPTEN_KEEPALIVE void theatron_command(int command) {
     if (page().visit)
         web::guarded([&] { page().visit->viewer.press(command, steady_now()); });
+}
+
+// A frame of the page's microphone: its number, its age in microseconds at the first sample, the
+// rest of its header, and an Opus frame of 20 ms.
+EMSCRIPTEN_KEEPALIVE void theatron_speak(unsigned number, double age_us, int pauses, int level_db,
+                                         const std::byte* opus, int size) {
+    if (!page().participant() || size <= 0 || std::size_t(size) > voice::max_opus_size)
+        return;
+    voice::Packet packet;
+    packet.number = number;
+    packet.time = page().participant()->now() - Duration(std::int64_t(age_us));
+    packet.pauses = pauses != 0;
+    packet.level_db = level_db;
+    packet.opus = {opus, std::size_t(size)};
+    Bytes bytes;
+    voice::write_packet(packet, bytes);
+    page().participant()->send_voice(bytes);
 }
 
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.
@@ -214,6 +422,59 @@ EMSCRIPTEN_KEEPALIVE void theatron_wheel(double clicks) {
 // The canvas has lost its content.
 EMSCRIPTEN_KEEPALIVE void theatron_redraw() {
     page().input.redraw = true;
+}
+
+// Decoding workers are ready; before theatron_join().
+EMSCRIPTEN_KEEPALIVE void theatron_use_decoders(int count) {
+    client::decoder_pool().count = unsigned(count);
+    client::decoder_pool().post = [](unsigned worker, ByteView message) {
+        theatron_post_work(worker, message.data(), unsigned(message.size()));
+    };
+}
+
+// Memory that the script fills for the next function.
+EMSCRIPTEN_KEEPALIVE void* theatron_memory(int size) {
+    page().bytes.resize(std::size_t(size));
+    return page().bytes.data();
+}
+
+// A decoding worker's reply.
+EMSCRIPTEN_KEEPALIVE void theatron_decoded(int worker) {
+    if (const auto& on_reply = client::decoder_pool().on_reply)
+        web::guarded([&] { on_reply(unsigned(worker), page().bytes); });
+}
+
+// In a decoding worker, whose clock has this difference in milliseconds from the page's clock.
+EMSCRIPTEN_KEEPALIVE void theatron_begin_decoder(double clock_difference) {
+    client::begin_decoder_worker(
+        Duration(std::int64_t(clock_difference * 1000)),
+        [](ByteView reply) { theatron_post_reply(reply.data(), unsigned(reply.size())); });
+}
+
+// For measurements: milliseconds for a key frame of Strata, the fastest of these passes; below 0 if
+// it cannot be decoded.
+EMSCRIPTEN_KEEPALIVE double theatron_time_strata(int passes) {
+    const codec::DepthSetting setting = codec::parse_depth_setting("strata").setting;
+    codec::DepthStreamDecoder decoder(setting);
+    const Result<Size> size = decoder.read_size(page().bytes);
+    if (!size)
+        return -1;
+    codec::FrameLink key;
+    key.key = true;
+    DepthImage decoded(*size);
+    double fastest = 1e9;
+    for (int i = 0; i < passes; ++i) {
+        const TimePoint begin = steady_now();
+        if (decoder.decode(key, page().bytes, decoded.view()) != Status::ok)
+            return -1;
+        fastest = std::min(fastest, to_ms(steady_now() - begin));
+    }
+    return fastest;
+}
+
+// In a decoding worker, a message of the page.
+EMSCRIPTEN_KEEPALIVE void theatron_decode() {
+    client::on_decoder_work(page().bytes);
 }
 
 }  // extern "C"

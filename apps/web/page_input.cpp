@@ -14,12 +14,29 @@ std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code)
             code.back() >= '1' && code.back() <= '9')
             return xr::KeyPress{Action::view_camera, code.back() - '1'};
     static const std::map<std::string_view, Action> actions = {
-        {"b", Action::facts},       {"m", Action::next_renderer}, {"c", Action::next_depth_codec},
-        {"n", Action::new_brick},   {"g", Action::give},          {"y", Action::admit},
-        {"k", Action::call},        {"j", Action::come},          {"u", Action::turn_away},
-        {"delete", Action::remove}, {"x", Action::sit_or_stand},  {"p", Action::people},
-        {"o", Action::show_case},   {"i", Action::slice_here},    {"r", Action::own_view},
-        {"home", Action::own_view}, {"z", Action::marks},         {"backspace", Action::undo_mark},
+        {"b", Action::facts},
+        {"m", Action::next_renderer},
+        {"c", Action::next_depth_codec},
+        {"n", Action::new_brick},
+        {"g", Action::give},
+        {"y", Action::admit},
+        {"k", Action::call},
+        {"j", Action::come},
+        {"u", Action::turn_away},
+        {"delete", Action::remove},
+        {"x", Action::sit_or_stand},
+        {"p", Action::people},
+        {"o", Action::show_case},
+        {"i", Action::slice_here},
+        {"r", Action::own_view},
+        {"home", Action::own_view},
+        {"z", Action::marks},
+        {"backspace", Action::undo_mark},
+        {"0", Action::from_above},
+        {"+", Action::larger_points},
+        {"=", Action::larger_points},
+        {"-", Action::smaller_points},
+        {" ", Action::freeze},
     };
     const auto found = actions.find(key);
     if (found == actions.end())

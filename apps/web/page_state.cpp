@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page_state.h"
 
+#include "client/decoder_pool_web.h"
+#include "session/permissions.h"
 #include "session/room_bytes.h"
 #include "wire/condition_text.h"
 
@@ -42,26 +44,55 @@ json camera_json(const client::CameraFigures& figures) {
             {"fps", depth.frames_per_second},
             {"mbit_per_second", figures.mbit_per_second()},
             {"age_ms", depth.age_now_ms},
-            {"age_p50_ms", depth.age_p50_ms}};
+            {"age_p50_ms", depth.age_p50_ms},
+            {"age_p99_ms", depth.age_p99_ms}};
 }
 
-// Everybody in the room with a name, oneself included.
-json people_json(const client::Participant::Room& room) {
+json to_json(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// Everybody in the room with a name, oneself included; `head` in metres, of those who told it.
+json people_json(const client::Participant::Room& room, const client::Participant& participant) {
     json people = json::array();
+    const auto poses = participant.poses();
     for (const auto& [id, object] : room.objects)
         if (object.kind == session::ObjectKind::person)
-            if (const auto facts = session::decode_person(object.properties))
-                people.push_back({{"name", facts->name}, {"self", object.creator == room.self}});
+            if (const auto facts = session::decode_person(object.properties)) {
+                people.push_back({{"id", unsigned(object.creator)},
+                                  {"name", facts->name},
+                                  {"self", object.creator == room.self}});
+                const auto pose = poses.find(object.creator);
+                if (pose != poses.end() && pose->second.head)
+                    people.back()["head"] = pose->second.head->position;
+            }
     return people;
+}
+
+json ear_json(const Pose& room_from_eye) {
+    const Pose turn{room_from_eye.rotation, {}};
+    return {{"position", to_json(room_from_eye.translation)},
+            {"ahead", to_json(turn * Vec3{0, 0, 1})},
+            {"up", to_json(turn * Vec3{0, -1, 0})}};
 }
 
 }  // namespace
 
 json page_state(viewer::Viewer& viewer, const client::Participant& participant,
                 const std::string& address, TimePoint now) {
-    const viewer::Facts facts = viewer.facts(now);
-    const auto overlay =
+    json state = state_of(viewer.facts(now), participant, address);
+    state["pictures"] = viewer.pictures();
+    state["ear"] = ear_json(viewer.told_eye());
+    return state;
+}
+
+json state_of(const viewer::Facts& facts, const client::Participant& participant,
+              const std::string& address) {
+    auto overlay =
         viewer::overlay_of(facts, address, [](const std::string& filter) { return filter; });
+    const unsigned decoders = client::decoder_pool().count;
+    overlay.facts.push_back(
+        {"Decoding", decoders > 0 ? std::to_string(decoders) + " workers" : "in the page"});
     json cameras = json::array();
     for (const client::CameraFigures& camera : facts.received.cameras)
         cameras.push_back(camera_json(camera));
@@ -75,12 +106,17 @@ json page_state(viewer::Viewer& viewer, const client::Participant& participant,
             {"host", status.host_name},
             {"joins", status.joins},
             {"has_picture", facts.has_picture},
-            {"pictures", viewer.pictures()},
             {"drawn_per_second", facts.drawn_per_second},
             {"renderer", facts.way.renderer},
+            {"depth_step", facts.way.depth_step},
+            {"scale", facts.way.scale},
             {"overlay", to_json(overlay)},
+            {"decoders", decoders},
             {"cameras", cameras},
-            {"people", people_json(room)},
+            {"people", people_json(room, participant)},
+            {"is_heard",
+             session::may(status.standing.role, session::Right::speak) && !status.standing.muted},
+            {"is_muted", status.standing.muted},
             {"bricks", bricks}};
 }
 

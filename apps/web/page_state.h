@@ -13,4 +13,8 @@ namespace theatron::web {
 nlohmann::json page_state(viewer::Viewer& viewer, const client::Participant& participant,
                           const std::string& address, TimePoint now);
 
+// The same without what depends on a view of the room: "pictures" and "ear".
+nlohmann::json state_of(const viewer::Facts& facts, const client::Participant& participant,
+                        const std::string& address);
+
 }  // namespace theatron::web

@@ -20,6 +20,7 @@
 #include "bench_slices.h"
 #include "bench_view.h"
 #include "bench_voice.h"
+#include "bench_web.h"
 #include "capture/crop.h"
 #include "capture/tiled_recording.h"
 #include "cli/camera_option.h"
@@ -288,6 +289,7 @@ void add_interaction(CLI::App& bench) {
     command->add_option("--link-delay", b.link_delay_ms, "Of the link between them, one way, ms")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 10000.0));
+    command->add_option("--cases", b.cases, "A folder; the viewer fetches its first case");
     command
         ->add_option("--crowd", b.crowd,
                      "Busy threads on the one core that the viewer's decoders may use")
@@ -490,6 +492,7 @@ void add_benchmarks(CLI::App& app) {
     add_render(app);
     add_slices_bench(app);
     add_voice_bench(app);
+    add_web_bench(app);
     add_view(app);
     add_registration(app);
 }

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "base/steady_clock.h"
+#include "bench_case.h"
 #include "bench_grabs.h"
 #include "bench_network.h"
 #include "child_process.h"
@@ -85,6 +86,7 @@ std::unique_ptr<Participant> join(const InteractionBench& bench, const net::Link
         grabs.prepare_actor(options);
     } else if (part == Part::viewer) {
         grabs.prepare_partner(options);
+        options.keeps_cases = !bench.cases.empty();
         options.delivery = {std::uint32_t(bench.target_latency_ms), 0};
         options.pose = [&ages](ParticipantId, const wire::PersonPose& pose) {
             // One machine has one clock, which is the session's.
@@ -139,6 +141,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         "--json", "--state",  folder.string()};
     for (const std::string& camera : bench.cameras)
         arguments.insert(arguments.end(), {"--camera", camera});
+    if (!bench.cases.empty())
+        arguments.insert(arguments.end(), {"--cases", bench.cases});
     enter_namespace(bench.host_namespace);
     ChildProcess host(arguments);
     const auto greeting = nlohmann::json::parse(host.read_line(), nullptr, false);
@@ -159,6 +163,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     wait_for(*viewer);
     wait_for(*actor);
     grabs.begin(*actor, *viewer);
+    if (!bench.cases.empty())
+        open_offered_case(*viewer);
     const Crowd crowd(bench.crowd);
 
     const TimePoint begin = steady_now() + seconds_to_duration(bench.warmup_seconds);
@@ -168,6 +174,7 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     int pongs = 0;
     bool measuring = false;
     double host_cpu = 0;
+    session::ContentFetch::Progress fetched;
     for (TimePoint next = steady_now(); next < end; next += period) {
         std::this_thread::sleep_until(std::chrono::steady_clock::now() +
                                       std::max(next - steady_now(), Duration(0)));
@@ -181,6 +188,7 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
             measuring = true;
             viewer->reset_figures();
             grabs.reset();
+            fetched = case_progress(*viewer);
             host_cpu = usage_of(host.pid()).cpu_seconds;
             const std::lock_guard lock(ages.mutex);
             ages.ms.clear();
@@ -201,6 +209,11 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         age_p50 = std::max(age_p50, stream.age_p50_ms);
         age_p99 = std::max(age_p99, stream.age_p99_ms);
     }
+    nlohmann::json of_case;
+    if (const auto now = case_progress(*viewer); !bench.cases.empty())
+        of_case = {{"mbit_per_s", double(now.got - fetched.got) * 8e-6 / bench.seconds},
+                   {"got", now.got},
+                   {"all", now.all}};
     const nlohmann::json late = percentiles(ages.ms, bench.link_delay_ms);
     return {{"p50_ms", late["p50"]},
             {"p99_ms", late["p99"]},
@@ -216,7 +229,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
             {"pictures",
              {{"fps_min", fps},
               {"mbit_per_s", mbit},
-              {"age_ms", {{"p50", age_p50}, {"p99", age_p99}}}}}};
+              {"age_ms", {{"p50", age_p50}, {"p99", age_p99}}}}},
+            {"case", of_case}};
 }
 
 }  // namespace theatron::bench

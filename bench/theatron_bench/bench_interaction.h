@@ -21,14 +21,17 @@ struct InteractionBench {
     // 10.77.0.1 (tools/link_shaper). Empty: both on loopback.
     std::string host_namespace, viewer_namespace;
     double link_delay_ms = 0;  // of that link, one way: taken off the poses' times
+    // A folder of cases: the viewer fetches the first one meanwhile. Empty: none.
+    std::string cases;
     // Busy threads with which the viewer's decoders share one core.
     int crowd = 0;
 };
 
 // Returns {p50_ms,p99_ms,max_ms,participants,cameras,poses,round_trip_ms:{p50,p99,max},
-// grabs,host_cores,pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}}}: from the sending of a pose to
-// its arrival at the viewer, minus the link's delay; actions in the room (bench_grabs.h), with the
-// link's delay; the host's processor time; and the pictures' rate and age meanwhile. Throws Error.
+// grabs,host_cores,pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}},case}: from the sending of a pose
+// to its arrival at the viewer, minus the link's delay; actions in the room (bench_grabs.h), with
+// the link's delay; the host's processor time; and the pictures' rate and age meanwhile; `case` is
+// null or {mbit_per_s,got,all}. Throws Error.
 nlohmann::json bench_interaction(const InteractionBench& bench);
 
 }  // namespace theatron::bench

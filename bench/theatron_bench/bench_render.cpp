@@ -146,6 +146,7 @@ nlohmann::json bench_rooms(const RenderBench& bench, const CameraView& view,
                 c.frame.objects.clear();
                 c.frame.texts.clear();
                 c.frame.quality = *c.quality;
+                c.room.build(c.frame.quality);
                 c.room.add_to(c.frame, view);
                 avatars.add_to(c.frame, people, view);
             };

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "base/steady_clock.h"
+#include "bench_case.h"
 #include "bench_network.h"
 #include "bench_report.h"
 #include "child_process.h"
@@ -87,6 +88,8 @@ std::unique_ptr<ChildProcess> start_host(const Folder& folder, const VoiceBench&
         "--json", "--state",  folder.file("state")};
     for (const std::string& camera : bench.cameras)
         arguments.insert(arguments.end(), {"--camera", camera});
+    if (!bench.cases.empty())
+        arguments.insert(arguments.end(), {"--cases", bench.cases});
     auto host = std::make_unique<ChildProcess>(arguments);
     const auto greeting = nlohmann::json::parse(host->read_line(), nullptr, false);
     if (!greeting.is_object())
@@ -130,6 +133,17 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     ChildProcess speaker({"join", link, "--no-window", "--name", "speaker", "--every", "0.2",
                           "--max-mbit", "0.1", "--microphone", folder.file("said.wav"),
                           "--voice-frame", std::to_string(bench.frame_ms)});
+    std::unique_ptr<Participant> opener;  // opens the case, so that everybody fetches it
+    if (!bench.cases.empty()) {
+        Participant::Options options;
+        options.link = net::parse_link(link);
+        options.name = "opener";
+        options.delivery = {0, 100};
+        options.keeps_room = options.keeps_cases = true;
+        options.media = [](const wire::MediaHeader&, ByteView) {};
+        opener = std::make_unique<Participant>(std::move(options));
+        open_offered_case(*opener);
+    }
     const TimePoint begin = steady_now();
     const auto length = seconds_to_duration(bench.seconds + settling_seconds);
     nlohmann::json said, heard;
@@ -242,6 +256,8 @@ void add_voice_bench(CLI::App& bench) {
         ->add_option("--listener-namespace", flags->bench.listener_namespace,
                      "Network namespace of the listener")
         ->needs("--host-namespace");
+    command->add_option("--cases", flags->bench.cases,
+                        "A folder of cases, of which the listener fetches the first meanwhile");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {

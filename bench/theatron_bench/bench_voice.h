@@ -19,6 +19,8 @@ struct VoiceBench {
     int frame_ms = 20;                 // 10 or 20
     // Network namespaces as in InteractionBench: the speaker is with the host.
     std::string host_namespace, listener_namespace;
+    // A folder of cases: the listener fetches the first one meanwhile. Empty: none.
+    std::string cases;
 };
 
 // {p50,p95,max,count}: milliseconds from the saying of a click to its hearing. Throws Error.

@@ -13,7 +13,9 @@
 #include "capture/mkv_camera.h"
 #include "capture/placed_camera.h"
 #include "capture/recording_camera.h"
+#include "capture/source_camera.h"
 #include "capture/synthetic_camera.h"
+#include "capture/video_camera.h"
 #include "capture/watched_camera.h"
 
 namespace theatron::capture {
@@ -32,6 +34,10 @@ constexpr Kind kinds[] = {
     {"recording", recording_camera_help, open_recording_camera},
     {"synthetic", synthetic_camera_help, open_synthetic_camera},
     {"k4a", k4a_camera_help, open_k4a_camera},
+    {"video", video_camera_help, open_video_camera},
+    {"x11", x11_camera_help, open_x11_camera},
+    {"v4l2", v4l2_camera_help, open_v4l2_camera},
+    {"rtsp", rtsp_camera_help, open_rtsp_camera},
 };
 
 // Opens a camera. Exceptions of the standard library become an Error with a sentence, too.

@@ -18,6 +18,8 @@
 
 namespace theatron::capture {
 
+class Transport;
+
 struct CameraInfo {
     std::string name;  // short, for display: "table-person_640x360"
     Calibration calibration;
@@ -38,6 +40,8 @@ struct Capture {
     Kind kind = Kind::nothing;
     FramePtr frame;
     std::string problem;  // one sentence for the user
+    // With an end: the recording may be played again, and more frames come then.
+    bool may_go_on = false;
 };
 
 // One camera. One thread at a time.
@@ -49,9 +53,13 @@ public:
 
     // Waits at most `timeout` for the next frame and returns it, with times.captured and
     // times.delivered set in steady_now()'s clock. Recorded and generated cameras return each
-    // frame when it is due, and skip frames that are more than one period late. After end or
-    // failed, all calls return the same.
+    // frame when it is due, and skip frames that are more than one period late. While its recording
+    // is paused, a camera sees a still scene. After failed, and after an end for good, all calls
+    // return the same.
     virtual Capture next(Duration timeout) = 0;
+
+    // Before the first next(): a recording is played as `transport` says. Other cameras ignore it.
+    virtual void follow(std::shared_ptr<Transport> transport) { (void)transport; }
 
     // Pictures, depth and colour counted each, that its recording had and that are damaged or refer
     // to damaged ones, as far as it was played. In further rounds they count no more.

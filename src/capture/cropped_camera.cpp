@@ -102,6 +102,9 @@ public:
     }
 
     const CameraInfo& info() const override { return info_; }
+    void follow(std::shared_ptr<Transport> transport) override {
+        camera_->follow(std::move(transport));
+    }
     std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
 
     Capture next(Duration timeout) override {

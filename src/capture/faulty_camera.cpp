@@ -47,6 +47,9 @@ public:
     }
 
     const CameraInfo& info() const override { return info_; }
+    void follow(std::shared_ptr<Transport> transport) override {
+        camera_->follow(std::move(transport));
+    }
 
     Capture next(Duration timeout) override {
         const TimePoint now = now_();

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/mkv_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "base/error.h"
+#include "capture/readable_file.h"
 #include "sandbox/child.h"
 
 namespace theatron::capture {
@@ -39,43 +35,11 @@ std::optional<std::uint64_t> read_size(ByteReader& in) {
     return value;
 }
 
-std::string quoted(const std::filesystem::path& path) {
-    return "'" + path.string() + "'";
+bool begins_like_a_longer_one(const ReadableFile& file) {
+    std::array<std::byte, 128> beginning;
+    const ssize_t count = pread(file.descriptor(), beginning.data(), beginning.size(), 0);
+    return count > 0 && is_cut_off(ByteView(beginning).first(std::size_t(count)), file.bytes());
 }
-
-// A regular file, open for reading.
-class File {
-public:
-    explicit File(const std::filesystem::path& path) {
-        // O_NONBLOCK: opening must not wait if the path is a pipe or a device.
-        descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-        if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
-            throw Error("There is no file " + quoted(path) + ".");
-        if (descriptor_ < 0)
-            throw Error("Cannot read " + quoted(path) + ": " + std::strerror(errno) + ".");
-        if (fstat(descriptor_, &info_) != 0 || !S_ISREG(info_.st_mode)) {
-            close(descriptor_);
-            throw Error(quoted(path) + " is not a file.");
-        }
-        // The lock prevents a recording into this file.
-        (void)flock(descriptor_, LOCK_SH | LOCK_NB);
-    }
-    ~File() { close(descriptor_); }
-    File(const File&) = delete;
-
-    int descriptor() const { return descriptor_; }
-
-    bool begins_like_a_longer_one() const {
-        std::array<std::byte, 128> beginning;
-        const ssize_t count = pread(descriptor_, beginning.data(), beginning.size(), 0);
-        return count > 0 && is_cut_off(ByteView(beginning).first(std::size_t(count)),
-                                       std::uint64_t(info_.st_size));
-    }
-
-private:
-    int descriptor_;
-    struct stat info_ {};
-};
 
 }  // namespace
 
@@ -119,7 +83,7 @@ struct MkvFile::Process {
         return {bytes.begin(), bytes.end()};
     }
 
-    File file;
+    ReadableFile file;
     sandbox::Child child;
     bool waiting = false;  // an answer is outstanding
 };
@@ -127,7 +91,7 @@ struct MkvFile::Process {
 MkvFile::MkvFile(const std::filesystem::path& path, const sandbox::Limits& limits)
     : path_(path),
       process_(std::make_unique<Process>(path, limits)),
-      cut_off_(process_->file.begins_like_a_longer_one()),
+      cut_off_(begins_like_a_longer_one(process_->file)),
       description_(open()) {}
 
 MkvFile::~MkvFile() = default;

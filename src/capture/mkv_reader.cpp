@@ -6,13 +6,12 @@ extern "C" {
 #include <libavutil/log.h>
 }
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <new>
 #include <string>
 #include <string_view>
+
+#include "capture/av_input.h"
 
 namespace theatron::capture {
 namespace {
@@ -42,60 +41,6 @@ Size size_of(const AVStream& stream) {
     return is_valid(size) ? size : Size{};
 }
 
-// Input from a descriptor, for libavformat.
-class Input {
-public:
-    explicit Input(int descriptor) : descriptor_(descriptor) {
-        constexpr int buffer_bytes = 64 << 10;
-        auto* buffer = static_cast<unsigned char*>(av_malloc(buffer_bytes));
-        context_ = buffer ? avio_alloc_context(buffer, buffer_bytes, 0, this, read, nullptr, seek)
-                          : nullptr;
-        if (!context_)
-            throw std::bad_alloc();
-    }
-    ~Input() {
-        // libavformat may have replaced the buffer.
-        av_freep(&context_->buffer);
-        avio_context_free(&context_);
-    }
-    Input(const Input&) = delete;
-
-    AVIOContext* context() { return context_; }
-
-private:
-    static int read(void* self, std::uint8_t* out, int size) {
-        auto& input = *static_cast<Input*>(self);
-        const ssize_t count = pread(input.descriptor_, out, std::size_t(size), input.place_);
-        if (count <= 0)
-            return count == 0 ? AVERROR_EOF : AVERROR(errno);
-        input.place_ += count;
-        return int(count);
-    }
-    static std::int64_t seek(void* self, std::int64_t offset, int whence) {
-        auto& input = *static_cast<Input*>(self);
-        if (whence == AVSEEK_SIZE)
-            return input.size();
-        const std::int64_t from = whence == SEEK_SET   ? 0
-                                  : whence == SEEK_CUR ? input.place_
-                                                       : input.size();
-        std::int64_t place;
-        if (__builtin_add_overflow(from, offset, &place) || place < 0)
-            return AVERROR(EINVAL);
-        return input.place_ = place;
-    }
-    std::int64_t size() const { return lseek(descriptor_, 0, SEEK_END); }
-
-    int descriptor_;
-    off_t place_ = 0;
-    AVIOContext* context_ = nullptr;
-};
-
-// Throws on failed allocations, which must not be reported as a damaged file.
-void check_memory(int result) {
-    if (result == AVERROR(ENOMEM))
-        throw std::bad_alloc();
-}
-
 }  // namespace
 
 struct MkvReader::Library {
@@ -113,7 +58,7 @@ struct MkvReader::Library {
     Kind open();
     void find_tracks();
 
-    Input input;
+    AvInput input;
     AVFormatContext* file = nullptr;
     std::unique_ptr<AVPacket, PacketDeleter> packet{av_packet_alloc()};
     int depth = -1;  // track index
@@ -129,7 +74,7 @@ MkvReader::Kind MkvReader::Library::open() {
     file->pb = input.context();
     // Only this container format: the file cannot make libavformat open anything else.
     const int failed = avformat_open_input(&file, "", av_find_input_format("matroska"), nullptr);
-    check_memory(failed);
+    check_av_memory(failed);
     if (failed)
         return Kind::no_matroska;
     find_tracks();
@@ -186,7 +131,7 @@ std::optional<MkvReader::Picture> MkvReader::read() {
     while (true) {
         av_packet_unref(&packet);
         const int failed = av_read_frame(library_->file, &packet);
-        check_memory(failed);
+        check_av_memory(failed);
         if (failed < 0)
             return std::nullopt;
         const bool is_depth = packet.stream_index == library_->depth;

@@ -11,6 +11,8 @@
 #include <optional>
 
 #include "capture/mkv_answer.h"
+#include "capture/source_readers.h"
+#include "capture/video_reader.h"
 #include "sandbox/inside.h"
 
 namespace theatron::capture {
@@ -47,6 +49,10 @@ private:
 
 // For run_as_child(): the readers that cameras need.
 inline constexpr sandbox::Reader foreign_readers[] = {
-    {"mkv", sandbox::Profile::file, MkvReader::serve}};
+    {"mkv", sandbox::Profile::file, MkvReader::serve},
+    {"video", sandbox::Profile::library, serve_video},
+    {"rtsp", sandbox::Profile::stream, serve_rtsp},
+    {"x11", sandbox::Profile::display, serve_x11},
+    {"v4l2", sandbox::Profile::device, serve_v4l2}};
 
 }  // namespace theatron::capture

@@ -24,6 +24,9 @@ public:
     }
 
     const CameraInfo& info() const override { return info_; }
+    void follow(std::shared_ptr<Transport> transport) override {
+        camera_->follow(std::move(transport));
+    }
     Capture next(Duration timeout) override { return camera_->next(timeout); }
 
 private:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/playback.h"
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "capture/transport.h"
 
 namespace theatron::capture {
 namespace {
@@ -22,14 +24,23 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::uint64_t lost_pictures() const override { return recording_->lost_pictures(); }
 
+    void follow(std::shared_ptr<Transport> transport) override {
+        transport_ = std::move(transport);
+    }
+
     Capture next(Duration timeout) override {
         if (over_)
             return *over_;
         try {
+            if (transport_)
+                timeout = std::min(timeout, longest_deaf);
+            const Transport::State state = transport_ ? obey() : Transport::State();
+            if (state.paused)
+                return still(timeout);
             if (!waiting_ && !prepare())
-                return finish({.kind = Capture::Kind::end, .frame = {}, .problem = {}});
+                return transport_ ? rest(timeout) : finish({.kind = Capture::Kind::end});
         } catch (const std::exception& problem) {
-            return finish({.kind = Capture::Kind::failed, .frame = {}, .problem = problem.what()});
+            return finish({.kind = Capture::Kind::failed, .problem = problem.what()});
         }
         const TimePoint now = steady_now();
         if (waiting_->times.captured > now + timeout) {
@@ -37,14 +48,74 @@ public:
             return {};
         }
         std::this_thread::sleep_for(waiting_->times.captured - now);
-        waiting_->times.delivered = steady_now();
-        return {.kind = Capture::Kind::frame, .frame = std::move(waiting_), .problem = {}};
+        return deliver(std::move(waiting_));
     }
 
 private:
+    // A camera that waits notices a change of the transport after this time.
+    static constexpr Duration longest_deaf = std::chrono::milliseconds(30);
+    // Pictures of a paused recording follow each other at this share of its rate: often enough for
+    // a camera that is not stale (capture/camera_care.h).
+    static constexpr int still_periods = 2;
+
+    Capture deliver(std::shared_ptr<Frame> frame) {
+        frame->times.delivered = steady_now();
+        newest_ = frame->times.captured;
+        if (transport_)
+            shown_ = frame;
+        return {.kind = Capture::Kind::frame, .frame = std::move(frame)};
+    }
+
+    // Goes to another place of the recording where the transport has.
+    Transport::State obey() {
+        const TimePoint now = steady_now();
+        const Transport::State state = transport_->state(now);
+        if (obeyed_ == state.changes)
+            return state;
+        obeyed_ = state.changes;
+        recording_->go_to(state.position);
+        playback_.set_zero(now - state.position);
+        waiting_.reset();
+        has_still_ = false;
+        return state;
+    }
+
+    // A paused recording: its picture again and again, as a camera sees what stands still.
+    Capture still(Duration timeout) {
+        const TimePoint now = steady_now();
+        if (has_still_ && now < next_still_) {
+            std::this_thread::sleep_for(std::min(timeout, Duration(next_still_ - now)));
+            return {};
+        }
+        auto frame = pool_.take();
+        if (has_still_ && shown_) {
+            frame->depth = shown_->depth;
+            frame->color = shown_->color;
+        } else if (recording_->offset()) {
+            recording_->read(*frame);
+        } else {
+            return rest(timeout);
+        }
+        frame->number = playback_.take_number();
+        frame->times = {.captured = now};
+        has_still_ = true;
+        next_still_ = now + still_periods * seconds_to_duration(1 / info_.frames_per_second);
+        return deliver(std::move(frame));
+    }
+
+    Capture rest(Duration timeout) {
+        std::this_thread::sleep_for(timeout);
+        return {.kind = Capture::Kind::end, .may_go_on = true};
+    }
+
     // Reads the next frame before it is due.
     bool prepare() {
-        const auto upcoming = playback_.upcoming(steady_now());
+        auto upcoming = playback_.upcoming(steady_now());
+        // Where a pause ends, its still picture is newer.
+        while (upcoming && transport_ && upcoming->due <= newest_) {
+            recording_->skip();
+            upcoming = playback_.upcoming(steady_now());
+        }
         if (!upcoming)
             return false;
         auto frame = playback_.share();
@@ -69,6 +140,11 @@ private:
     FramePool pool_;
     std::shared_ptr<Frame> waiting_;
     std::optional<Capture> over_;
+    std::shared_ptr<Transport> transport_;
+    std::uint64_t obeyed_ = 0;
+    std::shared_ptr<const Frame> shown_;  // the last one, if there is a transport
+    bool has_still_ = false;              // a picture of this pause was shown
+    TimePoint next_still_, newest_;
 };
 
 }  // namespace
@@ -109,6 +185,12 @@ std::optional<Playback::Upcoming> Playback::upcoming(TimePoint now) {
     }
 }
 
+void Playback::set_zero(TimePoint zero) {
+    begun_ = true;
+    zero_ = zero;
+    to_pass_over_ = 0;
+}
+
 void Playback::read(Frame& out) {
     recording_.read(out);
     ++number_;
@@ -126,6 +208,16 @@ bool Playback::rewind() {
     recording_.rewind();
     zero_ += recording_.round().value_or(last_offset_ + period_);
     return recording_.offset().has_value();
+}
+
+void Recording::go_to(Duration position) {
+    rewind();
+    while (true) {
+        const auto here = offset();
+        if (!here || *here >= position)
+            return;
+        skip();
+    }
 }
 
 MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
@@ -164,6 +256,13 @@ std::shared_ptr<Frame> MemoryRecording::share() {
     std::atomic_thread_fence(std::memory_order_acquire);
     ++next_;
     return frame;
+}
+
+void MemoryRecording::go_to(Duration position) {
+    const auto after =
+        std::upper_bound(frames_.begin(), frames_.end(), position,
+                         [](Duration wanted, const Kept& kept) { return wanted < kept.offset; });
+    next_ = std::size_t(std::max<std::ptrdiff_t>(after - frames_.begin() - 1, 0));
 }
 
 std::unique_ptr<Camera> make_recorded_camera(CameraInfo info, std::unique_ptr<Recording> recording,

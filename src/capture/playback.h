@@ -29,6 +29,8 @@ public:
     // it; the caller may set its times. Null: call read().
     virtual std::shared_ptr<Frame> share() { return nullptr; }
     virtual void rewind() = 0;
+    // The next frame is the last one that is not after `position`, or one near it.
+    virtual void go_to(Duration position);
     // The duration of one round of a loop, so that the cameras of one recording stay in step.
     // Nullopt: one period after the last frame.
     virtual std::optional<Duration> round() const { return std::nullopt; }
@@ -59,10 +61,16 @@ public:
     // first call starts playback. Nullopt at the end.
     std::optional<Upcoming> upcoming(TimePoint now);
 
+    // Frames are due when `zero` plus their offset is; this round goes on from where the recording
+    // is.
+    void set_zero(TimePoint zero);
+
     // Reads the next frame's images. Precondition: upcoming() returned a frame.
     void read(Frame& out);
     // The next frame without a copy, or null (Recording::share).
     std::shared_ptr<Frame> share();
+    // For a frame that is delivered beside those of upcoming().
+    FrameNumber take_number() { return number_++; }
 
 private:
     bool rewind();
@@ -90,6 +98,7 @@ public:
     void read(Frame& out) override;
     std::shared_ptr<Frame> share() override;
     void rewind() override { next_ = 0; }
+    void go_to(Duration position) override;
     std::optional<Duration> round() const override { return round_; }
     std::uint64_t lost_pictures() const override { return lost_pictures_; }
 

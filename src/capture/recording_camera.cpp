@@ -19,6 +19,14 @@ constexpr std::uint32_t no_color = std::numeric_limits<std::uint32_t>::max();
 // The parts of the camera that have its calibration number `wanted`, in order.
 std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, std::size_t wanted) {
     std::vector<record::CameraPart> parts;
+    if (wanted == RecordedFrames::any_place) {
+        for (const record::CameraPart& part : camera.parts) {
+            if (!parts.empty() && !differ_in_place_only(parts[0].calibration, part.calibration))
+                break;
+            parts.push_back(part);
+        }
+        return parts;
+    }
     std::size_t number = 0;
     for (std::size_t i = 0; i < camera.parts.size(); ++i) {
         number += i > 0 && camera.parts[i].calibration != camera.parts[i - 1].calibration;
@@ -47,6 +55,24 @@ std::size_t calibrations_of(const record::CameraContent& camera) {
     for (std::size_t i = 1; i < camera.parts.size(); ++i)
         count += camera.parts[i].calibration != camera.parts[i - 1].calibration;
     return count;
+}
+
+bool differ_in_place_only(const Bytes& one, const Bytes& other) {
+    if (one == other)
+        return true;
+    const auto a = decode_calibration(one), b = decode_calibration(other);
+    return a && b && a->depth == b->depth && a->color == b->color &&
+           a->color_from_depth == b->color_from_depth && a->depth_unit_mm == b->depth_unit_mm &&
+           a->person == b->person;
+}
+
+const Bytes& calibration_at(const record::CameraContent& camera, Duration position) {
+    const record::CameraPart* at = &camera.parts.front();
+    for (const record::CameraPart& part : camera.parts)
+        if (part.first_depth < camera.depth.frames.size() &&
+            camera.depth.frames[part.first_depth].time() <= position)
+            at = &part;
+    return at->calibration;
 }
 
 RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> recording,
@@ -119,6 +145,32 @@ void RecordedFrames::rewind() {
     lost_before_ = std::max(lost_before_, losses_.depth() + losses_.color());
     losses_ = {};
     begin_part(0);
+}
+
+void RecordedFrames::go_to(Duration position) {
+    const auto& frames = content_.depth.frames;
+    std::size_t wanted = begin_;
+    for (std::size_t low = begin_, high = end_; low < high;) {
+        const std::size_t middle = (low + high) / 2;
+        if (frames[middle].time() <= position) {
+            wanted = middle;
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    std::size_t part = 0;
+    while (part + 1 < parts_.size() && wanted >= parts_[part + 1].first_depth)
+        ++part;
+    begin_part(part);
+    // From the key frame on that it refers to.
+    next_ = wanted;
+    while (next_ > std::max(begin_, parts_[part].first_depth) && !frames[next_].key)
+        --next_;
+    is_decoded_ = false;
+    last_offset_ = {};
+    while (next_ < wanted)
+        skip();
 }
 
 void RecordedFrames::begin_part(std::size_t part) {
@@ -273,7 +325,8 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
     for (const record::Segment& segment : opened->segments())
         for (const std::string& remark : record::remarks_on(segment))
             log::warning("capture", remark, {{"file", segment.file.empty() ? file : segment.file}});
-    auto frames = std::make_unique<RecordedFrames>(opened, std::size_t(camera), file);
+    auto frames = std::make_unique<RecordedFrames>(opened, std::size_t(camera), file,
+                                                   RecordedFrames::any_place);
     if (frames->frames() == 0)
         throw Error("'" + file + "' holds no frame of camera " + std::to_string(camera) + ".");
     if (std::size_t(playback.start) >= frames->frames())

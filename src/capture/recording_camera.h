@@ -33,12 +33,20 @@ struct PictureLosses {
 // The number of successive calibrations of the camera; at least one.
 std::size_t calibrations_of(const record::CameraContent& camera);
 
+// The calibration of the camera at this time since the recording's first picture: cameras are
+// registered anew or adjusted while they are recorded.
+bool differ_in_place_only(const Bytes& one, const Bytes& other);
+const Bytes& calibration_at(const record::CameraContent& camera, Duration position);
+
 // The decoded frames of one camera in order, through consecutive segments with the same
 // calibration, starting at the first segment that has it. Damaged pictures and pictures with
 // a missing reference are skipped and counted; decoding continues at the next key frame. JPEG
 // colour is returned undecoded.
 class RecordedFrames final : public Recording {
 public:
+    // As `part`: all from the first one on that differ in the camera's place only.
+    static constexpr std::size_t any_place = std::size_t(-1);
+
     // `camera` counts from 0 in the order of the file. `file` is its name in messages. `part`
     // counts the camera's calibrations from 0. Throws Error if there is no such camera or part,
     // or if this build cannot decode it.
@@ -54,6 +62,7 @@ public:
     void skip() override;
     void read(Frame& out) override;
     void rewind() override;
+    void go_to(Duration position) override;
     std::optional<Duration> round() const override;
     std::uint64_t lost_pictures() const override;
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "geometry/screen.h"
 
 namespace theatron::capture {
 namespace {
@@ -129,7 +130,9 @@ WatchedCamera::Step WatchedCamera::reopen(Turn turn) {
 
 WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration timeout) {
     const Capture got = camera.next(timeout);
-    const PictureMark mark = got.kind == Capture::Kind::frame && info_.live
+    // The depth of a screen never changes.
+    const bool has_noise = info_.live && !is_screen(info_.calibration);
+    const PictureMark mark = got.kind == Capture::Kind::frame && has_noise
                                  ? mark_of(got.frame->depth.view())
                                  : PictureMark{};
     const std::uint64_t lost = camera.lost_pictures();
@@ -143,6 +146,7 @@ WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration time
     switch (got.kind) {
         case Capture::Kind::frame: {
             const FrameTimes& times = got.frame->times;
+            rests_ = false;
             if (care_.on_frame(times.captured, times.delivered, mark))
                 return {got.frame, false};
             return {};
@@ -151,6 +155,9 @@ WatchedCamera::Step WatchedCamera::take(Turn turn, Camera& camera, Duration time
             care_.on_time(clock_.now());
             return {};
         case Capture::Kind::end:
+            rests_ = got.may_go_on;
+            if (rests_)
+                return {};
             return end(CameraCondition::ended, got.problem);
         case Capture::Kind::failed:
             if (!info_.live || !open_again_)
@@ -206,6 +213,11 @@ WatchedCamera::Status WatchedCamera::status() const {
         status.condition = care_.stale() ? CameraCondition::stale : CameraCondition::live;
         status.trouble = care_.trouble();
         status.problem = text_of(status.trouble, care_.problem());
+    }
+    if (rests_ && !over_) {
+        status.condition = CameraCondition::ended;
+        status.trouble = Trouble::none;
+        status.problem = {};
     }
     status.lost_pictures = lost_pictures_;
     if (status.problem.empty() && lost_pictures_ > 0)

@@ -83,6 +83,7 @@ private:
     TimePoint entered_driver_;  // zero: no thread is in the driver
     bool opening_ = false;      // that thread is opening the camera
     bool over_ = false;
+    bool rests_ = false;  // at the end of a recording that may go on
     wire::CameraCondition how_over_{};
     std::string problem_;
     std::uint64_t lost_pictures_ = 0;

@@ -9,6 +9,7 @@
 #include "base/outside_text.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
+#include "medical/picture.h"
 
 namespace theatron::cases {
 namespace {
@@ -19,6 +20,8 @@ using medical::Mesh;
 using medical::Volume;
 
 constexpr std::size_t max_mesh_bytes = std::size_t(1) << 30;
+constexpr std::size_t max_picture_bytes =
+    64 + 3 * std::size_t(medical::max_picture_side) * medical::max_picture_side;
 constexpr std::size_t max_volume_bytes = (std::size_t(1) << 30) + medical::volume_header_size;
 
 std::string in_quotes(const fs::path& path) {
@@ -81,6 +84,8 @@ public:
             attempt([&] { check_series(series); });
         for (const medical::Part& part : manifest_.parts)
             attempt([&] { check_part(part); });
+        for (const medical::CasePicture& picture : manifest_.pictures)
+            attempt([&] { (void)read_picture(file_of(folder_, picture)); });
         check_identifiers();
         check_other_files();
         return report_;
@@ -103,8 +108,10 @@ private:
             problem(
                 "The manifest's positions are not millimetres in LPS, as those of a finished "
                 "case are: make one with 'theatron case import'.");
-        if (manifest_.parts.empty() && manifest_.series.empty())
-            problem("The manifest names neither parts nor series, so there is nothing to show.");
+        if (manifest_.parts.empty() && manifest_.series.empty() && manifest_.pictures.empty())
+            problem(
+                "The manifest names neither parts nor series nor pictures, so there is nothing to "
+                "show.");
         if (!manifest_.deidentified)
             remark("The case is not said to be de-identified.");
         if (manifest_.license.empty())
@@ -174,6 +181,8 @@ private:
             known.insert(part.file);
         for (const medical::Series& series : manifest_.series)
             known.insert(series.file);
+        for (const medical::CasePicture& picture : manifest_.pictures)
+            known.insert(picture.file);
         std::error_code failed;
         std::size_t others = 0;
         for (const auto& entry : fs::directory_iterator(folder_, failed))
@@ -217,6 +226,11 @@ Volume read_volume(const fs::path& file) {
                    "volume");
 }
 
+ColorImage read_picture(const fs::path& file) {
+    return require(medical::decode_picture(files::read_file(file, max_picture_bytes)), file,
+                   "picture of a case");
+}
+
 Case read_finished_manifest(const fs::path& folder) {
     Case manifest = read_manifest(folder);
     if (manifest.unit != medical::Unit::mm || manifest.axes != medical::Axes::lps)
@@ -233,6 +247,10 @@ fs::path file_of(const fs::path& folder, const medical::Series& series) {
     return part_file(folder, series.file, volume_extension, "series of images");
 }
 
+fs::path file_of(const fs::path& folder, const medical::CasePicture& picture) {
+    return part_file(folder, picture.file, picture_extension, "picture");
+}
+
 LoadedCase read_case(const fs::path& folder) {
     LoadedCase loaded;
     loaded.manifest = read_finished_manifest(folder);
@@ -240,6 +258,8 @@ LoadedCase read_case(const fs::path& folder) {
         loaded.meshes.push_back(read_mesh(file_of(folder, part)));
     for (const medical::Series& series : loaded.manifest.series)
         loaded.volumes.push_back(read_volume(file_of(folder, series)));
+    for (const medical::CasePicture& picture : loaded.manifest.pictures)
+        loaded.pictures.push_back(read_picture(file_of(folder, picture)));
     return loaded;
 }
 

@@ -87,7 +87,7 @@ TEST_F(CaseFolder, AMeshOfAnotherFormatIsToBeImported) {
 }
 
 TEST_F(CaseFolder, ANewerManifestIsRefused) {
-    std::ofstream(folder() / "case.json") << R"({"theatron_case": 2, "organs": {}})";
+    std::ofstream(folder() / "case.json") << R"({"theatron_case": 3, "organs": {}})";
     EXPECT_THAT(first_problem(), HasSubstr("a newer version of Theatron"));
 }
 

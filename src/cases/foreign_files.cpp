@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/foreign_answer.h"
+#include "medical/picture.h"
 
 namespace theatron::cases {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t mesh_area_bytes = std::size_t(512) << 20;
+constexpr std::size_t picture_area_bytes =
+    64 + 3 * std::size_t(medical::max_picture_side) * medical::max_picture_side;
 constexpr std::size_t slice_area_bytes =
     max_slice_head + 2 * std::size_t(medical::max_volume_side) * medical::max_volume_side;
 
@@ -255,6 +258,36 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
     if (meshes.empty())
         throw Error(in_quotes(path) + " holds no triangles.");
     return meshes;
+}
+
+bool is_picture_file(const fs::path& file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+ColorImage read_picture_file(const fs::path& path) {
+    require_size(path, max_picture_file_bytes, "save it with fewer pixels");
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    if (file.get() < 0)
+        throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+    sandbox::Limits limits;
+    limits.memory_bytes = max_reader_memory_bytes;
+    limits.area_bytes = picture_area_bytes;
+    limits.answer = 60s;
+    sandbox::Child child("picture", file.get(), "the picture " + in_quotes(path), limits);
+    const std::byte request{1};
+    child.send({&request, 1});
+    const Reply reply = reply_of(child);
+    if (reply.what != Answer::content)
+        throw Error(in_quotes(path) + " " +
+                    (reply.what == Answer::unreadable ? "is damaged or neither PNG nor JPEG"
+                                                      : reason_of(reply.what)) +
+                    ".");
+    const Bytes copy(reply.content.begin(), reply.content.end());
+    Result<ColorImage> picture = medical::decode_picture(copy);
+    if (!picture)
+        child.refuse("a picture that cannot be");
+    return std::move(*picture);
 }
 
 Result<NamedMesh> decode_named_mesh(ByteView bytes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DICOM images and meshes of other programs, read by large libraries in sandboxed processes
-// (docs/decisions/foreign-files.md). This module checks the answers of those processes.
+// DICOM images, meshes and pictures of other programs, read by large libraries in sandboxed
+// processes (docs/decisions/foreign-files.md). This module checks the answers of those processes.
 //
 // One thread at a time uses an object. All functions throw Error with one sentence.
 #pragma once
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cases/dicom_slice.h"
+#include "image/image.h"
 #include "medical/mesh.h"
 #include "sandbox/child.h"
 #include "sandbox/inside.h"
@@ -22,6 +23,7 @@ namespace theatron::cases {
 // Larger files are refused before they are read.
 inline constexpr std::size_t max_dicom_file_bytes = std::size_t(256) << 20;
 inline constexpr std::size_t max_mesh_file_bytes = std::size_t(256) << 20;
+inline constexpr std::size_t max_picture_file_bytes = std::size_t(128) << 20;
 inline constexpr std::size_t max_reader_memory_bytes = std::size_t(2) << 30;
 inline constexpr std::size_t max_meshes_in_file = 1024;
 
@@ -46,6 +48,9 @@ bool is_dicom_file(const std::filesystem::path& file);
 // STL, OBJ, PLY, GLB, by the end of the name.
 bool is_mesh_file(const std::filesystem::path& file);
 
+// PNG, JPEG, by the end of the name.
+bool is_picture_file(const std::filesystem::path& file);
+
 struct NamedMesh {
     std::string name;    // that the file gives it; may be empty
     medical::Mesh mesh;  // as in the file: not welded, no normals, the file's unit and axes
@@ -53,15 +58,20 @@ struct NamedMesh {
 // All surfaces in a file.
 std::vector<NamedMesh> read_mesh_file(const std::filesystem::path& file);
 
+// The picture in a file, as medical/picture.h has it: upright, with sides that it allows.
+ColorImage read_picture_file(const std::filesystem::path& file);
+
 // A mesh as its reader hands it over. Safe for any bytes.
 inline constexpr std::size_t max_loose_vertices = 3 * medical::max_mesh_triangles;
 Result<NamedMesh> decode_named_mesh(ByteView bytes);
 
-// For run_as_child(): what DicomFiles and read_mesh_file() need.
+// For run_as_child(): what DicomFiles, read_mesh_file() and read_picture_file() need.
 void serve_dicom(sandbox::Inside& inside);
 void serve_meshes(sandbox::Inside& inside);
+void serve_pictures(sandbox::Inside& inside);
 inline constexpr sandbox::Reader foreign_readers[] = {
     {"dicom", sandbox::Profile::library, serve_dicom},
-    {"mesh", sandbox::Profile::library, serve_meshes}};
+    {"mesh", sandbox::Profile::library, serve_meshes},
+    {"picture", sandbox::Profile::library, serve_pictures}};
 
 }  // namespace theatron::cases

@@ -13,6 +13,7 @@
 #include "cases/patient_words.h"
 #include "files/file_bytes.h"
 #include "files/private_file.h"
+#include "medical/picture.h"
 
 namespace theatron::cases {
 namespace {
@@ -113,15 +114,19 @@ void require_silent(const ImportOptions& options, const PatientWords& words) {
 
 ImportReport import_case(const fs::path& source, const fs::path& folder,
                          const ImportOptions& options, const Progress& progress) {
-    const SourceFiles files = find_source_files(source);
+    SourceFiles files = find_source_files(source);
+    if (options.without_pictures)
+        files.pictures.clear();
     NewFolder target(folder);
     ImportReport report;
     const std::optional<Case> manifest = manifest_of(files);
     std::vector<ImportedPart> parts = parts_of(files, manifest, options, report.remarks, progress);
     std::vector<ImportedSeries> all_series = import_series(files.images, report.remarks, progress);
-    if (parts.empty() && all_series.empty())
+    std::vector<ImportedPicture> pictures =
+        import_pictures(files.pictures, manifest, report.remarks, progress);
+    if (parts.empty() && all_series.empty() && pictures.empty())
         throw Error("'" + clean_text(source.string(), 300) +
-                    "' holds neither images nor surfaces that could be shown.");
+                    "' holds neither images nor surfaces nor pictures that could be shown.");
 
     Case& result = report.manifest;
     PatientWords words;
@@ -172,6 +177,18 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
         part.file = "part_" + std::to_string(i + 1) + mesh_extension;
         files::write_file(target.path() / part.file, medical::encode_mesh(parts[i].mesh));
         result.parts.push_back(part);
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        medical::CasePicture& picture = pictures[i].picture;
+        if (words.occur_in(picture.name)) {
+            picture.name = "picture " + std::to_string(i + 1);
+            report.remarks.push_back("A picture's name had the patient's in it and became '" +
+                                     picture.name + "'.");
+        }
+        picture.file = "picture_" + std::to_string(i + 1) + picture_extension;
+        files::write_file(target.path() / picture.file,
+                          medical::encode_picture(pictures[i].image.view()));
+        result.pictures.push_back(picture);
     }
     write_identifiers(target.path(), all_series);
     files::write_file(target.path() / manifest_name, as_bytes(manifest_text(result)));

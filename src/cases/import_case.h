@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a case (case_folder.h) out of the files of surgeons' programs: folders with DICOM images,
-// surfaces (STL, OBJ, PLY, GLB) and label maps (NIfTI, NRRD).
+// surfaces (STL, OBJ, PLY, GLB), label maps (NIfTI, NRRD) and pictures (PNG, JPEG).
 //
 // The source is not changed. Large libraries read it in processes of their own. Texts that identify
 // the patient go into a separate file that only this user can read.
@@ -35,6 +35,7 @@ struct ImportOptions {
     std::size_t max_triangles = 60'000;  // of a part
     // Parts out of label maps also where the source has surfaces.
     bool surfaces_from_labels = false;
+    bool without_pictures = false;
     std::vector<LabelChoice> labels;  // names for labels that the file names not
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two halves of an import: series out of DICOM images, parts out of surfaces and label maps.
+// The parts of an import: series out of DICOM images, parts out of surfaces and label maps, and
+// pictures.
 // Only for this module.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include "cases/import_case.h"
 #include "cases/label_map.h"
 #include "cases/source_files.h"
+#include "image/image.h"
 #include "medical/mesh.h"
 #include "medical/volume.h"
 
@@ -42,6 +44,16 @@ std::vector<ImportedPart> import_labels(const std::filesystem::path& file,
                                         const ImportOptions& options, std::set<int>& found,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress);
+
+struct ImportedPicture {
+    medical::CasePicture picture;  // without a file yet
+    ColorImage image;
+};
+// In the order of their files. `manifest` may name them.
+std::vector<ImportedPicture> import_pictures(const std::vector<std::filesystem::path>& files,
+                                             const std::optional<medical::Case>& manifest,
+                                             std::vector<std::string>& remarks,
+                                             const Progress& progress);
 
 // The label map in a file. Throws Error with one sentence.
 LabelMap read_label_map(const std::filesystem::path& file);

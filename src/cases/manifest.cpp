@@ -214,6 +214,14 @@ bool is_too_deep(std::string_view text) {
     return most > deepest;
 }
 
+medical::CasePicture read_picture(Fields& fields, const Json& json, std::size_t number) {
+    fields.enter(json, "picture " + std::to_string(number), {"name", "file"});
+    medical::CasePicture picture;
+    picture.name = fields.text("name", max_name_characters);
+    picture.file = fields.file();
+    return picture;
+}
+
 std::string problem_of_version(const Json& json) {
     const auto version = json.find("theatron_case");
     if (version == json.end())
@@ -251,9 +259,15 @@ ParsedManifest parse_manifest(std::string_view text) {
 
     Fields fields;
     Case value;
-    fields.enter(json, "",
-                 {"theatron_case", "name", "units", "space", "deidentified", "license", "credit",
-                  "parts", "series"});
+    const bool has_pictures = json["theatron_case"] != manifest_version_without_pictures;
+    if (has_pictures)
+        fields.enter(json, "",
+                     {"theatron_case", "name", "units", "space", "deidentified", "license",
+                      "credit", "parts", "series", "pictures"});
+    else
+        fields.enter(json, "",
+                     {"theatron_case", "name", "units", "space", "deidentified", "license",
+                      "credit", "parts", "series"});
     value.name = fields.text("name", max_name_characters);
     value.unit = Unit(fields.choice("units", unit_names));
     value.axes = Axes(fields.choice("space", axes_names));
@@ -262,10 +276,14 @@ ParsedManifest parse_manifest(std::string_view text) {
     value.credit = fields.text("credit", max_credit_characters);
     const auto parts = fields.list("parts", max_parts);
     const auto series = fields.list("series", max_series);
+    const auto pictures =
+        has_pictures ? fields.list("pictures", max_pictures) : std::vector<const Json*>();
     for (const Json* part : parts)
         value.parts.push_back(read_part(fields, *part, value.parts.size() + 1));
     for (const Json* one : series)
         value.series.push_back(read_series(fields, *one, value.series.size() + 1));
+    for (const Json* one : pictures)
+        value.pictures.push_back(read_picture(fields, *one, value.pictures.size() + 1));
     return {std::move(value), fields.problem()};
 }
 
@@ -288,15 +306,18 @@ std::string manifest_text(const Case& value) {
             series["missing_slices"] = one.missing_slices;
         all_series.push_back(std::move(series));
     }
-    const Json json{{"theatron_case", manifest_version},
-                    {"name", value.name},
-                    {"units", unit_names[std::size_t(value.unit)]},
-                    {"space", axes_names[std::size_t(value.axes)]},
-                    {"deidentified", value.deidentified},
-                    {"license", value.license},
-                    {"credit", value.credit},
-                    {"parts", parts},
-                    {"series", all_series}};
+    Json json{{"theatron_case",
+               value.pictures.empty() ? manifest_version_without_pictures : manifest_version},
+              {"name", value.name},
+              {"units", unit_names[std::size_t(value.unit)]},
+              {"space", axes_names[std::size_t(value.axes)]},
+              {"deidentified", value.deidentified},
+              {"license", value.license},
+              {"credit", value.credit},
+              {"parts", parts},
+              {"series", all_series}};
+    for (const medical::CasePicture& one : value.pictures)
+        json["pictures"].push_back({{"name", one.name}, {"file", one.file}});
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

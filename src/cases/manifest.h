@@ -16,9 +16,11 @@ inline constexpr const char* manifest_name = "case.json";
 inline constexpr std::size_t max_manifest_bytes = std::size_t(1) << 20;
 inline constexpr std::size_t max_parts = 256;
 inline constexpr std::size_t max_series = 16;
+inline constexpr std::size_t max_pictures = 64;
 inline constexpr std::size_t max_name_characters = 64;
 inline constexpr std::size_t max_credit_characters = 500;
-inline constexpr int manifest_version = 1;
+// Manifests without pictures are written in version 1, which older programs read.
+inline constexpr int manifest_version = 2, manifest_version_without_pictures = 1;
 
 // A case understood, or what is wrong, as the end of a sentence that begins with the manifest's
 // name ("lacks 'parts'").

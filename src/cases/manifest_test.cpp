@@ -43,6 +43,25 @@ TEST(Manifest, IsReadAndWritten) {
     EXPECT_EQ(again.value, parsed.value);
 }
 
+TEST(Manifest, PicturesNeedVersion2) {
+    EXPECT_THAT(manifest_text(parse_manifest(example).value), HasSubstr("\"theatron_case\": 1"));
+    EXPECT_EQ(parse_manifest(changed("\"theatron_case\": 1", "\"theatron_case\": 2")).problem,
+              "lacks 'pictures'");
+    const std::string list =
+        R"("pictures": [{"name": "wound", "file": "picture_1.thpicture"}], "series")";
+    EXPECT_EQ(parse_manifest(changed("\"series\"", list)).problem,
+              "has the unknown key 'pictures'");
+    std::string text = changed("\"theatron_case\": 1", "\"theatron_case\": 2");
+    text.replace(text.find("\"series\""), 8, list);
+    const ParsedManifest parsed = parse_manifest(text);
+    ASSERT_EQ(parsed.problem, "");
+    ASSERT_EQ(parsed.value.pictures.size(), 1u);
+    EXPECT_EQ(parsed.value.pictures[0].name, "wound");
+    const ParsedManifest again = parse_manifest(manifest_text(parsed.value));
+    EXPECT_EQ(again.problem, "");
+    EXPECT_EQ(again.value, parsed.value);
+}
+
 TEST(Manifest, EachProblemIsNamed) {
     const auto problem = [](const std::string& from, const std::string& to) {
         return parse_manifest(changed(from, to)).problem;
@@ -53,7 +72,7 @@ TEST(Manifest, EachProblemIsNamed) {
     EXPECT_THAT(parse_manifest(std::string(100000, '[')).problem, HasSubstr("too deeply"));
     EXPECT_THAT(parse_manifest(std::string(2 << 20, ' ')).problem, HasSubstr("1024 KiB"));
     EXPECT_EQ(problem("\"theatron_case\": 1", "\"theatron_case\": 7"),
-              "is of version 7, which a newer version of Theatron wrote; this one reads version 1");
+              "is of version 7, which a newer version of Theatron wrote; this one reads version 2");
     EXPECT_EQ(problem("\"role\": \"shell\", ", ""), "lacks 'role' in part 1");
     EXPECT_EQ(problem("\"shell\"", "\"lung\""),
               "has 'lung' as 'role' in part 1; it is one of shell, artery, portal_vein, "

@@ -79,11 +79,13 @@ TEST(RealCase, ASeriesWithItsSurfacesIsImportedAndItsSurfacesLieWhereTheImagesSh
     testing::TemporaryFolder folder;
     const fs::path target = folder.path() / "case";
     const ImportReport report = import_case(shared_case("hcc-tace-048"), target, {}, no_progress);
-    EXPECT_THAT(report.remarks, ::testing::ElementsAre(HasSubstr("--from-labels")));
+    EXPECT_THAT(report.remarks, ::testing::ElementsAre(HasSubstr("--from-labels"),
+                                                       HasSubstr("The picture is shown")));
     EXPECT_TRUE(report.manifest.deidentified);
     EXPECT_THAT(check_case(target).problems, IsEmpty());
 
     const LoadedCase loaded = read_case(target);
+    ASSERT_EQ(loaded.pictures.size(), 1u) << "preview.png";
     ASSERT_EQ(loaded.volumes.size(), 1u);
     const medical::Volume& volume = loaded.volumes[0];
     EXPECT_EQ(volume.grid.columns, 512);

@@ -9,6 +9,7 @@
 #include "cases/case_folder.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
+#include "medical/picture.h"
 #include "medical/slice.h"
 
 namespace theatron::cases {
@@ -36,8 +37,9 @@ void extend(std::optional<medical::Box>& all, const medical::Box& box) {
 
 ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uint64_t max_bytes) {
     const medical::Case manifest = read_finished_manifest(folder);
-    if (manifest.parts.empty() && manifest.series.empty())
-        throw Error("The case in " + in_quotes(folder) + " has neither parts nor series.");
+    if (manifest.parts.empty() && manifest.series.empty() && manifest.pictures.empty())
+        throw Error("The case in " + in_quotes(folder) +
+                    " has neither parts nor series nor pictures.");
     ShareableCase shared;
     const auto take = [&](const fs::path& file) {
         std::error_code failed;
@@ -89,7 +91,15 @@ ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uin
         about.series.push_back({series.name, series.modality, keep(std::move(bytes)),
                                 std::uint16_t(series.missing_slices.size())});
     }
-    about.middle_mm = (box->low_mm + box->high_mm) * 0.5;
+    for (const medical::CasePicture& picture : manifest.pictures) {
+        const fs::path file = file_of(folder, picture);
+        auto bytes = take(file);
+        if (!medical::decode_picture(*bytes))
+            throw Error(in_quotes(file) + " is no picture of a case; import the case again.");
+        about.pictures.push_back({picture.name, keep(std::move(bytes))});
+    }
+    if (box)
+        about.middle_mm = (box->low_mm + box->high_mm) * 0.5;
     auto description = std::make_shared<const Bytes>(medical::encode_shared_case(about));
     shared.id = hash_of(*description);
     shared.bytes += description->size();

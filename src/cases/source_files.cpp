@@ -27,6 +27,8 @@ void sort_in(const fs::path& file, SourceFiles& files) {
         files.meshes.push_back(file);
     else if (is_nifti_file(file) || is_nrrd_file(file))
         files.label_maps.push_back(file);
+    else if (is_picture_file(file))
+        files.pictures.push_back(file);
     else if (is_dicom_file(file))
         files.images.push_back(file);
     else
@@ -73,10 +75,11 @@ SourceFiles find_source_files(const fs::path& source) {
         for (const fs::path& file : found)
             sort_in(file, files);
     }
-    if (files.images.empty() && files.meshes.empty() && files.label_maps.empty())
+    if (files.images.empty() && files.meshes.empty() && files.label_maps.empty() &&
+        files.pictures.empty())
         throw Error(name +
                     " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
-                    "maps (NIfTI, NRRD).");
+                    "maps (NIfTI, NRRD) nor pictures (PNG, JPEG).");
     return files;
 }
 

@@ -11,6 +11,7 @@ struct SourceFiles {
     std::vector<std::filesystem::path> images;  // DICOM
     std::vector<std::filesystem::path> meshes;
     std::vector<std::filesystem::path> label_maps;
+    std::vector<std::filesystem::path> pictures;  // PNG, JPEG
     std::vector<std::filesystem::path> others;
 };
 

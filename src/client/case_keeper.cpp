@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "base/thread_name.h"
+#include "medical/picture.h"
 #include "net/content_digest.h"
 #include "session/case_objects.h"
 
@@ -44,7 +45,8 @@ std::optional<ContentHash> open_case(const session::RoomObjects& objects) {
 bool OpenCase::is_complete() const {
     const auto is_there = [](const auto& content) { return content != nullptr; };
     return description && std::all_of(meshes.begin(), meshes.end(), is_there) &&
-           std::all_of(volumes.begin(), volumes.end(), is_there);
+           std::all_of(volumes.begin(), volumes.end(), is_there) &&
+           std::all_of(pictures.begin(), pictures.end(), is_there);
 }
 
 CaseKeeper::CaseKeeper(std::function<void()> changed, std::function<void()> requests)
@@ -108,7 +110,7 @@ std::shared_ptr<const medical::SharedCase> CaseKeeper::description() const {
     return about ? *about : nullptr;
 }
 
-// The description first, then organs, then images, which are larger.
+// The description first, then organs and pictures, then images, which are larger.
 void CaseKeeper::want() {
     std::vector<session::ContentFetch::Wanted> wanted;
     const auto add = [&](const ContentHash& hash, std::uint64_t size, bool exact) {
@@ -123,6 +125,8 @@ void CaseKeeper::want() {
     if (about && about->content_bytes() <= max_case_bytes) {
         for (const medical::SharedPart& part : about->parts)
             add(part.mesh.hash, part.mesh.size, true);
+        for (const medical::SharedPicture& picture : about->pictures)
+            add(picture.picture.hash, picture.picture.size, true);
         for (const medical::SharedSeries& series : about->series)
             add(series.volume.hash, series.volume.size, true);
         forget_others();
@@ -149,6 +153,9 @@ std::optional<CaseKeeper::Kind> CaseKeeper::kind_of(const ContentHash& hash) con
         for (const medical::SharedSeries& series : about->series)
             if (series.volume.hash == hash)
                 return Kind::volume;
+        for (const medical::SharedPicture& picture : about->pictures)
+            if (picture.picture.hash == hash)
+                return Kind::picture;
     }
     return std::nullopt;
 }
@@ -183,25 +190,39 @@ std::vector<wire::RequestContent> CaseKeeper::take_requests(TimePoint now) {
 }
 
 CaseKeeper::Content CaseKeeper::decode(const Waiting& waiting) {
+    Status problem = Status::ok;
+    const auto decoded = [&](auto result) -> Content {
+        using T = std::decay_t<decltype(*result)>;
+        if (result)
+            return std::make_shared<const T>(std::move(*result));
+        problem = result.error();
+        return std::string();
+    };
+    Content content;
     switch (waiting.kind) {
-        case Kind::description:
-            if (auto about = medical::decode_shared_case(waiting.bytes)) {
-                if (about->content_bytes() > max_case_bytes)
-                    return "The case is larger than the " + std::to_string(max_case_bytes >> 20) +
-                           " MiB that a participant takes.";
-                return std::make_shared<const medical::SharedCase>(std::move(*about));
-            }
+        case Kind::description: {
+            auto about = medical::decode_shared_case(waiting.bytes);
+            if (about && about->content_bytes() > max_case_bytes)
+                return "The case is larger than the " + std::to_string(max_case_bytes >> 20) +
+                       " MiB that a participant takes.";
+            content = decoded(std::move(about));
             break;
+        }
         case Kind::mesh:
-            if (auto mesh = medical::decode_mesh(waiting.bytes))
-                return std::make_shared<const medical::Mesh>(std::move(*mesh));
+            content = decoded(medical::decode_mesh(waiting.bytes));
             break;
         case Kind::volume:
-            if (auto volume = medical::decode_volume(waiting.bytes))
-                return std::make_shared<const medical::Volume>(std::move(*volume));
+            content = decoded(medical::decode_volume(waiting.bytes));
+            break;
+        case Kind::picture:
+            content = decoded(medical::decode_picture(waiting.bytes));
             break;
     }
-    return std::string("The host sent a part of the case that cannot be read.");
+    if (problem == Status::unsupported_version)
+        return std::string("The case is of a newer version of Theatron than this program.");
+    if (problem != Status::ok)
+        return std::string("The host sent a part of the case that cannot be read.");
+    return content;
 }
 
 void CaseKeeper::run() {
@@ -241,7 +262,7 @@ std::optional<OpenCase> CaseKeeper::open(std::uint64_t& version) const {
     version = version_;
     if (!open_)
         return std::nullopt;
-    OpenCase open{*open_, std::nullopt, {}, {}, fetch_.progress(), ""};
+    OpenCase open{*open_, std::nullopt, {}, {}, {}, fetch_.progress(), ""};
     if (!fetch_.failures().empty())
         open.problem = text_of(fetch_.failures().begin()->second);
     const auto find = [&]<class T>(const ContentHash& hash, T& content) {
@@ -260,10 +281,13 @@ std::optional<OpenCase> CaseKeeper::open(std::uint64_t& version) const {
     open.description = *about;
     open.meshes.resize(about->parts.size());
     open.volumes.resize(about->series.size());
+    open.pictures.resize(about->pictures.size());
     for (std::size_t i = 0; i < about->parts.size(); ++i)
         find(about->parts[i].mesh.hash, open.meshes[i]);
     for (std::size_t i = 0; i < about->series.size(); ++i)
         find(about->series[i].volume.hash, open.volumes[i]);
+    for (std::size_t i = 0; i < about->pictures.size(); ++i)
+        find(about->pictures[i].picture.hash, open.pictures[i]);
     return open;
 }
 

@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "image/image.h"
 #include "medical/mesh.h"
 #include "medical/shared_case.h"
 #include "medical/volume.h"
@@ -29,9 +30,10 @@ namespace theatron::client {
 struct OpenCase {
     ContentHash id;
     std::optional<medical::SharedCase> description;
-    // One for each part and each series; null: it has not come.
+    // One for each part, series and picture; null: it has not come.
     std::vector<std::shared_ptr<const medical::Mesh>> meshes;
     std::vector<std::shared_ptr<const medical::Volume>> volumes;
+    std::vector<std::shared_ptr<const ColorImage>> pictures;
     session::ContentFetch::Progress progress;
     std::string problem;  // a sentence on why something is missing for good; empty: nothing is
     // All content is there.
@@ -64,8 +66,9 @@ public:
 private:
     using Content =
         std::variant<std::shared_ptr<const medical::Mesh>, std::shared_ptr<const medical::Volume>,
-                     std::shared_ptr<const medical::SharedCase>, std::string>;
-    enum class Kind { description, mesh, volume };
+                     std::shared_ptr<const ColorImage>, std::shared_ptr<const medical::SharedCase>,
+                     std::string>;
+    enum class Kind { description, mesh, volume, picture };
     struct Waiting {
         ContentHash hash;
         Kind kind{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // receive::Receiver on several threads: each decodes some of the cameras, so that
-// many cameras use all cores of a viewer. The caller never waits for a decoder. In a browser's
-// page there is one receiver and no thread (decoders_web.cpp).
+// many cameras use all cores of a viewer. The caller never waits for a decoder. In a browser
+// the page's workers are used (decoders_web.cpp).
 #pragma once
 
 #include <atomic>

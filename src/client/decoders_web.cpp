@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decoding in a browser's page: at once, in the event that brought the message.
+// Decoding in a browser: in the page's workers, or where there are none at once in the event that
+// brought the message.
 #include <algorithm>
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "client/decoder_pool_web.h"
 #include "client/decoders.h"
+#include "client/pooled_decoders_web.h"
 
 namespace theatron::client {
+namespace {
+
+// The workers' decoders of the page's one participant.
+std::unique_ptr<PooledDecoders>& pooled() {
+    static std::unique_ptr<PooledDecoders> only;
+    return only;
+}
+
+}  // namespace
 
 Decoders::Decoders(Events events) : events_(std::move(events)) {
+    pooled().reset();
+    if (decoder_pool().count > 0)
+        pooled() = std::make_unique<PooledDecoders>(events_);
     workers_.push_back(std::make_unique<Worker>(receiver_events(0)));
 }
 
-Decoders::~Decoders() = default;
+Decoders::~Decoders() {
+    pooled().reset();
+}
 
 receive::Receiver::Events Decoders::receiver_events(std::size_t worker) {
     receive::Receiver::Events events;
@@ -25,6 +42,10 @@ receive::Receiver::Events Decoders::receiver_events(std::size_t worker) {
 }
 
 std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
+    if (pooled()) {
+        pooled()->set_cameras(cameras);
+        return pooled()->generation();
+    }
     Worker& worker = *workers_.front();
     worker.generation = ++generation_;
     // No decoder is kept: numbers of settings may start again.
@@ -34,10 +55,14 @@ std::uint64_t Decoders::set_cameras(const std::vector<wire::Camera>& cameras) {
 }
 
 void Decoders::change_cameras(const std::vector<wire::Camera>& cameras) {
+    if (pooled())
+        return pooled()->change_cameras(cameras);
     workers_.front()->receiver.set_cameras(cameras);
 }
 
 void Decoders::set_settings(const std::vector<wire::StreamSetting>& settings) {
+    if (pooled())
+        return pooled()->set_settings(settings);
     try {
         workers_.front()->receiver.set_settings(settings);
     } catch (const Error& e) {
@@ -45,7 +70,9 @@ void Decoders::set_settings(const std::vector<wire::StreamSetting>& settings) {
     }
 }
 
-bool Decoders::on_media(Bytes& message, std::uint64_t) {
+bool Decoders::on_media(Bytes& message, std::uint64_t connection) {
+    if (pooled())
+        return pooled()->on_media(message, connection);
     receive::Receiver& receiver = workers_.front()->receiver;
     // The receiver counts damage and requests a key frame.
     if (!contain("decode", [&] { (void)receiver.on_media(message, events_.now()); }))
@@ -56,10 +83,14 @@ bool Decoders::on_media(Bytes& message, std::uint64_t) {
 }
 
 std::vector<receive::StreamFigures> Decoders::figures() {
+    if (pooled())
+        return pooled()->figures();
     return workers_.front()->receiver.figures(events_.now());
 }
 
 void Decoders::reset_figures() {
+    if (pooled())
+        return pooled()->reset_figures();
     workers_.front()->receiver.reset_figures();
 }
 

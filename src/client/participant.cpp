@@ -8,6 +8,7 @@
 #include "base/fault.h"
 #include "base/outside_text.h"
 #include "base/steady_clock.h"
+#include "client/participant_figures.h"
 #include "client/participant_shared.h"
 #include "wire/envelope.h"
 
@@ -21,7 +22,7 @@ constexpr Duration longest_wait = std::chrono::seconds(2);
 constexpr std::size_t max_poses = 256;
 
 std::vector<wire::Feature> features_of(const Participant::Options& options) {
-    std::vector<wire::Feature> features;
+    std::vector<wire::Feature> features{wire::Feature::adjusting, wire::Feature::playback};
     if (options.publishing.published)
         features.push_back(wire::Feature::publish);
     if (options.sends_only)
@@ -30,6 +31,7 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::room);
     if (options.keeps_cases)
         features.push_back(wire::Feature::cases);
+    features.push_back(wire::Feature::voice_consent);
     return features;
 }
 
@@ -43,6 +45,7 @@ Participant::Participant(Options options)
       decoders_(std::make_unique<Decoders>(decoded_events())),
       wait_(first_wait) {
     shared_->status.goal = options_.delivery;
+    shared_->voice_may_record = options_.voice_may_record;
     if (options_.keeps_cases)
         cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
     if (session_.begin().size() + 1 > wire::max_first_envelope_size)
@@ -234,35 +237,6 @@ void Participant::on_state(const wire::State& state) {
         options_.pose(person, *pose);
 }
 
-void Participant::send_pose(const wire::PersonPose& pose) {
-    const std::lock_guard lock(shared_->mutex);
-    if (!shared_->client)
-        return;
-    const bool is_telling = shared_->own_pose.has_value();
-    shared_->own_pose = pose;
-    if (!is_telling)
-        shared_->client->post([this] { tell_pose(); });
-}
-
-void Participant::tell_pose() {
-    std::optional<wire::PersonPose> pose;
-    {
-        const std::lock_guard lock(shared_->mutex);
-        pose = std::exchange(shared_->own_pose, std::nullopt);
-    }
-    if (!pose || !session_.joined())
-        return;
-    const Bytes body = wire::encode_person_pose(*pose);
-    const auto own = std::uint32_t(session_.welcome().participant);
-    const wire::State state{{wire::StateTopic::pose, own}, body};
-    shared_->client->send_states({&state, 1});
-}
-
-std::map<ParticipantId, wire::PersonPose> Participant::poses() const {
-    const std::lock_guard lock(shared_->mutex);
-    return shared_->poses;
-}
-
 void Participant::request_key(StreamId stream, SettingId setting) {
     shared_->client->send_control(wire::encode(wire::RequestKey{stream, setting}));
 }
@@ -272,6 +246,7 @@ void Participant::on_control(ByteView message) {
     switch (session_.on_control(message)) {
         case Change::welcomed:
             on_welcome();
+            tell_voice_consent();
             break;
         case Change::cameras:
             on_cameras();
@@ -303,6 +278,8 @@ void Participant::on_control(ByteView message) {
                 ++status.pongs;
                 status.clock_error = shared_->clock.error_bound();
                 is_new = shared_->clock.known() && !std::exchange(status.clock_known, true);
+                if (is_new)
+                    shared_->figures = without_ages(std::move(shared_->figures));
             }
             if (is_new)
                 offer_cameras();
@@ -353,6 +330,9 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::managed:
             on_managed();
+            break;
+        case Change::playback:
+            on_playback();
             break;
         case Change::cases:
             if (cases_)
@@ -428,93 +408,10 @@ void Participant::on_tick() {
     client.send_control(wire::encode(report));
 }
 
-Participant::Status Participant::status() const {
-    const std::lock_guard lock(shared_->mutex);
-    return shared_->status;
-}
-
-std::vector<Participant::Camera> Participant::cameras(std::uint64_t& generation) const {
-    const std::lock_guard lock(shared_->mutex);
-    generation = shared_->generation;
-    return shared_->cameras;
-}
-
-std::vector<wire::StreamSetting> Participant::settings() const {
-    const std::lock_guard lock(shared_->mutex);
-    return shared_->settings;
-}
-
-std::vector<receive::CameraFramePtr> Participant::take_frames() {
-    const std::lock_guard lock(shared_->mutex);
-    std::vector<receive::CameraFramePtr> frames;
-    for (auto& [camera, frame] : shared_->newest)
-        frames.push_back(std::move(frame));
-    shared_->newest.clear();
-    return frames;
-}
-
-bool Participant::wait_for_frame(Duration timeout) {
-    std::unique_lock lock(shared_->mutex);
-    return shared_->changed.wait_for(lock, timeout, [&] { return !shared_->newest.empty(); });
-}
-
-std::vector<receive::StreamFigures> Participant::figures() const {
-    const std::lock_guard lock(shared_->mutex);
-    return shared_->figures;
-}
-
-void Participant::reset_figures() {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->reset_wanted = true;
-}
-
-TimePoint Participant::now() const {
-    return session_time(steady_now());
-}
-
-TimePoint Participant::session_time(TimePoint steady) const {
-    const std::lock_guard lock(shared_->mutex);
-    return steady + shared_->clock.offset();
-}
-
-void Participant::choose_codecs(const std::string& depth, const std::string& color) {
-    const std::lock_guard lock(shared_->mutex);
-    if (!depth.empty())
-        shared_->depth_wish = depth;
-    if (!color.empty())
-        shared_->color_wish = color;
-}
-
-void Participant::choose_codecs(CameraId camera, const std::string& depth,
-                                const std::string& color) {
-    const std::lock_guard lock(shared_->mutex);
-    wire::ChooseCodecs& wish = shared_->camera_wishes[camera];
-    if (!depth.empty())
-        wish.depth_codec = depth;
-    if (!color.empty())
-        wish.color_codec = color;
-}
-
 void Participant::announce() const {
     shared_->changed.notify_all();
     if (options_.news)
         options_.news();
-}
-
-void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->delivery_wish = goal;
-    shared_->status.goal = goal;
-}
-
-std::optional<wire::SetRenderer> Participant::take_renderer_word() {
-    const std::lock_guard lock(shared_->mutex);
-    return std::exchange(shared_->renderer_word, std::nullopt);
-}
-
-void Participant::tell_renderer(const std::string& renderer) {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->renderer = renderer;
 }
 
 void Participant::remark(const std::string& text) const {

@@ -16,6 +16,7 @@
 #include "client/decoders.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
+#include "session/camera_adjustment.h"
 #include "session/key_requests.h"
 #include "session/member_room.h"
 #include "session/viewer_session.h"
@@ -70,6 +71,8 @@ public:
         bool keeps_room = false;
         // Takes the content of the case that is open in the room; needs keeps_room.
         bool keeps_cases = false;
+        // This person agrees that others record its voice; see allow_voice_recording().
+        bool voice_may_record = false;
         // An object of the room or its pose has changed. Called from the participant's thread.
         std::function<void()> room_changed;
     };
@@ -164,6 +167,12 @@ public:
     // Sends a packet of this participant's voice (voice/packet.h), from any thread. The oldest are
     // dropped if they cannot be sent at once. The others get it with this participant's number.
     void send_voice(ByteView packet);
+    // From any thread: this person agrees from now on that others record its voice, or no longer.
+    // The host sends it to no recorder before that. Holds on later connections, too.
+    void allow_voice_recording(bool agrees);
+    bool voice_may_record() const;
+    // False if the host is too old to know of such an agreement: then nobody records the voice.
+    bool asks_voice_consent() const;
 
     // The room, from any thread. A request or a move changes room() at once; a refusal of the host
     // takes that back. People are objects of kind `person` (session/room_bytes.h).
@@ -198,6 +207,13 @@ public:
     // Sends a decision on a person. Returns its number; 0 while not joined.
     std::uint32_t manage(wire::ManageAction action, ParticipantId person = {},
                          wire::Role role = {});
+    // Adjusts a camera for all; kept within its limits. The answer is a Managed, too. Returns its
+    // number; 0 while not joined, or where the host cannot do this.
+    std::uint32_t adjust(CameraId camera, const session::CameraAdjustment& adjustment);
+    // Plays the recording that the host shows, for all; likewise.
+    std::uint32_t play(wire::PlayAction action, Duration position = {});
+    // Where that recording is; empty: the host plays none.
+    std::optional<wire::Playback> playback() const;
     // The oldest answer to a decision that is not taken yet, if any.
     std::optional<wire::Managed> take_managed();
 
@@ -218,6 +234,7 @@ private:
     void on_state(const wire::State& state);
     void tell_pose();
     void tell_voice();
+    void tell_voice_consent();
     void on_room_message();
     void tell_content();
     void request_content();
@@ -226,6 +243,8 @@ private:
     void on_standing();
     void on_visitors();
     void on_managed();
+    void on_playback();
+    std::uint32_t decide(auto decision);
     void offer_cameras();
     void on_published();
     void refuse_cameras(const wire::Text& why);

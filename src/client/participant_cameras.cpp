@@ -42,6 +42,8 @@ void Participant::on_welcome() {
     shared_->status.publish_problem.clear();
     shared_->status.host_name = session_.welcome().host_name;
     shared_->status.delivery = {};
+    shared_->may_adjust = session_.has(wire::Feature::adjusting);
+    shared_->playback.reset();
     shared_->renderer_word = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;

@@ -54,6 +54,13 @@ std::uint64_t ParticipantFigures::dropped() const {
     return sum;
 }
 
+std::string adjustment_text(const wire::Camera& camera) {
+    const auto adjustment = session::decode_adjustment(camera.adjustment);
+    if (!adjustment)
+        return "adjusted in a way that this version of Theatron does not know";
+    return *adjustment == session::CameraAdjustment{} ? "" : text_of(*adjustment);
+}
+
 std::string recorded_text(const ParticipantFigures& figures) {
     std::string text;
     for (const auto& [name, lasts] : figures.recordings) {
@@ -63,6 +70,13 @@ std::string recorded_text(const ParticipantFigures& figures) {
                                : std::to_string(seconds / 60) + " min");
     }
     return text;
+}
+
+std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures) {
+    for (receive::StreamFigures& stream : figures)
+        stream.age_ms = stream.age_now_ms = stream.age_p50_ms = stream.age_p99_ms =
+            stream.age_max_ms = 0;
+    return figures;
 }
 
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,

@@ -39,8 +39,15 @@ struct ParticipantFigures {
     std::uint64_t dropped() const;
 };
 
+// A camera's adjustment: "moved by 12.0, 0.0, 0.0 mm"; empty: it is as registered.
+std::string adjustment_text(const wire::Camera& camera);
+
 // "recorded by Anna, 12 s; Ben, 3 min"; empty if nobody records.
 std::string recorded_text(const ParticipantFigures& figures);
+
+// Ages between this machine's clock and the session's mean nothing before the session's is known:
+// the figures with ages of 0.
+std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures);
 
 // The state of a camera as it shows here: one that is said to be live is stale while its pictures
 // do not arrive, because its publisher or the host has stopped or the link is cut. `is_thinned`:

@@ -37,5 +37,17 @@ TEST(CameraState, SaysWhyItIsStale) {
     EXPECT_EQ(wire::english(state.problem), "Its pictures do not arrive any more.");
 }
 
+TEST(Figures, HaveNoAgesWhileTheSessionsClockIsUnknown) {
+    receive::StreamFigures depth;
+    depth.frames = 7;
+    depth.age_ms = depth.age_now_ms = -8e7;
+    depth.age_p50_ms = depth.age_p99_ms = depth.age_max_ms = 8e7;
+    const receive::StreamFigures shown = without_ages({depth}).front();
+    EXPECT_EQ(shown.frames, 7u);
+    for (const double age :
+         {shown.age_ms, shown.age_now_ms, shown.age_p50_ms, shown.age_p99_ms, shown.age_max_ms})
+        EXPECT_EQ(age, 0);
+}
+
 }  // namespace
 }  // namespace theatron::client

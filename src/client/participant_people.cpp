@@ -76,13 +76,43 @@ std::vector<wire::Visitor> Participant::visitors() const {
 
 std::uint32_t Participant::manage(wire::ManageAction action, ParticipantId person,
                                   wire::Role role) {
+    return decide(wire::Manage{0, action, person, role});
+}
+
+std::uint32_t Participant::decide(auto decision) {
     const std::lock_guard lock(shared_->mutex);
     if (!shared_->client || shared_->status.phase != Phase::joined)
         return 0;
-    const wire::Manage decision{++shared_->decisions, action, person, role};
+    decision.number = ++shared_->decisions;
     shared_->client->post(
         [this, decision] { shared_->client->send_control(wire::encode(decision)); });
     return decision.number;
+}
+
+std::uint32_t Participant::adjust(CameraId camera, const session::CameraAdjustment& adjustment) {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!shared_->may_adjust)
+            return 0;
+    }
+    return decide(wire::AdjustCamera{0, camera, session::encode_adjustment(adjustment)});
+}
+
+std::uint32_t Participant::play(wire::PlayAction action, Duration position) {
+    return playback() ? decide(wire::Play{0, action, position}) : 0;
+}
+
+void Participant::on_playback() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->playback = session_.playback();
+    }
+    announce();
+}
+
+std::optional<wire::Playback> Participant::playback() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->playback;
 }
 
 std::optional<wire::Managed> Participant::take_managed() {

@@ -47,6 +47,8 @@ struct Participant::Shared {
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
     std::deque<Bytes> voice;                   // packets not yet sent
+    bool voice_may_record = false;
+    bool asks_voice_consent = false;  // the host does, on this connection
     session::MemberRoom room;
     bool is_telling_room = false;    // tell_room() has been posted
     bool is_asking_content = false;  // request_content() has been posted
@@ -54,6 +56,8 @@ struct Participant::Shared {
     std::vector<wire::Visitor> visitors;
     std::uint32_t decisions = 0;                           // sent, for their numbers
     std::deque<wire::Managed> managed;                     // answers not yet taken
+    bool may_adjust = false;                               // the host knows adjustments
+    std::optional<wire::Playback> playback;                // of the host's recording
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
     std::vector<wire::OfferedCamera> offers;
     std::size_t media_waiting = 0;                    // for the participant's thread

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The voice of a participant.
+#include <algorithm>
 #include <utility>
 
 #include "client/participant_shared.h"
@@ -33,6 +34,38 @@ void Participant::tell_voice() {
         return;
     for (const Bytes& packet : packets)
         shared_->client->send_voice({session_.welcome().participant, packet});
+}
+
+void Participant::allow_voice_recording(bool agrees) {
+    const std::lock_guard lock(shared_->mutex);
+    if (std::exchange(shared_->voice_may_record, agrees) != agrees && shared_->client)
+        shared_->client->post([this] { tell_voice_consent(); });
+}
+
+bool Participant::voice_may_record() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->voice_may_record;
+}
+
+bool Participant::asks_voice_consent() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->asks_voice_consent;
+}
+
+void Participant::tell_voice_consent() {
+    if (!session_.joined())
+        return;
+    const auto& features = session_.welcome().features;
+    const bool is_asked =
+        std::count(features.begin(), features.end(), wire::Feature::voice_consent) > 0;
+    bool agrees = false;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->asks_voice_consent = is_asked;
+        agrees = shared_->voice_may_record;
+    }
+    if (is_asked)
+        shared_->client->send_control(wire::encode(wire::VoiceConsent{agrees}));
 }
 
 }  // namespace theatron::client

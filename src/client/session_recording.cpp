@@ -13,6 +13,7 @@
 #include "files/state_folder.h"
 #include "session/request_budget.h"
 #include "session/room_track.h"
+#include "voice/packet.h"
 
 namespace theatron::client {
 namespace {
@@ -21,8 +22,13 @@ constexpr Duration join_patience = std::chrono::seconds(15);
 // A host that was lost may be started again by hand.
 constexpr Duration return_patience = std::chrono::minutes(10);
 constexpr Duration said_after = std::chrono::seconds(1);
+// A camera that is being nudged begins a segment once it stays so long, or is nudged for so long.
+constexpr Duration place_stays = std::chrono::seconds(1),
+                   longest_nudging = std::chrono::seconds(10);
 constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
+// The room is known at once after the first pictures.
+constexpr Duration room_patience = std::chrono::seconds(1);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -66,6 +72,9 @@ public:
         options.described = [this] { on_described(); };
         options.keeps_room = true;
         options.room_changed = [this] { on_room(false); };
+        options.voice = [this](ParticipantId speaker, ByteView packet) {
+            on_voice(speaker, packet);
+        };
         options.pose = [this](ParticipantId person, const wire::PersonPose& pose) {
             on_pose(person, pose);
         };
@@ -91,8 +100,11 @@ public:
             end_ = End{status.problem, true};
         if (status.phase == Participant::Phase::ended)
             end_ = End{"", false};  // the participant has said it
-        if (status.phase == Participant::Phase::joined)
+        if (status.phase == Participant::Phase::joined) {
             note_states();
+            if (settles())
+                on_described();
+        }
         on_room(true);
     }
 
@@ -111,6 +123,11 @@ public:
     std::vector<std::string> not_agreed() const override {
         const std::lock_guard lock(mutex_);
         return not_agreed_;
+    }
+
+    std::vector<std::string> voices_not_agreed() const override {
+        const std::lock_guard lock(mutex_);
+        return silent_;
     }
 
     void stop() override {
@@ -143,6 +160,11 @@ private:
             end_ = End{"The host did not come back within " + seconds_text(patience) +
                            ", so the recording ends here.",
                        true};
+    }
+
+    bool settles() const {
+        const std::lock_guard lock(mutex_);
+        return clock_known_ && is_settling();
     }
 
     struct Early {
@@ -181,6 +203,35 @@ private:
         }
     }
 
+    // The mutex is held. The calibration to be recorded: while a slider moves a camera, that from
+    // before, since each one begins a segment.
+    const Bytes& settled(const wire::Camera& camera) {
+        const TimePoint local = steady_now();
+        auto [at, is_new] = settling_.try_emplace(
+            camera.id, Settling{camera.calibration, camera.calibration, {}, {}});
+        Settling& state = at->second;
+        if (camera.adjustment.empty() && state.adjustment.empty()) {
+            state = {camera.calibration, camera.calibration, {}, {}};
+            return state.recorded;
+        }
+        if (state.newest != camera.calibration) {
+            if (state.newest == state.recorded)
+                state.since = local;
+            state.newest = camera.calibration;
+            state.changed = local;
+        }
+        state.adjustment = camera.adjustment;
+        if (is_new || local - state.changed >= place_stays ||
+            local - state.since >= longest_nudging)
+            state.recorded = state.newest;
+        return state.recorded;
+    }
+    bool is_settling() const {
+        return std::any_of(settling_.begin(), settling_.end(), [](const auto& entry) {
+            return entry.second.newest != entry.second.recorded;
+        });
+    }
+
     // The mutex is held. Says once which cameras the host does not send.
     std::vector<Participant::Camera> recordable_cameras() {
         std::uint64_t generation = 0;
@@ -209,12 +260,16 @@ private:
         if (status.joins != joins_) {
             joins_ = status.joins;
             new_connection_ = true;
+            agreed_.clear();  // people have other numbers now
+            intake_.describe_voices({});
             room_.forget();
+            settling_.clear();
             room_version_ = 0;
             early_.clear();
             early_bytes_ = 0;
         }
         number_cameras(recordable_cameras());
+        std::erase_if(settling_, [&](const auto& entry) { return !recorded_as(entry.first); });
         std::vector<record::RecordedCamera> cameras;
         std::map<StreamId, SettingId> settings;
         if (describe(cameras, settings)) {
@@ -222,8 +277,20 @@ private:
                              steady_now());
             new_connection_ = false;
         }
+        if (status.clock_known && !clock_known_)
+            clock_known_at_ = steady_now();
         clock_known_ = status.clock_known;
-        if (!clock_known_)
+        record_early();
+    }
+
+    // The mutex is held; on the participant's thread. The people in the room say whose voices have
+    // tracks from the beginning; an old host may have no room.
+    bool is_ready() const {
+        return clock_known_ &&
+               (room_version_ > 0 || steady_now() - clock_known_at_ > room_patience);
+    }
+    void record_early() {
+        if (!is_ready())
             return;
         for (Early& early : std::exchange(early_, {}))
             record(early.stream, early.header, std::move(early.message));
@@ -252,7 +319,7 @@ private:
             r.id = *number;
             r.name = d.name;
             r.frames_per_second = d.frames_per_second;
-            r.calibration = d.calibration;
+            r.calibration = settled(d);
             if (d.frame == wire::CameraFrame::person) {
                 Calibration before_person = camera.calibration;
                 before_person.person = std::uint32_t(d.publisher);
@@ -300,10 +367,45 @@ private:
             if (room.objects.empty())
                 return;  // not known yet
             room_.note_objects(room.objects, now);
+            note_people(room.objects);
             room_version_ = room.version;
             room_noted_ = local;
         }
         record_room(local, now);
+    }
+
+    // Those in the room who agree that their voices are recorded, and those who do not.
+    void note_people(const session::RoomObjects& objects) {
+        std::vector<record::RecordedVoice> agreed;
+        for (const auto& [id, object] : objects) {
+            if (object.kind != session::ObjectKind::person || session::is_recorded(id))
+                continue;
+            const auto facts = session::decode_person(object.properties);
+            if (!facts || facts->records || !session::may(facts->role, session::Right::speak))
+                continue;
+            // A person who comes agrees a moment later.
+            if (facts->voice_recorded) {
+                std::erase(silent_, facts->name);
+                agreed.push_back({object.creator, facts->name});
+            } else if (std::find(silent_.begin(), silent_.end(), facts->name) == silent_.end()) {
+                silent_.push_back(facts->name);
+            }
+        }
+        if (agreed == agreed_)
+            return;
+        agreed_ = agreed;
+        intake_.describe_voices(std::move(agreed));
+    }
+
+    void on_voice(ParticipantId speaker, ByteView bytes) {
+        const auto packet = voice::parse_packet(bytes);
+        const std::lock_guard lock(mutex_);
+        if (stopped_ || !clock_known_ || !packet)
+            return;
+        intake_.take_voice(speaker,
+                           {packet->number, packet->time, packet->frame_ms, packet->pauses,
+                            packet->level_db, packet->opus},
+                           participant_->now());
     }
 
     void on_pose(ParticipantId person, const wire::PersonPose& pose) {
@@ -336,7 +438,8 @@ private:
         const StreamId stream = header.stream;
         header.stream = is_depth(stream) ? depth_stream(*number) : color_stream(*number);
         wire::write_media_header(header, message->data());
-        if (clock_known_)
+        record_early();
+        if (is_ready())
             return record(stream, header, std::move(message));
         early_bytes_ += message->size();
         // A message that is left out shows as a gap in the frames' numbers.
@@ -362,14 +465,23 @@ private:
     mutable std::mutex mutex_;                     // guards all below but the participant
     std::set<std::pair<int, CameraId>> left_out_;  // cameras of each connection
     std::vector<std::string> not_agreed_;
+    std::vector<record::RecordedVoice> agreed_;
+    std::vector<std::string> silent_;  // names of people whose voices may not be recorded
     bool stopped_ = false;
     int joins_ = 0;
     bool new_connection_ = false;
     bool clock_known_ = false;
-    std::vector<Early> early_;  // came before the clock was known
+    TimePoint clock_known_at_;
+    std::vector<Early> early_;  // came before the clock and the room were known
     std::size_t early_bytes_ = 0;
     std::map<CameraId, CameraId> numbers_;  // in the recording, by that in the session
     std::size_t next_number_ = 0;
+    struct Settling {
+        Bytes recorded, newest;  // calibrations
+        TimePoint since, changed;
+        Bytes adjustment;
+    };
+    std::map<CameraId, Settling> settling_;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
     session::RoomTrackWriter room_;
     std::uint64_t room_version_ = 0;

@@ -40,7 +40,10 @@ std::string settings_text(const Settings& settings) {
     const std::string name = clean_text(settings.name, wire::max_name);
     return (name.empty() ? "" : "name " + name + "\n") + "renderer " + settings.renderer +
            "\nsits " + text_of(settings.sits) + "\npeople " + text_of(settings.shows_people) +
-           "\nfacts " + text_of(settings.shows_facts) + "\nquality " + settings.quality + "\n";
+           "\nfacts " + text_of(settings.shows_facts) + "\nhears " + text_of(settings.hears) +
+           "\nspeaks " + text_of(settings.speaks) + "\npush_to_talk " +
+           text_of(settings.push_to_talk) + "\nvoice_recorded " +
+           text_of(settings.voice_may_record) + "\nquality " + settings.quality + "\n";
 }
 
 ParsedSettings parse_settings(const std::string& text) {
@@ -51,13 +54,17 @@ ParsedSettings parse_settings(const std::string& text) {
         const auto space = line.find(' ');
         const std::string name = line.substr(0, space);
         const std::string value = space == std::string::npos ? "" : line.substr(space + 1);
-        const bool is_right = name == "name"       ? read_text(value, settings.name)
-                              : name == "renderer" ? read_text(value, settings.renderer)
-                              : name == "sits"     ? read(value, settings.sits)
-                              : name == "people"   ? read(value, settings.shows_people)
-                              : name == "facts"    ? read(value, settings.shows_facts)
-                              : name == "quality"  ? read_quality(value, settings.quality)
-                                                   : clean_text(name, 100) == name;
+        const bool is_right = name == "name"             ? read_text(value, settings.name)
+                              : name == "renderer"       ? read_text(value, settings.renderer)
+                              : name == "sits"           ? read(value, settings.sits)
+                              : name == "people"         ? read(value, settings.shows_people)
+                              : name == "facts"          ? read(value, settings.shows_facts)
+                              : name == "hears"          ? read(value, settings.hears)
+                              : name == "speaks"         ? read(value, settings.speaks)
+                              : name == "push_to_talk"   ? read(value, settings.push_to_talk)
+                              : name == "voice_recorded" ? read(value, settings.voice_may_record)
+                              : name == "quality"        ? read_quality(value, settings.quality)
+                                                         : clean_text(name, 100) == name;
         if (!is_right)
             return {{}, "the line '" + clean_text(line, 100) + "' is not understood"};
     }

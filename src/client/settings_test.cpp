@@ -10,7 +10,7 @@
 namespace theatron::client {
 namespace {
 
-const Settings mine{"Dr. Ada", "mesh", true, true, false, "high"};
+const Settings mine{"Dr. Ada", "mesh", true, true, false, "high", true, true, true, true};
 
 TEST(Settings, AreKept) {
     const testing::TemporaryFolder home;

@@ -138,28 +138,32 @@ Rgb shown(Vec3 light) {
     return {value(light.x), value(light.y), value(light.z)};
 }
 
+void append_baked(render::MeshData& all, const Piece& piece, const BakedLight& light) {
+    for (const Model::Part& part : piece.model.parts) {
+        const render::SurfaceLook look = look_of(part.material);
+        const std::size_t first = all.vertices.size();
+        append_at(all, part.mesh, piece.room_from_piece);
+        for (std::size_t i = first; i < all.vertices.size(); ++i) {
+            const auto& v = all.vertices[i];
+            const Vec3 n{v.nx, v.ny, v.nz};
+            if (shines(part.material)) {
+                const Vec3 c = look.base_color * 255;
+                all.colors.push_back({std::uint8_t(c.x), std::uint8_t(c.y), std::uint8_t(c.z)});
+                continue;
+            }
+            double falling = light.at({v.px, v.py, v.pz}, n);
+            // Metal shows its surroundings: brighter above, darker below.
+            if (look.metallic > 0.5)
+                falling *= 0.56 + 0.36 * n.y;
+            all.colors.push_back(shown(look.base_color * falling));
+        }
+    }
+}
+
 render::MeshData baked_mesh(const std::vector<Piece>& pieces, const BakedLight& light) {
     render::MeshData all;
     for (const Piece& piece : pieces)
-        for (const Model::Part& part : piece.model.parts) {
-            const render::SurfaceLook look = look_of(part.material);
-            const std::size_t first = all.vertices.size();
-            append_at(all, part.mesh, piece.room_from_piece);
-            for (std::size_t i = first; i < all.vertices.size(); ++i) {
-                const auto& v = all.vertices[i];
-                const Vec3 n{v.nx, v.ny, v.nz};
-                if (shines(part.material)) {
-                    const Vec3 c = look.base_color * 255;
-                    all.colors.push_back({std::uint8_t(c.x), std::uint8_t(c.y), std::uint8_t(c.z)});
-                    continue;
-                }
-                double falling = light.at({v.px, v.py, v.pz}, n);
-                // Metal shows its surroundings: brighter above, darker below.
-                if (look.metallic > 0.5)
-                    falling *= 0.56 + 0.36 * n.y;
-                all.colors.push_back(shown(look.base_color * falling));
-            }
-        }
+        append_baked(all, piece, light);
     return all;
 }
 

@@ -34,6 +34,8 @@ private:
 // From light to a picture's colour, bright parts compressed: the same as in scene.frag.
 Rgb shown(Vec3 light);
 
+// Appends a piece, its corners in the colours that they have in this light.
+void append_baked(render::MeshData& all, const Piece& piece, const BakedLight& light);
 // All pieces as one mesh in the room, its corners in the colours that they have in this light.
 render::MeshData baked_mesh(const std::vector<Piece>& pieces, const BakedLight& light);
 

@@ -54,6 +54,8 @@ session::CaseFacts facts_of(const cases::ShareableCase& shared) {
     if (shared.window)
         facts.screen = session::CaseScreen{
             shared.id, 0, 0, shared.middle_slice_mm, shared.window->center, shared.window->width};
+    else if (!shared.description.pictures.empty())
+        facts.screen = session::CaseScreen{shared.id, 0, 0, 0, 40, 400, std::uint16_t(0)};
     return facts;
 }
 
@@ -153,6 +155,7 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
                   {log::outside("name", folder.shared->description.name),
                    {"parts", folder.shared->description.parts.size()},
                    {"series", folder.shared->description.series.size()},
+                   {"pictures", folder.shared->description.pictures.size()},
                    {"bytes", folder.shared->bytes}});
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " This case is not offered.");

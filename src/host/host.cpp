@@ -89,6 +89,18 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         check_background(loaded.back(), depth_sizes.back());
     }
 
+    played = find_played_recording(options.cameras);
+    for (std::size_t i = 0; played && i < cameras.size(); ++i)
+        if (plays(*played, options.cameras[i])) {
+            cameras[i]->follow(played->transport);
+            const std::size_t number = camera_in_recording(options.cameras[i]);
+            const Bytes& first = played->recording->cameras()[number].parts.front().calibration;
+            // A camera that is placed or cropped here no longer moves as the recorded one did.
+            if (const auto recorded = decode_calibration(first);
+                recorded && *recorded == cameras[i]->info().calibration)
+                played_cameras[CameraId(i)] = {number, &first};
+        }
+    const bool has_room = played && played->recording->room().present;
     room_file = std::make_unique<RoomFile>(state / "room");
     certificate = options.certificate.empty()
                       ? net::load_or_make_certificate(state)
@@ -112,7 +124,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     page = options.page.empty() ? Page() : Page(options.page);
-    config.room = room_file->load();
+    SavedRoom saved = room_file->load();
+    config.room = std::move(saved.room);
+    config.streams.adjustments = std::move(saved.adjustments);
+    config.authors = std::move(saved.authors);
     config.check_depth = check_depth;
     config.check_color = check_color;
     config.admission.equal_secrets = net::equal_secrets;
@@ -120,10 +135,9 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     const session::ViewerSession::Wishes usual;
     config.streams.usual = {check_depth(usual.depth_codec).codec,
                             check_color(usual.color_codec).codec};
-    std::optional<ReplayedRoom> replayed = find_replayed_room(options.cameras);
     for (std::size_t i = 0; i < cameras.size(); ++i)
         config.cameras.push_back(
-            describe(cameras[i]->info(), replayed && plays(*replayed, options.cameras[i])));
+            describe(cameras[i]->info(), has_room && plays(*played, options.cameras[i])));
 
     link = {options.link_host, 0, "", certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
@@ -141,9 +155,13 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         infos.push_back(camera->info());
     place_watch = std::make_unique<PlaceWatch>(
         infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
+    for (const CameraId camera : session->streams().of(session::host_publisher))
+        correct_place(*session->streams().find(camera));
     start_lanes(options.cameras, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
+    for (const CameraId camera : session->streams().of(session::host_publisher))
+        crop(*session->streams().find(camera));
     if (!options.cases.empty())
         cases = std::make_unique<CaseShelf>(options.cases,
                                             [this](std::vector<session::CaseFacts> offered) {
@@ -156,16 +174,18 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });
     });
-    if (replayed)
-        start_replay(*std::move(replayed));
+    if (has_room)
+        start_replay();
 }
 
-void Host::Impl::start_replay(ReplayedRoom room) {
-    const std::size_t camera = room.camera;
+void Host::Impl::start_replay() {
     replay = std::make_unique<RoomReplay>(
-        std::move(room), [this, camera] { return lanes[camera]->figures().frames > 0; },
+        *played, [this, camera = played->camera] { return lanes[camera]->figures().frames > 0; },
         [this](RoomReplay::Change change) {
             server->post([this, change = std::move(change)] { replay_room(change); });
+        },
+        [this](std::vector<RoomReplay::Speech> speech) {
+            server->post([this, speech = std::move(speech)] { replay_voices(speech); });
         });
 }
 

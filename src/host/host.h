@@ -14,6 +14,7 @@
 #include "host/host_figures.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
+#include "session/camera_adjustment.h"
 
 namespace theatron::host {
 
@@ -55,6 +56,16 @@ public:
     // from the next frame on; empty: all of it. Throws Error with one sentence if it has
     // too many parts or lies outside the image.
     void set_region(std::size_t camera, codec::strata::Region region);
+
+    // Adjusts a camera of the host for all, as an operator does. A refusal is printed.
+    void adjust(std::size_t camera, const session::CameraAdjustment& adjustment);
+    // The sum over all cameras of the host.
+    std::vector<session::CameraAdjustment> adjustments() const;
+
+    // Plays the recording that the cameras show, as a participant does. A refusal is printed.
+    void play(wire::PlayAction action, Duration position = {});
+    // Where it is; empty: no camera plays one.
+    std::optional<wire::Playback> playback() const;
 
     // Sets the renderer of a participant, by number or name, or of all (empty). Throws Error with
     // one sentence if there is no such participant.

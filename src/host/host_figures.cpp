@@ -121,6 +121,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                    overlaps = nlohmann::json::array();
     for (std::size_t i = 0; i < figures.cameras.size(); ++i) {
         nlohmann::json& camera = cameras.emplace_back(camera_json(figures.cameras[i]));
+        camera["adjusted"] = figures.adjustment(CameraId(i));
         if (i >= figures.places.cameras.size())
             continue;
         const PlaceWatch::Figures::Camera& place = figures.places.cameras[i];
@@ -150,6 +151,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"name", camera.name},
                              {"publisher", int(camera.publisher)},
                              {"state", wire::text_of(camera.condition)},
+                             {"adjusted", figures.adjustment(camera.id)},
                              {"dropped_slow", camera.dropped_slow}});
     nlohmann::json visitors = nlohmann::json::array();
     for (const auto& visitor : figures.visitors)
@@ -314,14 +316,17 @@ std::string to_table(const nlohmann::json& figures) {
         table += line;
         if (const std::string problem = text(camera, "problem"); !problem.empty())
             table += "    " + problem + "\n";
+        if (const std::string adjusted = text(camera, "adjusted"); !adjusted.empty())
+            table += "    by operators: " + adjusted + "\n";
     }
     if (const std::string color = text(figures, "automatic_color"); !color.empty())
         table += "automatic colour is " + color + "\n";
     for (const auto& camera : list(figures, "published")) {
-        std::snprintf(line, sizeof(line), "camera %.0f %.100s of participant %.0f: %.7s\n",
+        std::snprintf(line, sizeof(line), "camera %.0f %.100s of participant %.0f: %.7s",
                       number(camera, "id"), text(camera, "name").c_str(),
                       number(camera, "publisher"), text(camera, "state").c_str());
-        table += line;
+        const std::string adjusted = text(camera, "adjusted");
+        table += line + (adjusted.empty() ? adjusted : "; by operators: " + adjusted) + "\n";
     }
     for (const auto& participant : participants) {
         const std::string renderer = text(participant, "renderer");

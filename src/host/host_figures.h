@@ -2,6 +2,7 @@
 // Figures of a running host, for people, scripts and monitoring (docs/metrics.md).
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -45,19 +46,26 @@ struct HostFigures {
         wire::CameraCondition condition{};
         std::uint64_t dropped_slow = 0;  // as above
     };
-    std::vector<Published> published;     // cameras that participants send now
-    PlaceWatch::Figures places;           // whether cameras stay where they were registered
-    bool has_ended = false;               // the session
-    std::vector<wire::Visitor> visitors;  // who wait for admission
-    std::uint64_t turned_away = 0;        // strangers, since the host began
+    std::vector<Published> published;          // cameras that participants send now
+    std::map<CameraId, std::string> adjusted;  // by operators, and how
+    PlaceWatch::Figures places;                // whether cameras stay where they were registered
+    bool has_ended = false;                    // the session
+    std::vector<wire::Visitor> visitors;       // who wait for admission
+    std::uint64_t turned_away = 0;             // strangers, since the host began
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
+
+    // Empty: the camera is as registered.
+    std::string adjustment(CameraId camera) const {
+        const auto found = adjusted.find(camera);
+        return found == adjusted.end() ? "" : found->second;
+    }
 };
 
-// {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","fps","age_ms",
-// "stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
+// {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
+// "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","role","muted",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
+// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

@@ -68,8 +68,9 @@ void require_known_token(const net::HttpsAnswer& answer) {
         throw Error("The host does not know the link's token; ask for its current link.");
 }
 
-nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what) {
-    const net::HttpsAnswer answer = net::https_get(link, target);
+nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what,
+                            Duration patience) {
+    const net::HttpsAnswer answer = net::https_get(link, target, patience);
     require_known_token(answer);
     bool too_deep = false;
     const auto figures = nlohmann::json::parse(

@@ -28,6 +28,7 @@ nlohmann::json status_of_host(const net::Link& link);
 // Throws Error if a host's answer says that it does not know the token, or that it has expired.
 void require_known_token(const net::HttpsAnswer& answer);
 // The same for another page with JSON. `what` of Error's sentence: "status".
-nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what);
+nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what,
+                            Duration patience = net::https_patience);
 
 }  // namespace theatron::host

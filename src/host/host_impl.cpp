@@ -49,6 +49,7 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
     };
     h.control = [this](net::PeerId peer, ByteView bytes) {
+        heard[peer] = steady_now();
         session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
         carry_out();
     };
@@ -76,6 +77,7 @@ net::Server::Handler Host::Impl::handler() {
         wait_for_poses();
         carry_out();
         addresses.erase(peer);
+        heard.erase(peer);
         note_left(peer);
     };
     h.now = steady_now;
@@ -83,10 +85,11 @@ net::Server::Handler Host::Impl::handler() {
         measure_links();
         hold_lanes();
         session->on_tick(steady_now());
+        follow_playback("");
         carry_out();
         color_watch.on_tick(lanes, steady_now());
         note_participants();
-        room_file->on_tick(session->room(), steady_now());
+        room_file->on_tick(session->room(), session->streams().adjustments(), steady_now());
     };
     h.http = [this](const net::HttpRequest& request) {
         if (const auto token = find_token(net::shown_token(request));
@@ -394,6 +397,14 @@ void Host::Impl::replay_room(const RoomReplay::Change& change) {
     wait_for_poses();
 }
 
+void Host::Impl::replay_voices(const std::vector<RoomReplay::Speech>& speech) {
+    for (const ParticipantId receiver : session::VoiceFloor::listeners_of_replay(*session))
+        for (const RoomReplay::Speech& said : speech)
+            server->send_voice(
+                peer_of(receiver),
+                {ParticipantId(std::uint32_t(said.person) | session::recorded_bit), said.packet});
+}
+
 void Host::Impl::wait_for_poses() {
     const auto due = poses.due();
     if (!due || poses_are_due == due)
@@ -458,36 +469,6 @@ void Host::Impl::measure_links() {
     }
 }
 
-void Host::Impl::note_participants() {
-    std::vector<HostFigures::Participant> list;
-    for (const auto& [id, participant] : session->participants())
-        if (participant.joined)
-            list.push_back({id, participant.name, session->step_of(id), participant.report,
-                            participant.renderer, participant.budget.refused(), participant.denied,
-                            participant.role, participant.muted});
-    participants = list.size();
-    const auto& all = session->participants();
-    media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
-        return entry.second.joined && entry.second.records;
-    }));
-    const session::Streams& streams = session->streams();
-    std::erase_if(dropped_slow, [&](const auto& entry) { return !streams.find(entry.first); });
-    std::vector<HostFigures::Published> published;
-    for (const wire::Camera& camera : streams.cameras())
-        if (camera.publisher != session::host_publisher) {
-            const auto& state = streams.find(camera.id)->state;
-            published.push_back({camera.id, camera.name, camera.publisher,
-                                 state ? state->condition : wire::CameraCondition::live,
-                                 dropped_slow[camera.id]});
-        }
-    const std::lock_guard lock(figures_mutex);
-    participant_figures = std::move(list);
-    visitor_figures = session->visitors();
-    ended_figure = session->has_ended();
-    published_figures = std::move(published);
-    dropped_slow_figures = dropped_slow;
-}
-
 HostFigures Host::Impl::figures() const {
     const std::lock_guard lock(figures_mutex);
     HostFigures figures;
@@ -503,6 +484,8 @@ HostFigures Host::Impl::figures() const {
     }
     figures.participants = participant_figures;
     figures.published = published_figures;
+    for (const auto& [camera, adjustment] : adjusted_figures)
+        figures.adjusted[camera] = text_of(adjustment);
     if (place_watch)
         figures.places = place_watch->figures();
     figures.visitors = visitor_figures;

@@ -65,8 +65,9 @@ struct Host::Impl {
     std::map<CameraId, wire::Text> misplaced;           // what place_watch says; by states_mutex
     // Addresses of peers; server's thread.
     std::map<net::PeerId, std::string> addresses;
-    LineLimit joins, changes;  // of log lines; server's thread
-    LineLimit strangers;       // the door's thread
+    std::map<net::PeerId, TimePoint> heard;  // when the last control message came
+    LineLimit joins, changes;                // of log lines; server's thread
+    LineLimit strangers;                     // the door's thread
     // The cameras with a region of interest; server's thread.
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;  // lanes; server's thread
@@ -80,6 +81,7 @@ struct Host::Impl {
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
+    std::map<CameraId, session::CameraAdjustment> adjusted_figures;
     std::vector<wire::Visitor> visitor_figures;
     bool ended_figure = false;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
@@ -93,6 +95,15 @@ struct Host::Impl {
     std::condition_variable goodbye_changed;
     bool all_left = false;  // guarded by goodbye_mutex
 
+    // The recording that the cameras play; does not change once lanes run.
+    std::optional<PlayedRecording> played;
+    struct PlayedCamera {
+        std::size_t number = 0;              // in the recording
+        const Bytes* calibration = nullptr;  // of the recording, as it is shown
+    };
+    std::map<CameraId, PlayedCamera> played_cameras;  // server's thread
+    // That was told, with the transport's changes and rounds; server's thread.
+    std::optional<capture::Transport::State> told_playback;
     std::unique_ptr<RoomReplay> replay;  // uses the lanes and the server
     std::unique_ptr<CaseShelf> cases;    // its thread posts to the server; may be null
 
@@ -107,7 +118,7 @@ struct Host::Impl {
             server->stop();
         if (thread.joinable()) {
             thread.join();
-            room_file->save(session->room(), steady_now());
+            room_file->save(session->room(), session->streams().adjustments(), steady_now());
             if (audit && !has_ended)
                 audit->add({session::AuditEvent::What::ended, {}, "", {}, {}, "", "", name}, "");
         }
@@ -121,7 +132,7 @@ struct Host::Impl {
     std::vector<session::Admission::Token> load_tokens();
     std::string token_of(wire::Role role) const;
     net::Server::Handler handler();
-    void start_replay(ReplayedRoom room);
+    void start_replay();
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);
 
@@ -141,6 +152,11 @@ struct Host::Impl {
     void carry_out(const session::action::Audit& a);
     void carry_out(const session::action::RevokeLink& a);
     void carry_out(const session::action::SendContent& a);
+    void carry_out(const session::action::Adjusted& a);
+    void carry_out(const session::action::Play& a);
+    void follow_playback(const std::string& by);
+    void crop(const session::CameraStreams& camera);
+    void correct_place(const session::CameraStreams& camera);
     void hold_lane(std::size_t camera);
     void hold_lanes();
     void release_lanes();
@@ -156,6 +172,7 @@ struct Host::Impl {
     void forward_object_pose(net::PeerId peer, const wire::State& state);
     void forward_voice(net::PeerId peer, const wire::Voice& voice);
     void replay_room(const RoomReplay::Change& change);
+    void replay_voices(const std::vector<RoomReplay::Speech>& speech);
     void wait_for_poses();
     void send_poses();
     void send_poses_to(ParticipantId receiver,

@@ -7,7 +7,6 @@
 #include "files/json_text.h"
 #include "host/host_http.h"
 #include "host/host_impl.h"
-#include "net/https_get.h"
 #include "wire/condition_text.h"
 
 namespace theatron::host {
@@ -33,11 +32,14 @@ nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must
             people.push_back({{"name", person.name},
                               {"role", wire::text_of(person.role)},
                               {"muted", person.muted}});
-        for (const auto& camera : figures.cameras)
-            cameras.push_back({{"name", camera.lane.name},
-                               {"state", wire::text_of(camera.lane.camera.condition)}});
+        for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+            cameras.push_back({{"name", figures.cameras[i].lane.name},
+                               {"state", wire::text_of(figures.cameras[i].lane.camera.condition)},
+                               {"adjusted", figures.adjustment(CameraId(i))}});
         for (const auto& camera : figures.published)
-            cameras.push_back({{"name", camera.name}, {"state", wire::text_of(camera.condition)}});
+            cameras.push_back({{"name", camera.name},
+                               {"state", wire::text_of(camera.condition)},
+                               {"adjusted", figures.adjustment(camera.id)}});
         session["people"] = people;
         session["cameras"] = cameras;
         session["thumbnail"] = thumbnail_path;
@@ -70,12 +72,12 @@ net::HttpAnswer Host::Impl::answer_lobby(const net::HttpRequest& request) {
     return {.type = "image/png", .body = std::move(picture)};
 }
 
-nlohmann::json lobby_of_host(const net::Link& link) {
-    return json_of_host(link, std::string(lobby_path), "lobby");
+nlohmann::json lobby_of_host(const net::Link& link, Duration patience) {
+    return json_of_host(link, std::string(lobby_path), "lobby", patience);
 }
 
-std::optional<std::string> thumbnail_of_host(const net::Link& link) {
-    net::HttpsAnswer answer = net::https_get(link, std::string(thumbnail_path));
+std::optional<std::string> thumbnail_of_host(const net::Link& link, Duration patience) {
+    net::HttpsAnswer answer = net::https_get(link, std::string(thumbnail_path), patience);
     require_known_token(answer);
     if (answer.status != 200)
         return std::nullopt;

@@ -8,6 +8,7 @@
 
 #include "host/host_figures.h"
 #include "net/http.h"
+#include "net/https_get.h"
 #include "net/link.h"
 #include "wire/role.h"
 
@@ -21,9 +22,11 @@ bool is_lobby(const net::HttpRequest& request);
 // without names, cameras and picture.
 nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask);
 
-// The same from a host, perhaps on another machine; its texts are clean. Throws Error.
-nlohmann::json lobby_of_host(const net::Link& link);
+// The same from a host, perhaps on another machine; its texts are clean. Throws Error, also if the
+// host does not answer for so long.
+nlohmann::json lobby_of_host(const net::Link& link, Duration patience = net::https_patience);
 // Its picture as PNG; nullopt if the host gives none. Throws Error.
-std::optional<std::string> thumbnail_of_host(const net::Link& link);
+std::optional<std::string> thumbnail_of_host(const net::Link& link,
+                                             Duration patience = net::https_patience);
 
 }  // namespace theatron::host

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/thread_name.h"
@@ -76,6 +77,17 @@ void PlaceWatch::offer(std::size_t camera, const FramePtr& frame) {
     changed_.notify_one();
 }
 
+void PlaceWatch::correct_place(std::size_t camera, const Pose& room_from_camera) {
+    const auto found = std::lower_bound(watched_.begin(), watched_.end(), camera);
+    if (found == watched_.end() || *found != camera)
+        return;
+    {
+        const std::lock_guard lock(mutex_);
+        corrected_[std::size_t(found - watched_.begin())] = room_from_camera;
+    }
+    changed_.notify_one();
+}
+
 PlaceWatch::Figures PlaceWatch::figures() const {
     const std::lock_guard lock(mutex_);
     return figures_;
@@ -89,9 +101,18 @@ void PlaceWatch::run() {
         FramePtr frame;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+            changed_.wait(lock,
+                          [this] { return stopping_ || !waiting_.empty() || !corrected_.empty(); });
             if (stopping_)
                 return;
+            if (!corrected_.empty()) {
+                const auto corrected = std::exchange(corrected_, {});
+                lock.unlock();
+                for (const auto& [camera, pose] : corrected)
+                    watch_.correct_place(camera, pose);
+                tell();
+                continue;
+            }
             const auto first = waiting_.begin();
             number = first->first;
             frame = std::move(first->second);
@@ -103,6 +124,10 @@ void PlaceWatch::run() {
 
 void PlaceWatch::look_at(std::size_t number, const Frame& frame) {
     watch_.add(number, frame.depth.view(), frame.times.captured);
+    tell();
+}
+
+void PlaceWatch::tell() {
     Figures figures;
     figures.cameras.resize(cameras_.size());
     for (std::size_t i = 0; i < watched_.size(); ++i) {

@@ -30,6 +30,9 @@ public:
     // From any thread, for each frame as it was captured; returns at once.
     void offer(std::size_t camera, const FramePtr& frame);
 
+    // From any thread: somebody has corrected the camera's place.
+    void correct_place(std::size_t camera, const Pose& room_from_camera);
+
     struct Figures {
         struct Camera {
             bool is_watched = false;  // its place is known, and enough of its picture stands still
@@ -50,6 +53,7 @@ public:
 private:
     void run();
     void look_at(std::size_t camera, const Frame& frame);
+    void tell();
     wire::Text problem(std::size_t number) const;
 
     const std::vector<capture::CameraInfo> cameras_;
@@ -60,6 +64,7 @@ private:
     mutable std::mutex mutex_;          // guards all below
     std::condition_variable changed_;
     std::map<std::size_t, FramePtr> waiting_;  // by the watch's numbers
+    std::map<std::size_t, Pose> corrected_;    // likewise
     std::vector<TimePoint> taken_;             // captured times of frames taken last
     Figures figures_;
     bool stopping_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/room_file.h"
 
+#include <cmath>
 #include <utility>
 
 #include "base/error.h"
@@ -13,10 +14,11 @@ namespace theatron::host {
 namespace {
 
 constexpr std::uint32_t magic = 0x4d525448;  // "HTRM"
-constexpr std::uint32_t version = 2, version_without_times = 1;
+constexpr std::uint32_t version = 4, version_without_authors = 3, version_without_adjustments = 2,
+                        version_without_times = 1;
 constexpr std::size_t max_file_bytes = 1 << 20;
 
-// Where a file that cannot be used is kept. Of many such files the last one takes the last name.
+// Where a file that cannot be used is kept. The last one of many such files takes the last name.
 std::filesystem::path free_name(const std::filesystem::path& path) {
     constexpr int max_kept = 20;
     std::filesystem::path kept = path;
@@ -28,9 +30,66 @@ std::filesystem::path free_name(const std::filesystem::path& path) {
     return kept;
 }
 
+constexpr std::size_t max_name_bytes = 4 * wire::max_name;
+
+void put_text(ByteWriter& out, const std::string& text) {
+    out.put(std::uint16_t(text.size()));
+    out.put_bytes(as_bytes(text));
+}
+
+std::string get_text(ByteReader& in) {
+    const ByteView bytes = in.get_bytes(in.get<std::uint16_t>());
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void put_adjustments(ByteWriter& out, const RoomFile::Adjustments& adjustments) {
+    out.put(std::uint16_t(adjustments.size()));
+    for (const session::KeptAdjustment& kept : adjustments) {
+        put_text(out, kept.publisher);
+        put_text(out, kept.camera);
+        const auto& [rotation, place] = kept.registered;
+        for (const double value :
+             {rotation.w, rotation.x, rotation.y, rotation.z, place.x, place.y, place.z})
+            out.put_f64(value);
+        const Bytes bytes = session::encode_adjustment(kept.adjustment);
+        out.put(std::uint8_t(bytes.size()));
+        out.put_bytes(bytes);
+    }
+}
+
+// False if there is none that can be used.
+bool get_adjustments(ByteReader& in, RoomFile::Adjustments& adjustments) {
+    const std::size_t count = in.get<std::uint16_t>();
+    if (count > session::max_kept_adjustments)
+        return false;
+    for (std::size_t i = 0; i < count; ++i) {
+        session::KeptAdjustment kept;
+        kept.publisher = get_text(in);
+        kept.camera = get_text(in);
+        auto& [rotation, place] = kept.registered;
+        bool is_finite = true;
+        for (double* value :
+             {&rotation.w, &rotation.x, &rotation.y, &rotation.z, &place.x, &place.y, &place.z}) {
+            *value = in.get_f64();
+            is_finite = is_finite && std::isfinite(*value);
+        }
+        const auto adjustment = session::decode_adjustment(in.get_bytes(in.get<std::uint8_t>()));
+        if (!in.ok() || !is_finite || !adjustment || kept.publisher.size() > max_name_bytes ||
+            kept.camera.size() > max_name_bytes)
+            return false;
+        kept.adjustment = *adjustment;
+        adjustments.push_back(std::move(kept));
+    }
+    return true;
+}
+
 }  // namespace
 
 Bytes encode_room(const SavedRoom& saved) {
+    session::HostRoom::Authors authors = saved.authors;
+    std::erase_if(authors, [&](const auto& one) {
+        return one.second.size() != wire::person_id_size || !saved.room.objects.contains(one.first);
+    });
     Bytes bytes;
     ByteWriter out(bytes);
     out.put(magic);
@@ -38,6 +97,12 @@ Bytes encode_room(const SavedRoom& saved) {
     out.put(saved.room.revision);
     out.put(to_us(saved.session_time));
     out.put(std::int64_t(saved.utc.time_since_epoch().count()));
+    put_adjustments(out, saved.adjustments);
+    out.put(std::uint32_t(authors.size()));
+    for (const auto& [mark, person] : authors) {
+        out.put(std::uint32_t(mark));
+        out.put_bytes(person);
+    }
     out.put_bytes(session::encode_objects(saved.room.objects));
     out.put(record::crc32c(bytes));
     return bytes;
@@ -52,9 +117,9 @@ Result<SavedRoom> decode_room(ByteView bytes) {
     SavedRoom saved;
     const bool is_room = in.get<std::uint32_t>() == magic;
     const auto of_version = in.get<std::uint32_t>();
-    const bool known = is_room && (of_version == version || of_version == version_without_times);
+    const bool known = is_room && of_version >= version_without_times && of_version <= version;
     saved.room.revision = in.get<std::uint64_t>();
-    if (of_version == version) {
+    if (known && of_version >= version_without_adjustments) {
         saved.session_time = from_us(in.get<std::int64_t>());
         saved.utc = UtcTime(std::chrono::microseconds(in.get<std::int64_t>()));
     }
@@ -63,6 +128,16 @@ Result<SavedRoom> decode_room(ByteView bytes) {
         return Status::malformed;
     if (!known)
         return is_room ? Status::unsupported : Status::malformed;
+    if (of_version >= version_without_authors && !get_adjustments(in, saved.adjustments))
+        return Status::malformed;
+    if (of_version == version)
+        for (auto left = in.get<std::uint32_t>(); left > 0 && in.ok(); --left) {
+            const session::ObjectId mark{in.get<std::uint32_t>()};
+            const ByteView person = in.get_bytes(wire::person_id_size);
+            saved.authors[mark] = Bytes(person.begin(), person.end());
+        }
+    if (!in.ok())
+        return Status::malformed;
     auto objects = session::decode_objects(in.rest(), 2 * session::RoomState::max_objects);
     if (!objects)
         return objects.error();
@@ -95,7 +170,7 @@ std::string RoomFile::problem() const {
     return problem_;
 }
 
-session::RoomSnapshot RoomFile::load() {
+SavedRoom RoomFile::load() {
     std::error_code ignored;
     const bool too_large = std::filesystem::file_size(path_, ignored) > max_file_bytes && !ignored;
     const auto text = too_large
@@ -106,9 +181,10 @@ session::RoomSnapshot RoomFile::load() {
     auto saved = too_large ? Result<SavedRoom>(Status::too_large) : decode_room(as_bytes(*text));
     if (saved) {
         saved_version_ = saved->room.revision;
+        saved_adjustments_ = saved->adjustments;
         log::info("host", "the saved room is used",
                   {{"objects", saved->room.objects.size()}, {"saved", utc_text(saved->utc)}});
-        return std::move(saved->room);
+        return std::move(*saved);
     }
     const std::filesystem::path kept = free_name(path_);
     std::filesystem::rename(path_, kept, ignored);
@@ -120,16 +196,19 @@ session::RoomSnapshot RoomFile::load() {
     return {};
 }
 
-void RoomFile::on_tick(const session::HostRoom& room, TimePoint now) {
-    if (now - saved_ < interval || (room.version() == saved_version_ && problem().empty()))
+void RoomFile::on_tick(const session::HostRoom& room, const Adjustments& adjustments,
+                       TimePoint now) {
+    const bool is_saved = room.version() == saved_version_ && adjustments == saved_adjustments_;
+    if (now - saved_ < interval || (is_saved && problem().empty()))
         return;
     saved_ = now;
-    save(room, now);
+    save(room, adjustments, now);
 }
 
-void RoomFile::save(const session::HostRoom& room, TimePoint now) {
+void RoomFile::save(const session::HostRoom& room, const Adjustments& adjustments, TimePoint now) {
     saved_version_ = room.version();
-    Bytes bytes = encode_room({room.snapshot(), now, utc_now()});
+    saved_adjustments_ = adjustments;
+    Bytes bytes = encode_room({room.snapshot(), room.authors(), now, utc_now(), adjustments});
     {
         const std::lock_guard lock(mutex_);
         waiting_ = std::move(bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The room's objects in a file of the host's state folder (docs/formats/room.md), so that a
-// restart keeps them. An own thread writes, so that a slow disk delays no participant.
+// The room's objects and the adjustments of cameras in a file of the host's state folder
+// (docs/formats/room.md), so that a restart keeps them. An own thread writes, so that a slow disk
+// delays no participant.
 #pragma once
 
 #include <condition_variable>
@@ -12,15 +13,18 @@
 
 #include "base/time.h"
 #include "base/utc.h"
+#include "session/camera_adjustment.h"
 #include "session/host_room.h"
 
 namespace theatron::host {
 
 struct SavedRoom {
     session::RoomSnapshot room;
+    session::HostRoom::Authors authors;
     // When it was saved; times of its objects are session time of that run. 0: unknown.
     TimePoint session_time;
     UtcTime utc;
+    std::vector<session::KeptAdjustment> adjustments;  // of cameras
 };
 Bytes encode_room(const SavedRoom& saved);
 // Safe for untrusted input. Status::malformed for damaged bytes and for a wrong checksum,
@@ -37,9 +41,9 @@ public:
     // Writes a room that still waits.
     ~RoomFile();
 
-    // The saved room; an empty one without a file. A file that cannot be used is logged and kept
+    // The saved content; nothing without a file. A file that cannot be used is logged and kept
     // as `room.damaged`, `room.damaged.2` and so on. Throws Error if the file cannot be read.
-    session::RoomSnapshot load();
+    SavedRoom load();
 
     // Why the newest room could not be written; empty if it could. A later one is tried again, and
     // the last one when this object ends, which waits for that.
@@ -47,16 +51,18 @@ public:
     // Waits until nothing waits to be written, and ends the thread.
     void close();
 
+    using Adjustments = std::vector<session::KeptAdjustment>;
     // From one thread, several times a second: writes the room if it has changed.
-    void on_tick(const session::HostRoom& room, TimePoint now);
+    void on_tick(const session::HostRoom& room, const Adjustments& adjustments, TimePoint now);
     // The same at once.
-    void save(const session::HostRoom& room, TimePoint now);
+    void save(const session::HostRoom& room, const Adjustments& adjustments, TimePoint now);
 
 private:
     void run();
 
     const std::filesystem::path path_;
     std::uint64_t saved_version_ = 0;
+    Adjustments saved_adjustments_;
     TimePoint saved_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;

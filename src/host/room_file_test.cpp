@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "files/private_file.h"
@@ -21,14 +22,14 @@ TEST(RoomFile, KeepsObjectsOverARestartWithoutPeople) {
     std::vector<session::Action> actions;
     {
         RoomFile file(path);
-        session::HostRoom room(file.load(), actions);
+        session::HostRoom room(file.load().room, actions);
         room.join(anna, {{}, false, "Anna"}, true);
         room.on_request(anna, {1, session::encode_request(session::request::Create{
                                       session::ObjectKind::brick, {{}, {1, 2, 3}}, 1, Bytes(3)})});
-        file.on_tick(room, TimePoint(10s));
+        file.on_tick(room, {}, TimePoint(10s));
     }
     RoomFile file(path);
-    const session::HostRoom room(file.load(), actions);
+    const session::HostRoom room(file.load().room, actions);
     const auto objects = room.snapshot().objects;
     ASSERT_EQ(objects.size(), 1u);
     EXPECT_EQ(objects.begin()->second.room_from_object.translation, (Vec3{1, 2, 3}));
@@ -42,7 +43,7 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
     room.revision = 5;
     room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
     const UtcTime utc{std::chrono::microseconds(1'700'000'000'123'456)};
-    Bytes bytes = encode_room({room, from_us(77), utc});
+    Bytes bytes = encode_room({room, {}, from_us(77), utc, {}});
     const auto decoded = decode_room(bytes);
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->utc, utc);
@@ -59,15 +60,34 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
                                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         bytes[20] ^= std::byte{4};
         RoomFile file(path);
-        EXPECT_TRUE(file.load().objects.empty());
+        EXPECT_TRUE(file.load().room.objects.empty());
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / kept));
         EXPECT_FALSE(std::filesystem::exists(path));
     }
     // Neither does a file of another program, however large.
     files::write_private_file(path, std::string(3 << 20, 'x'));
     RoomFile file(path);
-    EXPECT_TRUE(file.load().objects.empty());
+    EXPECT_TRUE(file.load().room.objects.empty());
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "state" / "room.damaged.4"));
+}
+
+TEST(RoomFile, KeepsAdjustmentsOfCameras) {
+    const testing::TemporaryFolder folder;
+    files::open_private_folder(folder.path() / "state");
+    const auto path = folder.path() / "state" / "room";
+    std::vector<session::Action> actions;
+    const session::KeptAdjustment kept{
+        "Anna", "lärm", look_at({1, 2, 3}, {}, {0, 1, 0}), {{0.01, 0, 0}, {0, 1.5, 0}, {}}};
+    {
+        RoomFile file(path);
+        session::HostRoom room(file.load().room, actions);
+        file.on_tick(room, {kept}, TimePoint(10s));
+    }
+    EXPECT_EQ(RoomFile(path).load().adjustments, std::vector{kept});
+    SavedRoom bad;
+    bad.adjustments = {kept};
+    bad.adjustments[0].registered.translation.x = std::nan("");
+    EXPECT_EQ(decode_room(encode_room(bad)).error(), Status::malformed);
 }
 
 TEST(RoomFile, OfANewerVersionIsNotCalledDamaged) {
@@ -93,7 +113,7 @@ TEST(RoomFile, ThatCannotBeWrittenIsTriedAgainUntilItCan) {
     const auto tick_until = [&](auto is_done) {
         while (!is_done()) {
             now += RoomFile::interval;
-            file.on_tick(room, now);
+            file.on_tick(room, {}, now);
             std::this_thread::yield();
         }
     };
@@ -103,21 +123,45 @@ TEST(RoomFile, ThatCannotBeWrittenIsTriedAgainUntilItCan) {
     EXPECT_TRUE(std::filesystem::is_regular_file(state / "room"));
 }
 
-TEST(RoomFile, Version1HadNoTimes) {
+TEST(RoomFile, OlderVersionsHadNoTimesAdjustmentsOrAuthors) {
     session::RoomSnapshot room;
     room.revision = 5;
     room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
-    const Bytes now = encode_room({room, from_us(77), UtcTime(1s)});
-    constexpr std::size_t times_at = 16, times_size = 16, check_size = 4;
-    Bytes before(now.begin(), now.end() - check_size);
-    before[4] = std::byte{1};
-    before.erase(before.begin() + times_at, before.begin() + times_at + times_size);
-    ByteWriter out(before);
-    out.put(record::crc32c(before));
-    const auto decoded = decode_room(before);
+    const Bytes now = encode_room({room, {}, from_us(77), UtcTime(1s), {}});
+    // Where times, adjustments, authors and the objects begin.
+    constexpr std::ptrdiff_t times_at = 16, adjustments_at = 32, authors_at = 34, objects_at = 38;
+    constexpr std::ptrdiff_t check_size = 4;
+    for (const int version : {1, 2, 3}) {
+        Bytes before(now.begin(), now.end() - check_size);
+        before[4] = std::byte(version);
+        const std::ptrdiff_t begin[] = {times_at, adjustments_at, authors_at};
+        before.erase(before.begin() + begin[version - 1], before.begin() + objects_at);
+        ByteWriter out(before);
+        out.put(record::crc32c(before));
+        const auto decoded = decode_room(before);
+        ASSERT_TRUE(decoded) << version;
+        EXPECT_EQ(decoded->room.objects.size(), 1u);
+        EXPECT_EQ(decoded->utc, version == 1 ? UtcTime{} : UtcTime(1s));
+        EXPECT_TRUE(decoded->authors.empty());
+    }
+}
+
+TEST(RoomFile, KeepsTheAuthorsOfMarksThatAreThere) {
+    const session::ObjectId mark{7}, gone{8};
+    const Bytes eve(wire::person_id_size, std::byte(5));
+    session::RoomSnapshot room;
+    room.revision = 9;
+    room.objects[mark] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
+    const Bytes bytes = encode_room({room, {{mark, eve}, {gone, eve}}, {}, {}, {}});
+    const auto decoded = decode_room(bytes);
     ASSERT_TRUE(decoded);
-    EXPECT_EQ(decoded->room.objects.size(), 1u);
-    EXPECT_EQ(decoded->utc, UtcTime{});
+    EXPECT_EQ(decoded->authors, (session::HostRoom::Authors{{mark, eve}}));
+    // More authors announced than there are bytes.
+    Bytes more(bytes.begin(), bytes.end() - 4);
+    more[37] = std::byte(0xff);
+    ByteWriter out(more);
+    out.put(record::crc32c(more));
+    EXPECT_FALSE(decode_room(more));
 }
 
 }  // namespace

@@ -2,57 +2,78 @@
 #include "host/room_replay.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/options.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "capture/playback.h"
+#include "voice/packet.h"
 
 namespace theatron::host {
 namespace {
 
-std::optional<ReplayedRoom> replayed_room(const std::string& specification) {
+// Poses of a paused recording are repeated before they look stale.
+constexpr Duration repeated_after = std::chrono::milliseconds(500);
+
+std::optional<PlayedRecording> played_recording(const std::string& specification) {
     Options options = Options::parse(specification);
     if (options.kind() != "recording")
         return std::nullopt;
-    ReplayedRoom room{record::RecordingFile::open(options.value()), options.value(), 0, {}, {}};
-    const auto& cameras = room.recording->cameras();
+    PlayedRecording played{record::RecordingFile::open(options.value()), options.value(), 0, {}};
+    const auto& cameras = played.recording->cameras();
     const auto camera = std::size_t(options.take_int("camera", 0, 0, 1000));
     const capture::PlaybackOptions playback = capture::take_playback_options(options);
-    if (!room.recording->room().present || camera >= cameras.size())
+    if (camera >= cameras.size())
         return std::nullopt;
     const auto& frames = cameras[camera].depth.frames;
+    Duration begin{};
     if (!frames.empty())
-        room.begin = frames[std::min(std::size_t(playback.start), frames.size() - 1)].time();
+        begin = frames[std::min(std::size_t(playback.start), frames.size() - 1)].time();
+    std::optional<Duration> round;
     if (playback.loop)
-        room.round =
-            room.recording->duration() + seconds_to_duration(1 / cameras[camera].frames_per_second);
-    return room;
+        round = played.recording->duration() +
+                seconds_to_duration(1 / cameras[camera].frames_per_second);
+    played.transport =
+        std::make_shared<capture::Transport>(played.recording->duration(), round, begin);
+    return played;
 }
 
 }  // namespace
 
-std::optional<ReplayedRoom> find_replayed_room(const std::vector<std::string>& specifications) {
+std::optional<PlayedRecording> find_played_recording(
+    const std::vector<std::string>& specifications) {
+    std::optional<PlayedRecording> first;
     for (std::size_t i = 0; i < specifications.size(); ++i)
-        if (auto room = replayed_room(specifications[i])) {
-            room->camera = i;
-            return room;
+        if (auto played = played_recording(specifications[i])) {
+            played->camera = i;
+            if (played->recording->room().present)
+                return played;
+            if (!first)
+                first = std::move(played);
         }
-    return std::nullopt;
+    return first;
 }
 
-bool plays(const ReplayedRoom& room, const std::string& specification) {
+bool plays(const PlayedRecording& played, const std::string& specification) {
     const Options options = Options::parse(specification);
-    return options.kind() == "recording" && options.value() == room.file;
+    return options.kind() == "recording" && options.value() == played.file;
 }
 
-RoomReplay::RoomReplay(ReplayedRoom room, std::function<bool()> has_begun,
-                       std::function<void(Change)> show)
-    : source_(std::move(room)),
+std::size_t camera_in_recording(const std::string& specification) {
+    return std::size_t(Options::parse(specification).take_int("camera", 0, 0, 1000));
+}
+
+RoomReplay::RoomReplay(PlayedRecording played, std::function<bool()> has_begun,
+                       std::function<void(Change)> show,
+                       std::function<void(std::vector<Speech>)> speak)
+    : source_(std::move(played)),
       has_begun_(std::move(has_begun)),
       show_(std::move(show)),
+      speak_(std::move(speak)),
       room_(source_.recording),
+      voices_(source_.recording),
       thread_([this] { (void)contain("replay", [this] { run(); }); }) {}
 
 RoomReplay::~RoomReplay() {
@@ -64,15 +85,50 @@ void RoomReplay::run() {
     name_this_thread("replay");
     while (!stopping_ && !has_begun_())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    TimePoint zero = steady_now() - source_.begin;  // of the recording
+    TimePoint repeated = steady_now();
     while (!stopping_) {
         const TimePoint now = steady_now();
-        if (source_.round && now - zero >= *source_.round)
-            zero += *source_.round;
-        if (room_.go_to(now - zero))
+        const capture::Transport::State state = source_.transport->state(now);
+        play_voices(state, now);
+        if (state.paused && now - repeated >= repeated_after) {
+            repeated = now;
+            shown_.clear();
             show_(change(now));
+        } else if (room_.go_to(state.position)) {
+            show_(change(now));
+        }
         std::this_thread::sleep_for(period);
     }
+}
+
+void RoomReplay::play_voices(const capture::Transport::State& state, TimePoint now) {
+    const auto follows = std::pair(state.changes, state.rounds);
+    if (voices_follow_ != follows) {
+        voices_follow_ = follows;
+        voices_zero_ = now - state.position;
+        voices_.restart_at(state.position);
+    }
+    if (state.paused)
+        return;
+    std::vector<Speech> speech;
+    voices_.play(state.position, [&](const capture::RecordedSpeech& said) {
+        voice::Packet packet;
+        packet.frame_ms = int(said.samples * 1000 / voice::sample_rate);
+        const bool can_be_sent =
+            packet.samples() == said.samples && (packet.frame_ms == 10 || packet.frame_ms == 20);
+        if (!can_be_sent || said.person == ParticipantId{} ||
+            said.opus.size() > voice::max_opus_size)
+            return;
+        packet.time = voices_zero_ + said.at;
+        // Numbers follow the time, so that they also grow in the next round.
+        packet.number = std::uint32_t((to_us(packet.time) / 1000 + 5) / packet.frame_ms);
+        packet.pauses = said.pauses;
+        packet.level_db = said.level_db;
+        packet.opus = said.opus;
+        voice::write_packet(packet, speech.emplace_back(Speech{said.person, {}}).packet);
+    });
+    if (!speech.empty())
+        speak_(std::move(speech));
 }
 
 RoomReplay::Change RoomReplay::change(TimePoint now) {

@@ -9,25 +9,31 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "capture/recorded_room.h"
+#include "capture/recorded_voices.h"
+#include "capture/transport.h"
 
 namespace theatron::host {
 
-// The recording of a host's camera, if its room was recorded.
-struct ReplayedRoom {
+// The recording that a host plays, with its room if that was recorded.
+struct PlayedRecording {
     std::shared_ptr<const record::RecordingFile> recording;
-    std::string file;               // as the camera's specification names it
-    std::size_t camera = 0;         // the first of the host's cameras that plays it
-    Duration begin{};               // of the recording, at the camera's first picture
-    std::optional<Duration> round;  // of a loop; else the recording is played once
+    std::string file;        // as the camera's specification names it
+    std::size_t camera = 0;  // the first of the host's cameras that plays it
+    // For all of the host's cameras that play it, and for its room.
+    std::shared_ptr<capture::Transport> transport;
 };
-// The room of the first of these camera specifications that plays a recording with one; empty if
-// there is none. Throws Error for a file that cannot be read.
-std::optional<ReplayedRoom> find_replayed_room(const std::vector<std::string>& specifications);
+// The recording of the first of these camera specifications that plays one; those whose room was
+// recorded come first. Empty if there is none. Throws Error for a file that cannot be read.
+std::optional<PlayedRecording> find_played_recording(
+    const std::vector<std::string>& specifications);
 // True for a camera of the same recording.
-bool plays(const ReplayedRoom& room, const std::string& specification);
+bool plays(const PlayedRecording& played, const std::string& specification);
+// The number in the recording of the camera that such a specification names.
+std::size_t camera_in_recording(const std::string& specification);
 
 class RoomReplay {
 public:
@@ -40,20 +46,33 @@ public:
         std::vector<std::pair<ParticipantId, Bytes>> poses;
         std::vector<ParticipantId> left;
     };
+    // A packet of voice (voice/packet.h) of a person with a recorded number, with present times.
+    struct Speech {
+        ParticipantId person{};
+        Bytes packet;
+    };
 
-    // Begins when `has_begun` is true for the first time. Calls both functions from its own thread.
-    RoomReplay(ReplayedRoom room, std::function<bool()> has_begun,
-               std::function<void(Change)> show);
+    // Begins when `has_begun` is true for the first time. Calls all functions from its own thread.
+    RoomReplay(PlayedRecording played, std::function<bool()> has_begun,
+               std::function<void(Change)> show, std::function<void(std::vector<Speech>)> speak);
     ~RoomReplay();
 
 private:
     void run();
     Change change(TimePoint now);
+    // The speech up to the position at `now`. After a jump or a pause it goes on at the position.
+    void play_voices(const capture::Transport::State& state, TimePoint now);
 
-    const ReplayedRoom source_;
+    const PlayedRecording source_;
     const std::function<bool()> has_begun_;
     const std::function<void(Change)> show_;
+    const std::function<void(std::vector<Speech>)> speak_;
     capture::RecordedRoom room_;
+    capture::RecordedVoices voices_;
+    // Changes and rounds of the transport that the voices follow, and where the recording's
+    // beginning is since then.
+    std::optional<std::pair<std::uint64_t, std::uint64_t>> voices_follow_;
+    TimePoint voices_zero_;
     session::PoseBodies shown_;
     std::atomic<bool> stopping_ = false;
     std::thread thread_;

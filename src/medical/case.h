@@ -56,6 +56,13 @@ struct Series {
     bool operator==(const Series&) const = default;
 };
 
+// A picture without a place in the patient: a photograph, a sheet, a screenshot.
+struct CasePicture {
+    std::string name;
+    std::string file;
+    bool operator==(const CasePicture&) const = default;
+};
+
 struct Case {
     std::string name;
     Unit unit = Unit::mm;
@@ -64,6 +71,7 @@ struct Case {
     std::string license, credit;
     std::vector<Part> parts;
     std::vector<Series> series;
+    std::vector<CasePicture> pictures;
     bool operator==(const Case&) const = default;
 };
 

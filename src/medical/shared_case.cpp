@@ -11,7 +11,7 @@ namespace theatron::medical {
 namespace {
 
 constexpr std::uint32_t magic = 0x53434854;  // "THCS"
-constexpr std::uint8_t version = 1;
+constexpr std::uint8_t version = 2, version_without_pictures = 1;
 constexpr std::size_t shown_name = 64, shown_text = 500;  // characters
 
 void put_text(ByteWriter& out, const std::string& text) {
@@ -45,6 +45,8 @@ std::uint64_t SharedCase::content_bytes() const {
         bytes += part.mesh.size;
     for (const SharedSeries& one : series)
         bytes += one.volume.size;
+    for (const SharedPicture& one : pictures)
+        bytes += one.picture.size;
     return bytes;
 }
 
@@ -52,7 +54,7 @@ Bytes encode_shared_case(const SharedCase& shared) {
     Bytes bytes;
     ByteWriter out(bytes);
     out.put(magic);
-    out.put(version);
+    out.put(shared.pictures.empty() ? version_without_pictures : version);
     out.put(std::uint8_t(shared.deidentified));
     for (const std::string* text : {&shared.name, &shared.license, &shared.credit})
         put_text(out, *text);
@@ -73,6 +75,13 @@ Bytes encode_shared_case(const SharedCase& shared) {
         out.put(series.missing_slices);
         put_content(out, series.volume);
     }
+    if (shared.pictures.empty())
+        return bytes;
+    out.put(std::uint16_t(shared.pictures.size()));
+    for (const SharedPicture& picture : shared.pictures) {
+        put_text(out, picture.name);
+        put_content(out, picture.picture);
+    }
     return bytes;
 }
 
@@ -81,7 +90,8 @@ Result<SharedCase> decode_shared_case(ByteView bytes) {
     SharedCase shared;
     if (in.get<std::uint32_t>() != magic)
         return Status::malformed;
-    if (in.get<std::uint8_t>() != version)
+    const auto of_version = in.get<std::uint8_t>();
+    if (of_version != version && of_version != version_without_pictures)
         return Status::unsupported_version;
     const auto deidentified = in.get<std::uint8_t>();
     shared.deidentified = deidentified == 1;
@@ -119,6 +129,17 @@ Result<SharedCase> decode_shared_case(ByteView bytes) {
         one.volume = get_content(in);
         sound = sound && one.volume.size > 0;
         shared.series.push_back(std::move(one));
+    }
+    // A description has one form: without pictures it is of version 1.
+    const auto pictures = of_version == version ? in.get<std::uint16_t>() : std::uint16_t(0);
+    if (!in.ok() || pictures > max_shared_pictures || (of_version == version && pictures == 0))
+        return Status::malformed;
+    for (int i = 0; i < pictures && in.ok(); ++i) {
+        SharedPicture one;
+        one.name = get_text(in, shown_name);
+        one.picture = get_content(in);
+        sound = sound && one.picture.size > 0;
+        shared.pictures.push_back(std::move(one));
     }
     if (!in.ok() || !in.rest().empty() || !sound)
         return Status::malformed;

@@ -19,6 +19,7 @@ namespace theatron::medical {
 
 inline constexpr std::size_t max_shared_parts = 256;
 inline constexpr std::size_t max_shared_series = 16;
+inline constexpr std::size_t max_shared_pictures = 64;
 inline constexpr std::size_t max_shared_text = 2000;  // bytes of one text
 
 struct SharedContent {
@@ -43,13 +44,22 @@ struct SharedSeries {
     bool operator==(const SharedSeries&) const = default;
 };
 
+struct SharedPicture {
+    std::string name;
+    SharedContent picture;  // docs/formats/case_picture.md
+    bool operator==(const SharedPicture&) const = default;
+};
+
 struct SharedCase {
     std::string name;
     bool deidentified = false;
     std::string license, credit;
-    Vec3 middle_mm;  // of all parts, or of the first series; patient coordinates (LPS)
+    // The middle of all parts, or of the first series; patient coordinates (LPS). It is 0 where
+    // there are pictures alone.
+    Vec3 middle_mm;
     std::vector<SharedPart> parts;
     std::vector<SharedSeries> series;
+    std::vector<SharedPicture> pictures;
     bool operator==(const SharedCase&) const = default;
 
     std::uint64_t content_bytes() const;

@@ -25,6 +25,25 @@ TEST(SharedCase, IsReadAsItWasWritten) {
     EXPECT_EQ(read->content_bytes(), 5800u);
 }
 
+TEST(SharedCase, PicturesMakeItVersion2AndOlderOnesStayAsTheyWere) {
+    EXPECT_EQ(encode_shared_case(liver())[4], std::byte(1));
+    SharedCase shared = liver();
+    shared.pictures = {{"wound", {{{std::byte(4)}}, 70}}, {"plan", {{{std::byte(5)}}, 30}}};
+    const Bytes bytes = encode_shared_case(shared);
+    EXPECT_EQ(bytes[4], std::byte(2));
+    const auto read = decode_shared_case(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, shared);
+    EXPECT_EQ(read->content_bytes(), 5900u);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_FALSE(decode_shared_case(ByteView(bytes).first(size))) << size;
+    shared.pictures[0].picture.size = 0;
+    EXPECT_FALSE(decode_shared_case(encode_shared_case(shared)));
+    Bytes newer = bytes;
+    newer[4] = std::byte(3);
+    EXPECT_EQ(decode_shared_case(newer).error(), Status::unsupported_version);
+}
+
 TEST(SharedCase, AnyMissingOrSurplusByteIsRefused) {
     const Bytes bytes = encode_shared_case(liver());
     for (std::size_t size = 0; size < bytes.size(); ++size)

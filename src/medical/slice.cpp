@@ -79,6 +79,92 @@ inline float mix(float a, float b, float share) {
     return a + (b - a) * share;
 }
 
+// As floor(value + 0.5), in instructions that all processors have for vectors.
+inline std::int16_t rounded_sample(float value) {
+    const float raised = value + 0.5f;
+    const int cut_off = int(raised);
+    return std::int16_t(cut_off - int(raised < float(cut_off)));
+}
+
+// A coordinate of the samples along a row of a picture.
+enum class Way { still, walks, other };
+
+// So near to a sample, the interpolated value rounds to that sample.
+constexpr double on_sample = 1e-6;
+
+Way way_of(double start, double step, int pixels) {
+    if (std::abs(step) * pixels < 1e-9)
+        return Way::still;
+    const bool steps_by_one = std::abs(std::abs(step) - 1) * pixels < on_sample / 2;
+    return steps_by_one && std::abs(start - std::round(start)) < on_sample / 2 ? Way::walks
+                                                                               : Way::other;
+}
+
+Cell still_cell(double place, int side, std::size_t stride) {
+    Cell cell = cell_at(place, side, stride);
+    if (cell.share > 1 - on_sample)
+        cell = {cell.low + cell.step, 0, 0};
+    else if (cell.share < on_sample)
+        cell = {cell.low, 0, 0};
+    return cell;
+}
+
+// Pixels `first` to `end` of a row that goes from sample to sample, as in slices along the axes of
+// the volume: a(x) are its samples or the nearest ones beside it.
+template <class Step>
+void blend_row(const std::int16_t* samples, Step step, const Cell& j, const Cell& k, int count,
+               std::int16_t* out) {
+    const auto at = [&](int x, std::size_t beside) {
+        return samples[std::ptrdiff_t(step) * x + std::ptrdiff_t(beside)];
+    };
+    if (j.share == 0 && k.share == 0) {
+        for (int x = 0; x < count; ++x)
+            out[x] = at(x, 0);
+    } else if (j.share == 0 || k.share == 0) {
+        const Cell& blended = j.share == 0 ? k : j;
+        for (int x = 0; x < count; ++x)
+            out[x] = rounded_sample(mix(at(x, 0), at(x, blended.step), blended.share));
+    } else {
+        for (int x = 0; x < count; ++x)
+            out[x] =
+                rounded_sample(mix(mix(at(x, 0), at(x, j.step), j.share),
+                                   mix(at(x, k.step), at(x, j.step + k.step), j.share), k.share));
+    }
+}
+
+struct RowAxis {
+    double start, step;  // in samples, a pixel
+    int side;
+    std::size_t stride;
+};
+
+// False, and nothing is done, if the row does not go from sample to sample.
+bool walk_row(const std::int16_t* samples, const RowAxis (&axes)[3], int first, int end,
+              std::int16_t* row) {
+    int walking = -1;
+    for (int i = 0; i < 3; ++i) {
+        const Way way = way_of(axes[i].start, axes[i].step, end);
+        if (way == Way::other || (way == Way::walks && walking >= 0))
+            return false;
+        if (way == Way::walks)
+            walking = i;
+    }
+    if (walking < 0)
+        return false;
+    const RowAxis& along = axes[walking];
+    const RowAxis &a = axes[(walking + 1) % 3], &b = axes[(walking + 2) % 3];
+    const Cell j = still_cell(a.start, a.side, a.stride), k = still_cell(b.start, b.side, b.stride);
+    const double at_first = std::round(along.start) + std::round(along.step) * first;
+    const auto inside = std::size_t(std::clamp(at_first, 0.0, along.side - 1.0));
+    const std::int16_t* from = samples + inside * along.stride + j.low + k.low;
+    const auto step = std::ptrdiff_t(along.stride) * (along.step < 0 ? -1 : 1);
+    if (step == 1)
+        blend_row(from, std::integral_constant<int, 1>(), j, k, end - first, row + first);
+    else
+        blend_row(from, step, j, k, end - first, row + first);
+    return true;
+}
+
 }  // namespace
 
 Vec2 pixel_of(const SlicePlane& plane, Vec3 point_mm) {
@@ -139,10 +225,16 @@ void reslice(const Volume& volume, const SlicePlane& plane, std::int16_t outside
         cut(start.x, step.x, grid.columns, first, end);
         cut(start.y, step.y, grid.rows, first, end);
         cut(start.z, step.z, grid.slices, first, end);
+        // A row that misses the volume leaves both anywhere, also beyond the row.
         first = std::min(first, out.size.width);
-        end = std::max(end, first);
+        end = std::clamp(end, first, out.size.width);
         std::fill(row, row + first, outside);
         std::fill(row + end, row + out.size.width, outside);
+        const RowAxis axes[] = {{start.x, step.x, grid.columns, 1},
+                                {start.y, step.y, grid.rows, row_stride},
+                                {start.z, step.z, grid.slices, slice_stride}};
+        if (first < end && walk_row(volume.samples.data(), axes, first, end, row))
+            continue;
         for (int x = first; x < end; ++x) {
             const Cell i = cell_at(start.x + step.x * x, grid.columns, 1);
             const Cell j = cell_at(start.y + step.y * x, grid.rows, row_stride);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "image/image.h"
 #include "medical/case.h"
@@ -96,6 +98,65 @@ TEST(Slice, ASingleSliceIsShownWithinHalfItsThickness) {
     EXPECT_EQ(slice_range(flat, Orientation::axial).count, 1);
     EXPECT_EQ(cut(volume, slice_plane(flat, Orientation::axial, 2.4)).view().row(3)[2], -40);
     EXPECT_EQ(cut(volume, slice_plane(flat, Orientation::axial, 2.6)).view().row(3)[2], -1000);
+}
+
+TEST(Slice, RowsThatMissTheVolumeStayWithinTheImage) {
+    // The rows lie along one axis of the samples, beyond the volume along another one and, in the
+    // second case, so far away that no pixel number holds the distance.
+    const Volume volume = ramp(upright);
+    for (const double away_mm : {100.0, 1e12}) {
+        SlicePlane plane = slice_plane(upright, Orientation::axial, -200);
+        plane.top_left_mm = {-30 - away_mm, 40 - away_mm, -200};
+        const Image<std::int16_t> image = cut(volume, plane);
+        for (int y = 0; y < plane.size.height; ++y)
+            for (int x = 0; x < plane.size.width; ++x)
+                ASSERT_EQ(image.view().row(y)[x], -1000);
+    }
+}
+
+// Rows that go from sample to sample have a way of their own.
+TEST(Slice, NoiseIsInterpolatedBetweenTheEightSamplesAround) {
+    Volume volume = ramp(upright);
+    std::mt19937 rng(11);
+    for (std::int16_t& sample : volume.samples)
+        sample = std::int16_t(rng());
+    const VolumeGrid& grid = volume.grid;
+    const auto reference = [&](Vec3 p) {
+        const double places[] = {std::clamp(p.x, 0.0, grid.columns - 1.0),
+                                 std::clamp(p.y, 0.0, grid.rows - 1.0),
+                                 std::clamp(p.z, 0.0, grid.slices - 1.0)};
+        const int sides[] = {grid.columns, grid.rows, grid.slices};
+        int low[3];
+        for (int i = 0; i < 3; ++i)
+            low[i] = std::min(int(places[i]), sides[i] - 2);
+        double sum = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            double weight = 1;
+            int at[3];
+            for (int i = 0; i < 3; ++i) {
+                const int high = corner >> i & 1;
+                at[i] = low[i] + high;
+                weight *= high ? places[i] - low[i] : 1 - (places[i] - low[i]);
+            }
+            sum += weight * volume.samples[grid.index(at[0], at[1], at[2])];
+        }
+        return sum;
+    };
+    for (const auto orientation :
+         {Orientation::axial, Orientation::coronal, Orientation::sagittal}) {
+        const SliceRange range = slice_range(grid, orientation);
+        for (const double steps : {0.0, 1.0, 1.4, 2.999, range.count - 1.0}) {
+            const SlicePlane plane =
+                slice_plane(grid, orientation, range.first_mm + steps * range.step_mm);
+            const Image<std::int16_t> image = cut(volume, plane);
+            for (int y = 0; y < plane.size.height; ++y)
+                for (int x = 0; x < plane.size.width; ++x)
+                    ASSERT_NEAR(image.view().row(y)[x],
+                                reference(SamplesFromPatient(grid).point(plane.point_at(x, y))),
+                                0.52)
+                        << int(orientation) << " " << steps << " " << x << " " << y;
+        }
+    }
 }
 
 TEST(Slice, LettersNameThePatientsSides) {

@@ -10,6 +10,7 @@
 #include "base/fault.h"
 #include "net/acknowledger.h"
 #include "net/client.h"
+#include "net/silence.h"
 
 namespace theatron::net {
 namespace {
@@ -18,6 +19,12 @@ constexpr double tick_ms = 100;
 constexpr Duration tick_every = std::chrono::milliseconds(100);
 // Bytes that may wait in the browser's own queue: what is sent next is then still chosen late.
 constexpr std::size_t most_unsent = 64 * 1024;
+
+// It goes on while the machine sleeps, which a browser's steady clock need not do.
+TimePoint wall_now() {
+    return TimePoint(
+        std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()));
+}
 
 std::string url_of(const Link& link) {
     const bool is_ipv6 = link.host.find(':') != std::string::npos;
@@ -38,10 +45,13 @@ struct Client::Impl {
     Acknowledger acknowledger;
     Outbox outbox;
     Bytes outgoing;
-    TimePoint next_tick;
+    Silence silence;
+    TimePoint began, next_tick;
     std::deque<std::function<void()>> posted;
 
     ~Impl() { close(); }
+
+    std::string where() const { return link.host + ":" + std::to_string(link.port); }
 
     void close() {
         if (interval != 0)
@@ -68,6 +78,7 @@ struct Client::Impl {
             return;
         const bool done = contain("net", [&] {
             work();
+            end_if_lost();
             tick_if_due();
             while (!posted.empty() && !is_finished) {
                 const auto next = std::move(posted.front());
@@ -79,6 +90,18 @@ struct Client::Impl {
         });
         if (!done)
             finish("The connection ended: it met a fault here.");
+    }
+
+    void end_if_lost() {
+        const TimePoint now = handler.now();
+        if (is_finished)
+            return;
+        if (silence.has_slept(now, wall_now()))
+            return finish("The connection ended: this computer has slept.");
+        if (silence.is_too_long(now))
+            return finish("The connection ended: the host is silent.");
+        if (!is_open && now - began > Silence::longest_handshake)
+            finish("No host answers at " + where() + ".");
     }
 
     // Browsers slow the timers of a hidden page down, but not its messages.
@@ -157,6 +180,7 @@ struct Client::Impl {
     }
     static EM_BOOL on_message(int, const EmscriptenWebSocketMessageEvent* event, void* data) {
         auto& self = *static_cast<Impl*>(data);
+        self.silence.heard();
         self.on_event([&] {
             if (event->isText)
                 return self.finish("The connection ended: the other side sent text.");
@@ -169,13 +193,13 @@ struct Client::Impl {
         // A browser does not tell scripts why.
         self.finish(self.is_open
                         ? "The connection ended: the other side closed the connection."
-                        : "No host answers at " + self.link.host + ":" +
-                              std::to_string(self.link.port) +
+                        : "No host answers at " + self.where() +
                               ", or this browser does not trust its certificate any more.");
         return EM_TRUE;
     }
 
     void start() {
+        began = handler.now();
         EmscriptenWebSocketCreateAttributes attributes;
         emscripten_websocket_init_create_attributes(&attributes);
         const std::string url = url_of(link);
@@ -215,6 +239,7 @@ void Client::post(std::function<void()> work) {
 void Client::send_control(ByteView control) {
     if (!impl_->outbox.push_control(wire::wrap_control(control)))
         impl_->finish("The connection ended: the other side does not read.");
+    impl_->silence.sent(impl_->handler.now());
     impl_->later();
 }
 

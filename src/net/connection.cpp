@@ -7,6 +7,8 @@
 #include <bit>
 #include <utility>
 
+#include "net/silence.h"
+
 namespace theatron::net {
 namespace {
 
@@ -41,9 +43,9 @@ void configure(WebSocket& socket) {
     socket.auto_fragment(false);
     socket.read_message_max(wire::max_envelope_size);
     websocket::stream_base::timeout timeout{};
-    timeout.handshake_timeout = std::chrono::seconds(10);
+    timeout.handshake_timeout = Silence::longest_handshake;
     // A silent peer is pinged after half of this time, and the connection ends after all of it.
-    timeout.idle_timeout = std::chrono::seconds(30);
+    timeout.idle_timeout = Silence::longest;
     timeout.keep_alive_pings = true;
     socket.set_option(timeout);
 }

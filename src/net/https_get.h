@@ -9,6 +9,8 @@
 
 namespace theatron::net {
 
+inline constexpr Duration https_patience = std::chrono::seconds(10);
+
 struct HttpsAnswer {
     int status = 0;
     std::string body;
@@ -17,6 +19,6 @@ struct HttpsAnswer {
 // GET `target` with the link's token as bearer. Throws Error with one sentence if
 // no answer comes in time, or not from this host.
 HttpsAnswer https_get(const Link& link, const std::string& target,
-                      Duration timeout = std::chrono::seconds(10));
+                      Duration timeout = https_patience);
 
 }  // namespace theatron::net

@@ -39,9 +39,11 @@ void Outbox::put_state(const wire::State& state) {
 
 void Outbox::push_voice(const wire::Voice& voice) {
     const auto same = [&](const Packet& p) { return p.speaker == voice.speaker; };
-    if (std::size_t(std::count_if(voice_.begin(), voice_.end(), same)) >= max_waiting_voice)
+    const std::size_t of_one = keeps_everything_ ? max_kept_voice : max_waiting_voice;
+    const std::size_t of_all = keeps_everything_ ? max_kept_voices : max_waiting_voices;
+    if (std::size_t(std::count_if(voice_.begin(), voice_.end(), same)) >= of_one)
         voice_.erase(std::find_if(voice_.begin(), voice_.end(), same));
-    else if (voice_.size() >= max_waiting_voices)
+    else if (voice_.size() >= of_all)
         voice_.pop_front();
     voice_.push_back({voice.speaker, {voice.packet.begin(), voice.packet.end()}});
 }

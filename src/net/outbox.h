@@ -69,6 +69,8 @@ public:
     static constexpr std::size_t max_waiting_states = 1024;
     // Packets of one speaker that may wait, and of all together.
     static constexpr std::size_t max_waiting_voice = 3, max_waiting_voices = 96;
+    // The same for a peer for which everything is kept: ten seconds of eight speakers.
+    static constexpr std::size_t max_kept_voice = 500, max_kept_voices = 4000;
     // Parts of content that may wait; further ones are dropped, and the peer asks again.
     static constexpr std::size_t max_waiting_content = 4;
     // While pictures wait too, one of so many bytes is content.

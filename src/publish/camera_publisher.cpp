@@ -7,6 +7,7 @@
 #include "base/steady_clock.h"
 #include "capture/placed_camera.h"
 #include "geometry/calibration.h"
+#include "geometry/screen.h"
 #include "publish/own_camera.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -58,11 +59,18 @@ std::optional<Vec3> eyes_before(capture::Camera& camera) {
     return eyes;
 }
 
-// Turns the cameras' places in the room into places before the person.
-void place_before_person(capture::Camera& first, std::vector<Calibration>& cameras) {
-    const Pose person_from_first = person_from_camera(cameras.front(), eyes_before(first));
-    const Calibration before = cameras.front();
+// Turns the cameras' places in the room into places before the person. Screens stay in the room.
+void place_before_person(const std::vector<std::unique_ptr<capture::Camera>>& opened,
+                         std::vector<Calibration>& cameras) {
+    const auto first = std::find_if_not(cameras.begin(), cameras.end(), is_screen);
+    if (first == cameras.end())
+        return;
+    const Calibration before = *first;
+    const Pose person_from_first =
+        person_from_camera(before, eyes_before(*opened[std::size_t(first - cameras.begin())]));
     for (Calibration& camera : cameras) {
+        if (is_screen(camera))
+            continue;
         const bool is_placed = before.registered && camera.registered;
         camera.room_from_camera = is_placed ? person_from_first * inverse(before.room_from_camera) *
                                                   camera.room_from_camera
@@ -84,12 +92,13 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
         calibrations.push_back(without_person(cameras.back()->info().calibration));
     }
-    if (sharing.frame == wire::CameraFrame::person && !cameras.empty())
-        place_before_person(*cameras.front(), calibrations);
+    if (sharing.frame == wire::CameraFrame::person)
+        place_before_person(cameras, calibrations);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const capture::CameraInfo& info = cameras[i]->info();
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
-                           encode_calibration(calibrations[i]), sharing.may_record, sharing.frame});
+                           encode_calibration(calibrations[i]), sharing.may_record,
+                           is_screen(calibrations[i]) ? wire::CameraFrame::room : sharing.frame});
     }
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));
@@ -106,7 +115,14 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     events.state = [this, camera](wire::CameraState state) { on_state(camera, std::move(state)); };
     send::CameraLane::Options options;
     options.cameras = specifications_.size();
-    options.open_again = [this, specification = specifications_[camera]] {
+    std::string specification = specifications_[camera];
+    // A live screen keeps its size: a window may have another one when it comes back.
+    const capture::CameraInfo& info = opened->info();
+    const Size size = info.calibration.color.size;
+    if (info.live && is_screen(info.calibration) &&
+        specification.find(",size=") == std::string::npos)
+        specification += ",size=" + std::to_string(size.width) + "x" + std::to_string(size.height);
+    options.open_again = [this, specification] {
         return capture::open_camera_at(specification, places_);
     };
     options.make_color = color_watch_.make_color();

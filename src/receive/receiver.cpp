@@ -19,6 +19,14 @@ std::int32_t frames_after(FrameNumber a, FrameNumber b) {
     return std::int32_t(a - b);
 }
 
+// The place of a camera does not concern its decoders.
+bool has_equal_pictures(const Bytes& a, const Bytes& b) {
+    if (a == b)
+        return true;
+    const auto one = decode_calibration(a), other = decode_calibration(b);
+    return one && other && one->depth == other->depth && one->color == other->color;
+}
+
 }  // namespace
 
 std::size_t max_media_size(const wire::Camera& camera, StreamId stream) {
@@ -33,8 +41,8 @@ std::size_t max_media_size(const wire::Camera& camera, StreamId stream) {
 void Receiver::set_cameras(const std::vector<wire::Camera>& cameras) {
     const auto stays = [&](CameraId id) {
         return std::any_of(cameras.begin(), cameras.end(), [&](const wire::Camera& camera) {
-            return camera.id == id && camera.calibration == cameras_.at(id).calibration &&
-                   camera.has_color == cameras_.at(id).has_color;
+            return camera.id == id && camera.has_color == cameras_.at(id).has_color &&
+                   has_equal_pictures(camera.calibration, cameras_.at(id).calibration);
         });
     };
     std::erase_if(streams_, [&](const auto& entry) { return !stays(entry.second.camera); });

@@ -79,7 +79,7 @@ public:
     explicit Receiver(Events events) : events_(std::move(events)) {}
 
     // Sets the cameras that the host announced. A camera that was there before with the same
-    // calibration keeps its decoders; streams of other cameras are forgotten. A camera whose
+    // lenses keeps its decoders; streams of other cameras are forgotten. A camera whose
     // calibration cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
     // Throws Error if this build does not know one of the codecs.

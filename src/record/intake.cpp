@@ -24,7 +24,7 @@ std::string count(std::uint64_t pictures) {
     return std::to_string(pictures) + (pictures == 1 ? " picture" : " pictures");
 }
 
-std::string megabytes(std::size_t bytes) {
+std::string rounded_megabytes(std::size_t bytes) {
     return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
 }
 
@@ -77,6 +77,15 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         current_ = *std::move(pending_);
         pending_.reset();
     }
+    if (is_described_anew())
+        for (auto& [id, entry] : entries_)
+            entry.gate.want_key();
+}
+
+// The same streams, in the same settings, of cameras that now stand elsewhere.
+bool Intake::is_described_anew() const {
+    return pending_ && !pending_->new_connection && recorder_ &&
+           pending_->settings == current_.settings;
 }
 
 bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
@@ -98,12 +107,14 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
             entry.gate.close();
         else if (!begin(*std::exchange(pending_, std::nullopt), header, now))
             return false;
-    } else if (wants_segment_ && header.key && can_begin_with(entry)) {
-        if (!begin(current_, header, now))
+    } else if ((wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry)) {
+        Description next = is_described_anew() ? *std::exchange(pending_, std::nullopt) : current_;
+        if (!begin(std::move(next), header, now))
             return false;
     }
     const StreamGate::Answer answer = entry.gate.on_frame(header, now.local);
     note_time(entry, header, now.local);
+    fill_voices(header.captured, now.clock.session);
     if (!answer.record)
         return answer.ask_for_key;
     switch (recorder_->add(header, std::move(message), now.clock.session, filters)) {
@@ -140,9 +151,10 @@ bool Intake::begin(Description description, const wire::MediaHeader& header, con
         clock = {header.captured, clock.utc - age};
     try {
         if (!recorder_)
-            recorder_ = std::make_unique<Recorder>(file_, description.cameras, clock, options_);
+            recorder_ = std::make_unique<Recorder>(file_, description.cameras, clock, options_,
+                                                   voice_tracks());
         else
-            recorder_->begin_segment(description.cameras, clock);
+            recorder_->begin_segment(description.cameras, clock, voice_tracks());
     } catch (const std::exception& e) {
         problem_ = e.what();
         return false;
@@ -151,6 +163,7 @@ bool Intake::begin(Description description, const wire::MediaHeader& header, con
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
+    begin_voices(clock.session);
     ++segments_begun_;
     wants_segment_ = false;
     return true;
@@ -238,9 +251,10 @@ std::vector<std::string> Intake::news(TimePoint now) {
         const Recorder::Figures figures = recorder_->figures();
         const bool late = figures.late > late_disk;
         if (late && !disk_is_late_)
-            sentences.push_back("The disk does not keep up: " + megabytes(figures.waiting_bytes) +
-                                " wait to be written, and what exceeds " +
-                                megabytes(options_.buffer_bytes) + " will be lost.");
+            sentences.push_back(
+                "The disk does not keep up: " + rounded_megabytes(figures.waiting_bytes) +
+                " wait to be written, and what exceeds " +
+                rounded_megabytes(options_.buffer_bytes) + " will be lost.");
         else if (!late && disk_is_late_ && figures.problem.empty())
             sentences.push_back("The disk keeps up again.");
         disk_is_late_ = late;

@@ -15,6 +15,7 @@
 
 #include "record/recorder.h"
 #include "record/stream_gate.h"
+#include "record/voice_track.h"
 
 namespace theatron::record {
 
@@ -53,6 +54,27 @@ public:
     // it is none or nothing is recorded yet: then the next part must be a key part. Never waits,
     // never throws. From any thread, in order.
     [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, TimePoint now);
+
+    // The people who agree that their voices are recorded, all of them. Each segment has a track
+    // for each of those of its beginning, and spare_voices for people who agree later. When these
+    // are used up, a segment begins with the next key frame. From any thread.
+    static constexpr std::size_t spare_voices = 4;
+    void describe_voices(std::vector<RecordedVoice> voices);
+
+    // A packet of such a person, in the order of arrival. Voices go into the file as gapless
+    // sequences (voice_track.h), silence up to voice_patience before the newest picture. Nothing is
+    // recorded of a person who has not agreed, or before the first picture. Never waits, never
+    // throws. From any thread.
+    static constexpr Duration voice_patience = std::chrono::seconds(1);
+    void take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
+
+    struct Voice {
+        RecordedVoice who;
+        VoiceSequence::Figures figures;
+        std::uint64_t dropped = 0;  // packets, since the disk was too slow
+    };
+    // Everybody whose voice was recorded, also of earlier segments.
+    std::vector<Voice> voices() const;
 
     // The last file is not at its name any more: a new one begins with the next key frame, which
     // take() requests. Until then pictures go into the last one, which may only be renamed.
@@ -105,7 +127,22 @@ private:
         bool new_connection = false;
     };
 
+    // A voice track of the newest segment, and its speaker; not given out yet: nobody.
+    struct VoiceLane {
+        std::optional<ParticipantId> person;
+        std::string note;  // names the speaker
+        VoiceSequence sequence;
+        FrameNumber blocks = 0;
+    };
+
+    std::vector<VoiceTrack> voice_tracks() const;
+    void begin_voices(TimePoint begin);
+    VoiceLane* voice_lane_of(ParticipantId person);
+    void add_voice(std::size_t lane, const VoiceSequence::Block& block, TimePoint now);
+    void fill_voices(TimePoint captured, TimePoint now);
+    void keep_voice_figures();
     bool begin(Description description, const wire::MediaHeader& header, const Now& now);
+    bool is_described_anew() const;
     bool can_begin_with(const Entry& entry) const;
     void note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now);
 
@@ -123,6 +160,10 @@ private:
     bool disk_is_late_ = false;
     std::uint64_t segments_begun_ = 0, room_segment_ = 0;  // that of the newest part of the room
     FrameNumber room_parts_ = 0;
+    std::vector<RecordedVoice> agreed_;
+    std::vector<VoiceLane> voices_;          // by track
+    std::map<ParticipantId, Voice> spoken_;  // in earlier segments; drops also of this one
+    TimePoint newest_picture_;
 };
 
 }  // namespace theatron::record

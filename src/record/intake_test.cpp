@@ -236,5 +236,21 @@ TEST_F(IntakeTest, AFileThatIsGoneFromItsNameCostsNoPicture) {
     EXPECT_EQ(intake->recorder()->figures().segments, 2u);
 }
 
+// As when somebody nudges a camera: its streams and their settings stay.
+TEST_F(IntakeTest, ACameraThatStandsElsewhereBeginsASegment) {
+    send();
+    send();
+    std::vector<RecordedCamera> moved = cameras();
+    moved[0].calibration = Bytes(5);
+    intake->describe(moved, {{depth, first_setting}}, false, local);
+    for (int i = 0; i < 3; ++i)
+        send();
+    EXPECT_EQ(figures().lost, 0u);
+    EXPECT_EQ(written().size(), 5u);
+    const auto recording = RecordingFile::open(file);
+    ASSERT_EQ(recording->segments().size(), 2u);
+    EXPECT_EQ(recording->cameras().at(0).parts.at(1).calibration, Bytes(5));
+}
+
 }  // namespace
 }  // namespace theatron::record

@@ -35,6 +35,22 @@ using namespace libmatroska;
 // TrackType of RFC 9559 that the library has no name for.
 constexpr std::uint64_t metadata_track = 33;
 constexpr std::int64_t ns_per_tick = 1000;  // block times count microseconds
+// For Opus (RFC 7845, 4.2 and 4.6): the encoder's delay of 312 samples, and the time that a decoder
+// takes to converge.
+constexpr std::uint64_t opus_delay_ns = 6'500'000, opus_pre_roll_ns = 80'000'000;
+constexpr double opus_rate_hz = 48'000;
+
+std::uint64_t type_of(TrackKind kind) {
+    switch (kind) {
+        case TrackKind::video:
+            return track_video;
+        case TrackKind::opus:
+            return track_audio;
+        case TrackKind::metadata:
+            break;
+    }
+    return metadata_track;
+}
 
 // Appends the bytes that libebml renders to a byte sequence.
 class BytesOut final : public IOCallback {
@@ -140,8 +156,7 @@ void render_tracks(const MatroskaLayout& layout, Bytes& out) {
         auto& entry = add<KaxTrackEntry>(tracks);
         add_number<KaxTrackNumber>(entry, std::uint64_t(track.number));
         add_number<KaxTrackUID>(entry, std::uint64_t(track.number));
-        add_number<KaxTrackType>(entry,
-                                 track.is_video ? std::uint64_t(track_video) : metadata_track);
+        add_number<KaxTrackType>(entry, type_of(track.kind));
         add_number<KaxTrackFlagDefault>(entry, track.shown);
         add_number<KaxTrackFlagLacing>(entry, 0);
         if (!track.name.empty())
@@ -158,9 +173,9 @@ void render_tracks(const MatroskaLayout& layout, Bytes& out) {
             add_text<KaxBlockAddIDName>(mapping, name);
             add_number<KaxBlockAddIDType>(mapping, 0);
         };
-        const std::pair<int, const std::string*> additions[] = {{side_id, &layout.side_name},
-                                                                {note_id, &layout.note_name},
-                                                                {check_id, &layout.check_name}};
+        const std::string& note_name = track.note_name.empty() ? layout.note_name : track.note_name;
+        const std::pair<int, const std::string*> additions[] = {
+            {side_id, &layout.side_name}, {note_id, &note_name}, {check_id, &layout.check_name}};
         int max_id = 0;
         for (const auto& [id, name] : additions)
             max_id = name->empty() ? max_id : id;
@@ -169,7 +184,14 @@ void render_tracks(const MatroskaLayout& layout, Bytes& out) {
         for (const auto& [id, name] : additions)
             if (!name->empty())
                 add_mapping(id, *name);
-        if (!track.is_video)
+        if (track.kind == TrackKind::opus) {
+            add_number<KaxCodecDelay>(entry, opus_delay_ns);
+            add_number<KaxSeekPreRoll>(entry, opus_pre_roll_ns);
+            auto& audio = add<KaxTrackAudio>(entry);
+            *static_cast<EbmlFloat*>(&add<KaxAudioSamplingFreq>(audio)) = opus_rate_hz;
+            add_number<KaxAudioChannels>(audio, 1);
+        }
+        if (track.kind != TrackKind::video)
             continue;
         auto& video = add<KaxTrackVideo>(entry);
         add_number<KaxVideoPixelWidth>(video, std::uint64_t(track.width));

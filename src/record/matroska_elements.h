@@ -16,15 +16,22 @@
 
 namespace theatron::record {
 
+enum class TrackKind {
+    video,
+    metadata,  // which players ignore
+    opus,      // one channel, 48 kHz (RFC 7845); `codec_private` is the OpusHead
+};
+
 struct Track {
-    int number = 1;        // 1 to 256, each once
-    bool is_video = true;  // else metadata, which players ignore
+    int number = 1;  // 1 to 256, each once
+    TrackKind kind = TrackKind::video;
     std::string name;
     std::string codec_id;
     Bytes codec_private;
     int width = 0, height = 0;
     double frames_per_second = 0;  // 0: unknown
     bool shown = true;             // a player that plays one track may choose this one
+    std::string note_name;         // in place of that of the layout; empty: that
 };
 
 struct Attachment {
@@ -45,6 +52,7 @@ struct Block {
     int track = 1;
     std::int64_t time_us = 0;  // since the file's beginning, not negative
     bool key = true;
+    bool indexed = true;            // if key: players find it by the index
     std::int64_t reference_us = 0;  // unless key: the time of the frame referred to
     ByteView payload;
     ByteView side;     // stored beside the payload, unseen by players; may be empty

@@ -170,7 +170,7 @@ std::string MatroskaWriter::write(std::vector<Block> blocks) {
 void MatroskaWriter::append_cluster(std::span<const Block> blocks, Bytes& out) {
     for (const Block& block : blocks) {
         const auto last = last_cue_us_.find(block.track);
-        if (block.key &&
+        if (block.key && block.indexed &&
             (last == last_cue_us_.end() || block.time_us - last->second >= cue_distance_us)) {
             last_cue_us_[block.track] = block.time_us;
             cues_.push_back({block.time_us, block.track, end_ + out.size() - segment_});

@@ -41,9 +41,11 @@ std::vector<fs::path> later_segments_of(const fs::path& path) {
     return files;
 }
 
-std::vector<StreamId> streams_of(const std::vector<RecordedCamera>& cameras) {
+std::vector<StreamId> streams_of(const SegmentWriter::Content& content) {
     std::vector<StreamId> streams;
-    for (const RecordedCamera& camera : cameras) {
+    for (const VoiceTrack& voice : content.voices)
+        streams.push_back(stream_of_track(voice.number));
+    for (const RecordedCamera& camera : content.cameras) {
         streams.push_back(depth_stream(camera.id));
         if (camera.color)
             streams.push_back(color_stream(camera.id));
@@ -63,21 +65,22 @@ void block_file_size_signal() {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-                   const ClockPair& clock, const Options& options)
+                   const ClockPair& clock, const Options& options,
+                   const std::vector<VoiceTrack>& voices)
     : path_(path), buffer_bytes_(options.buffer_bytes), has_room_(options.has_room) {
     if (const std::string problem = name_problem(path_); !problem.empty())
         throw Error(problem);
     info_.recording = make_uid();
     info_.clock = clock;
     const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};
-    writer_ =
-        std::make_unique<SegmentWriter>(path_, cameras, info_, options.replace, "", has_room_);
+    const SegmentWriter::Content content{cameras, voices, has_room_};
+    writer_ = std::make_unique<SegmentWriter>(path_, content, info_, options.replace);
     // Later segments of the replaced recording must not remain beside the new one.
     for (const fs::path& later : replaced) {
         std::error_code ignored;
         fs::remove(later, ignored);
     }
-    streams_ = streams_of(cameras);
+    streams_ = streams_of(content);
     last_now_ = clock.session;
     figures_.bytes = writer_->bytes();
     thread_ = std::thread([this] { run(); });
@@ -98,13 +101,15 @@ Duration Recorder::own_time(TimePoint now) {
     return own_now_ += passed;
 }
 
-void Recorder::begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock) {
-    auto shared = std::make_shared<const std::vector<RecordedCamera>>(cameras);
+void Recorder::begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock,
+                             const std::vector<VoiceTrack>& voices) {
+    auto shared = std::make_shared<const SegmentWriter::Content>(
+        SegmentWriter::Content{cameras, voices, has_room_});
     const std::lock_guard lock(mutex_);
-    streams_ = streams_of(cameras);
+    streams_ = streams_of(*shared);
     last_now_ = clock.session;
     // A segment without any message is none.
-    if (!waiting_.empty() && waiting_.back().cameras)
+    if (!waiting_.empty() && waiting_.back().segment)
         waiting_.pop_back();
     waiting_.push_back({{}, own_now_, std::move(shared), clock});
 }
@@ -117,13 +122,14 @@ Recorder::Added Recorder::add(const wire::MediaHeader& header, std::shared_ptr<c
         if (finishing_ || !figures_.problem.empty())
             return Added::ended;
         const bool is_room = header.stream == room_stream;
+        const bool is_picture = !is_room && !is_voice(header.stream);
         if (is_room ? !has_room_
                     : std::find(streams_.begin(), streams_.end(), header.stream) == streams_.end())
             return Added::not_recorded;
         const Duration came = own_time(now);
         const std::size_t cost = cost_of(message);
         if (waiting_bytes_ + cost > buffer_bytes_) {
-            if (!is_room) {
+            if (is_picture) {
                 ++figures_.dropped;
                 ++figures_.dropped_of[header.stream];
             }
@@ -197,7 +203,7 @@ bool Recorder::take(std::deque<Waiting>& batch) {
     for (std::size_t bytes = 0; !waiting_.empty() && bytes < many_bytes;) {
         const std::size_t cost = cost_of(waiting_.front().message.message);
         bytes += cost;
-        unseen_bytes_ -= waiting_.front().cameras ? 0 : cost;
+        unseen_bytes_ -= waiting_.front().segment ? 0 : cost;
         batch.push_back(std::move(waiting_.front()));
         waiting_.pop_front();
     }
@@ -208,7 +214,7 @@ bool Recorder::take(std::deque<Waiting>& batch) {
 std::string Recorder::write(std::deque<Waiting>& batch) {
     std::vector<RecordedMessage> messages;
     for (Waiting& waiting : batch) {
-        if (!waiting.cameras) {
+        if (!waiting.segment) {
             messages.push_back(std::move(waiting.message));
             continue;
         }
@@ -226,13 +232,15 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
         if (std::string problem = begin_next(); !problem.empty())
             return problem;
     std::string problem = writer_->write(messages);
-    std::size_t bytes = 0, room_bytes = 0, room_parts = 0;
+    std::size_t bytes = 0, room_bytes = 0, voice_bytes = 0, pictures = 0;
     for (const RecordedMessage& one : messages) {
         bytes += cost_of(one.message);
-        if (one.header.stream != room_stream)
-            continue;
-        ++room_parts;
-        room_bytes += one.message->size();
+        if (one.header.stream == room_stream)
+            room_bytes += one.message->size();
+        else if (is_voice(one.header.stream))
+            voice_bytes += one.message->size();
+        else
+            ++pictures;
     }
     const std::lock_guard lock(mutex_);
     waiting_bytes_ -= bytes;
@@ -240,8 +248,9 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     figures_.bytes = bytes_before_ + writer_->bytes();
     figures_.cut_bytes = cut_before_ + writer_->cut_bytes();
     if (problem.empty()) {
-        figures_.frames += messages.size() - room_parts;
+        figures_.frames += pictures;
         figures_.room_bytes += room_bytes;
+        figures_.voice_bytes += voice_bytes;
         for (const RecordedMessage& one : messages)
             ++figures_.frames_of[one.header.stream];
         figures_.duration = duration_before_ + writer_->duration();
@@ -271,8 +280,7 @@ std::string Recorder::begin_next() {
     // If it was deleted. Above it none is made: a disk that is gone leaves its place without one.
     std::filesystem::create_directory(file.parent_path(), ignored);
     try {
-        auto writer =
-            std::make_unique<SegmentWriter>(file, *next.cameras, info_, true, "", has_room_);
+        auto writer = std::make_unique<SegmentWriter>(file, *next.segment, info_);
         duration_before_ += writer_->duration();
         bytes_before_ += writer_->bytes();
         cut_before_ += writer_->cut_bytes();

@@ -49,8 +49,9 @@ public:
     struct Figures {
         Duration duration{};  // from the first picture to the last, of all segments together
         std::uint64_t bytes = 0;
-        std::uint64_t frames = 0;      // pictures written, depth and colour counted each
-        std::uint64_t room_bytes = 0;  // of messages of the room, written
+        std::uint64_t frames = 0;       // pictures written, depth and colour counted each
+        std::uint64_t room_bytes = 0;   // of messages of the room, written
+        std::uint64_t voice_bytes = 0;  // of messages of voices, written, silence included
         std::map<StreamId, std::uint64_t> frames_of;   // pictures by stream; absent: none
         std::uint64_t dropped = 0;                     // came faster than the disk could write
         std::map<StreamId, std::uint64_t> dropped_of;  // the same by stream; absent: none
@@ -62,10 +63,11 @@ public:
     };
 
     // Creates the first segment's file, in place of an existing one. Later segments get names of
-    // their own beside it (segment_path), never that of an existing file. At most 63 cameras.
-    // Throws Error.
+    // their own beside it (segment_path), never that of an existing file. At most 63 cameras and
+    // max_voice_tracks voices. Throws Error.
     Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-             const ClockPair& clock, const Options& options);
+             const ClockPair& clock, const Options& options,
+             const std::vector<VoiceTrack>& voices = {});
     Recorder(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
              const ClockPair& clock)
         : Recorder(path, cameras, clock, Options{}) {}
@@ -76,12 +78,13 @@ public:
     // calibrations have changed, or the session's clock has restarted. Never waits. The file is
     // made when the segment's first message is written, and its folder if that was deleted. From
     // any thread, in order with add().
-    void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock);
+    void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock,
+                       const std::vector<VoiceTrack>& voices = {});
 
-    // Takes a whole media message of one of the cameras' streams, or of the room, which arrived at
-    // session time `now`. Never waits. From any thread. `filters` names the filters of the depth
-    // (docs/filters.md); empty: none. A message that was not taken leaves a gap: the stream's next
-    // one must be a key frame, because references to the missing one cannot be decoded.
+    // Takes a whole media message of one of the streams of cameras and voices, or of the room,
+    // which arrived at session time `now`. Never waits. From any thread. `filters`: see
+    // RecordedMessage. A message that was not taken leaves a gap: the stream's next one must be a
+    // key frame, because references to the missing one cannot be decoded.
     [[nodiscard]] Added add(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
                             TimePoint now, const std::string& filters = {});
 
@@ -96,7 +99,7 @@ private:
     struct Waiting {
         RecordedMessage message;
         Duration came;  // on the recorder's own scale
-        std::shared_ptr<const std::vector<RecordedCamera>> cameras;
+        std::shared_ptr<const SegmentWriter::Content> segment;
         ClockPair clock;
     };
 

@@ -93,7 +93,37 @@ void note_filters(StreamContent& stream, const std::string& note) {
         stream.filters.push_back({stream.frames.size(), std::move(filters)});
 }
 
+void note_speaker(StreamContent& voice, const std::string& note) {
+    std::string speaker = clean_text(note, max_note);
+    const bool is_new = voice.filters.empty() || voice.filters.back().filters != speaker;
+    if (!note.empty() && is_new)
+        voice.filters.push_back({voice.frames.size(), std::move(speaker)});
+}
+
 }  // namespace
+
+void RecordingFile::add_voices(const FoundHead& head, std::size_t segment) {
+    for (const FoundTrack& track : head.tracks) {
+        if (track.number < 1 || !is_voice(stream_of_track(track.number)) ||
+            track.codec_id != voice_codec_id)
+            continue;
+        auto voice = std::find_if(voices_.begin(), voices_.end(),
+                                  [&](const VoiceContent& v) { return v.track == track.number; });
+        if (voice == voices_.end()) {
+            voices_.push_back({track.number, {}, {}});
+            voice = voices_.end() - 1;
+            voice->content.present = true;
+            voice->content.codec = "opus";
+        } else if (voice->parts.back().segment == segment) {
+            continue;  // a second track of this number
+        }
+        voice->parts.push_back(
+            {segment, voice->content.frames.size(), clean_text(track.name, max_name)});
+        // Another segment may have another speaker.
+        if (!voice->content.filters.empty())
+            voice->content.filters.push_back({voice->content.frames.size(), ""});
+    }
+}
 
 void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain) {
     const FoundHead& head = member.head;
@@ -139,6 +169,12 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             streams[color_stream(camera.id)] = &camera.color;
     }
 
+    if (info)
+        add_voices(head, index);
+    for (VoiceContent& voice : voices_)
+        if (voice.parts.back().segment == index)
+            streams[stream_of_track(voice.track)] = &voice.content;
+
     const auto is_listed = [&](int track) {
         return std::any_of(head.tracks.begin(), head.tracks.end(),
                            [&](const FoundTrack& t) { return t.number == track; });
@@ -170,8 +206,8 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         StreamContent& stream = *at->second;
         const auto header = header_of(block, id, info.has_value());
         // Version 1 says the exact time in the header only, and may have begun before time 0.
-        const bool is_room = id == room_stream;
-        if (header && !first_captured && !is_room)
+        const bool is_picture = id != room_stream && !is_voice(id);
+        if (header && !first_captured && is_picture)
             first_captured = header->captured;
         const std::int64_t time_us =
             header && !info ? (header->captured - *first_captured).count() : block.time_us;
@@ -185,13 +221,15 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         ++frames_;
         const Duration time(time_us);
         last_block = std::max(last_block, time);
-        if (!is_room) {
+        if (is_picture) {
             ++segment.frames;
             segment.begin = any ? std::min(segment.begin, time) : time;
             segment.end = any ? std::max(segment.end, time) : time;
             any = true;
         }
-        if (is_depth(id))
+        if (is_voice(id))
+            note_speaker(stream, block.note);
+        else if (is_depth(id))
             note_filters(stream, block.note);
         RecordedFrame frame;
         frame.number = header->frame;
@@ -255,7 +293,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
 void RecordingFile::leave_out_repeated(std::size_t segment, std::size_t first_room) {
     if (!segments_[segment].has_info)
         return;  // in version 1 numbers may restart
-    const auto leave_out = [&](StreamContent& stream, std::size_t begin) {
+    const auto leave_out = [&](StreamContent& stream, std::size_t begin, bool is_pictures) {
         auto& frames = stream.frames;
         const auto is_behind = [](const RecordedFrame& a, const RecordedFrame& b) {
             return std::int32_t(b.number - a.number) <= 0;
@@ -287,15 +325,18 @@ void RecordingFile::leave_out_repeated(std::size_t segment, std::size_t first_ro
         frames.resize(kept);
         std::erase_if(stream.filters, [&](const FilterChange& c) { return c.frame >= kept; });
         segments_[segment].repeated += repeated;
-        segments_[segment].frames -= &stream == &room_ ? 0 : repeated;
+        segments_[segment].frames -= is_pictures ? repeated : 0;
         frames_ -= repeated;
     };
     for (CameraContent& camera : cameras_)
         if (const CameraPart& part = camera.parts.back(); part.segment == segment) {
-            leave_out(camera.depth, part.first_depth);
-            leave_out(camera.color, part.first_color);
+            leave_out(camera.depth, part.first_depth, true);
+            leave_out(camera.color, part.first_color, true);
         }
-    leave_out(room_, first_room);
+    for (VoiceContent& voice : voices_)
+        if (const VoiceContent::Part& part = voice.parts.back(); part.segment == segment)
+            leave_out(voice.content, part.first, false);
+    leave_out(room_, first_room, false);
 }
 
 // Puts the segments one behind the other, and moves all frames to where they then are.
@@ -338,8 +379,12 @@ void RecordingFile::place_segments() {
         for (StreamContent* stream : {&camera.depth, &camera.color})
             for (RecordedFrame& frame : stream->frames)
                 frame.time_us = frame.time_us + moves[frame.segment].count();
-    for (RecordedFrame& frame : room_.frames)
-        frame.time_us = std::max<std::int64_t>(frame.time_us + moves[frame.segment].count(), 0);
+    std::vector<StreamContent*> beside{&room_};
+    for (VoiceContent& voice : voices_)
+        beside.push_back(&voice.content);
+    for (StreamContent* stream : beside)
+        for (RecordedFrame& frame : stream->frames)
+            frame.time_us = std::max<std::int64_t>(frame.time_us + moves[frame.segment].count(), 0);
 }
 
 Result<std::unique_ptr<RecordingFile>> RecordingFile::read(

@@ -57,7 +57,8 @@ struct StreamContent {
     std::string codec;  // its setting: "zstd:delta=1"; of JPEG just "jpeg"
     int width = 0, height = 0;
     std::deque<RecordedFrame> frames;  // in the order in which they were recorded
-    // The filters that were applied to depth before encoding; none before the first entry.
+    // The filters that were applied to depth before encoding; none before the first entry. A
+    // voice has its speakers here (parse_speaker_note()).
     std::vector<FilterChange> filters;
     // Frames whose header is damaged or does not fit the stream.
     std::uint64_t damaged = 0;
@@ -81,6 +82,18 @@ struct CameraContent {
     Bytes calibration;
     StreamContent depth, color;
     std::vector<CameraPart> parts;  // by segment; at least one
+};
+
+// The voices of one track, in `frames`: Opus packets without gaps, of 10 ms to 120 ms. They are not
+// counted as pictures anywhere.
+struct VoiceContent {
+    int track = 0;
+    StreamContent content;
+    struct Part {
+        std::size_t segment = 0, first = 0;  // its index, and the first of its frames
+        std::string name;                    // see VoiceTrack
+    };
+    std::vector<Part> parts;  // by segment; at least one
 };
 
 struct Segment {
@@ -127,6 +140,8 @@ public:
     static Result<std::unique_ptr<RecordingFile>> read(std::unique_ptr<ByteSource> source);
 
     const std::vector<CameraContent>& cameras() const { return cameras_; }
+    // Those of people who agreed to be recorded, by track.
+    const std::vector<VoiceContent>& voices() const { return voices_; }
     // The parts of the room's state, if it was recorded (docs/formats/room.md): in `frames`, not
     // counted as pictures anywhere.
     const StreamContent& room() const { return room_; }
@@ -161,6 +176,8 @@ public:
 private:
     RecordingFile() = default;
     void add_segment(SegmentChain::Member member, SegmentChain& chain);
+    // Adds this segment's voice tracks to voices_.
+    void add_voices(const FoundHead& head, std::size_t segment);
     void leave_out_repeated(std::size_t segment, std::size_t first_room);
     void note_earlier(const std::filesystem::path& path);
     void place_segments();
@@ -168,6 +185,7 @@ private:
     std::vector<std::shared_ptr<ByteSource>> sources_;
     std::vector<Segment> segments_;
     std::vector<CameraContent> cameras_;
+    std::vector<VoiceContent> voices_;
     StreamContent room_;
     std::uint64_t refused_ = 0, missing_segments_ = 0;
     std::vector<std::string> unreadable_files_, foreign_files_;

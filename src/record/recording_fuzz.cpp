@@ -7,6 +7,7 @@
 
 #include "record/recording_file.h"
 #include "record/recover.h"
+#include "record/speaker_note.h"
 
 namespace {
 
@@ -48,11 +49,21 @@ void read_all(std::vector<ByteView> files) {
                     frame.time() > (*recording)->duration())
                     std::abort();
             }
-    for (const record::RecordedFrame& part : (*recording)->room().frames) {
+    const auto check_beside = [&](const record::RecordedFrame& part) {
         const Status status = (*recording)->read_payload(part, payload);
         if ((status != Status::ok && status != Status::malformed) || part.time() < Duration(0) ||
             !(*recording)->read_header(part))
             std::abort();
+    };
+    for (const record::RecordedFrame& part : (*recording)->room().frames)
+        check_beside(part);
+    for (const record::VoiceContent& voice : (*recording)->voices()) {
+        if (voice.parts.empty())
+            std::abort();
+        for (const record::RecordedFrame& packet : voice.content.frames)
+            check_beside(packet);
+        for (const record::FilterChange& change : voice.content.filters)
+            (void)record::parse_speaker_note(change.filters);
     }
     if (std::filesystem::exists("/dev/shm"))
         recover_all(**recording);

@@ -23,8 +23,15 @@ inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
 inline constexpr const char* no_filters = "off";
 inline constexpr const char* unnamed_filters = "unnamed";
 
-// Those of cameras; 128 to 255 are kept for voices.
+inline constexpr const char* voice_codec_id = "A_OPUS";
+inline constexpr const char* speaker_note_name = "theatron.speaker";
+
 inline constexpr int max_camera_track = 126;
+// Voices are streams of their own, in tracks 128 to 255.
+inline constexpr StreamId first_voice_stream{127};
+inline constexpr std::size_t max_voice_tracks = 128;
+// In the media headers of voices: a packet of the speaker, and silence of the recorder.
+inline constexpr std::uint8_t voice_codec = 1, silence_codec = 2;
 // The state of the room is one more stream, in track 256.
 inline constexpr StreamId room_stream{255};
 // In its media headers: the version of the parts (docs/formats/room.md).
@@ -32,6 +39,12 @@ inline constexpr std::uint8_t room_codec = 1;
 
 inline constexpr const char* room_track_name = "room";
 
+constexpr StreamId voice_stream(std::size_t voice) {
+    return StreamId(std::size_t(first_voice_stream) + voice);
+}
+constexpr bool is_voice(StreamId stream) {
+    return stream >= first_voice_stream && stream < voice_stream(max_voice_tracks);
+}
 constexpr int track_number(StreamId stream) {
     return int(stream) + 1;
 }

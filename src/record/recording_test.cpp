@@ -218,7 +218,7 @@ TEST(Recording, ThatWasNeverClosedKnowsWhatWasOnTheDisk) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "a.mkv";
     const auto messages = generated(1, 300, 200);
-    SegmentWriter writer(path, cameras(1), {.clock = session_begin});
+    SegmentWriter writer(path, {.cameras = cameras(1)}, {.clock = session_begin});
     for (const Message& m : messages)
         ASSERT_EQ(
             writer.write(std::vector{RecordedMessage{m.header, m.bytes, "", m.header.captured}}),

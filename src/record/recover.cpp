@@ -25,7 +25,7 @@ class StreamReader {
 public:
     StreamReader(const StreamContent& stream, RecoveredStream& counts)
         : stream_(stream), counts_(counts) {
-        counts_.damaged = stream.damaged;
+        counts_.damaged += stream.damaged;
     }
 
     // The next frame of this segment; null at its end.
@@ -138,13 +138,33 @@ std::vector<RecordedCamera> cameras_in(const RecordingFile& recording, std::size
     return cameras;
 }
 
-// Reads the new file again and checks that it is complete and has this number of frames and of
-// parts of the room's state.
-void check(const std::filesystem::path& file, std::uint64_t frames, std::uint64_t room_parts) {
+std::vector<VoiceTrack> voices_in(const RecordingFile& recording, std::size_t segment) {
+    std::vector<VoiceTrack> voices;
+    for (const VoiceContent& voice : recording.voices())
+        for (const VoiceContent::Part& part : voice.parts)
+            if (part.segment == segment)
+                voices.push_back({voice.track, part.name});
+    return voices;
+}
+
+std::uint64_t voice_blocks_in(const RecordingFile& recording) {
+    std::uint64_t blocks = 0;
+    for (const VoiceContent& voice : recording.voices())
+        blocks += voice.content.frames.size();
+    return blocks;
+}
+
+struct Written {
+    std::uint64_t pictures = 0, room_parts = 0, voice_blocks = 0;
+};
+
+// Reads the new file again and checks that it is complete and has so much.
+void check(const std::filesystem::path& file, const Written& expected) {
     const auto written = RecordingFile::read(open_file_source(file));
     if (!written || !(*written)->segments()[0].complete() || (*written)->refused() > 0 ||
-        (*written)->segments()[0].frames != frames ||
-        (*written)->room().frames.size() != room_parts)
+        (*written)->segments()[0].frames != expected.pictures ||
+        (*written)->room().frames.size() != expected.room_parts ||
+        voice_blocks_in(**written) != expected.voice_blocks)
         throw Error("What was saved into '" + file.string() +
                     "' is not what can be read from it; its disk may be failing.");
 }
@@ -172,7 +192,9 @@ bool saved_all(const RecordingFile& recording, const Recovered& result) {
     for (const Recovered::Camera& camera : result.cameras)
         for (const RecoveredStream* stream : {&camera.depth, &camera.color})
             all = all && stream->damaged == 0 && stream->undecodable == 0;
-    return all && result.room.damaged == 0 && result.room.undecodable == 0;
+    for (const RecoveredStream* stream : {&result.room, &result.voices})
+        all = all && stream->damaged == 0 && stream->undecodable == 0;
+    return all;
 }
 
 void require(const std::string& problem) {
@@ -194,6 +216,8 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         streams.emplace_back(camera.depth, result.cameras[i].depth);
         streams.emplace_back(camera.color, result.cameras[i].color);
     }
+    for (const VoiceContent& voice : recording.voices())
+        streams.emplace_back(voice.content, result.voices);
     streams.emplace_back(recording.room(), result.room);
     NewFiles new_files;
     std::uint64_t bytes_before = 0;
@@ -211,14 +235,17 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
             info.recording = new_uid;
             info.clock.session = segment.first_captured;
         }
-        SegmentWriter writer(file, cameras_in(recording, s), info, true, losses_of(segment),
-                             segment.has_room);
+        const SegmentWriter::Content content{cameras_in(recording, s), voices_in(recording, s),
+                                             segment.has_room};
+        SegmentWriter writer(file, content, info, true, losses_of(segment));
         std::vector<RecordedMessage> messages;
         std::size_t waiting = 0;
-        std::uint64_t frames = 0, room_parts = 0;
+        Written written;
         const auto flush = [&] {
             for (const RecordedMessage& message : messages)
-                ++(message.header.stream == room_stream ? room_parts : frames);
+                ++(message.header.stream == room_stream ? written.room_parts
+                   : is_voice(message.header.stream)    ? written.voice_blocks
+                                                        : written.pictures);
             require(writer.write(messages));
             messages.clear();
             waiting = 0;
@@ -256,7 +283,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         flush();
         require(writer.finish());
-        check(file, frames, room_parts);
+        check(file, written);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();
         result.files.push_back(file.string());

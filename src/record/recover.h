@@ -29,6 +29,7 @@ struct Recovered {
     };
     std::vector<Camera> cameras;  // in the order of the recording
     RecoveredStream room;         // parts of the room's state
+    RecoveredStream voices;       // Opus packets of all voices, silence included
 };
 
 // Writes segment by segment into new files with names from `out` (segment_path), which must not

@@ -2,6 +2,7 @@
 #include "record/segment_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "record/picture_check.h"
 #include "record/recording_layout.h"
@@ -11,10 +12,26 @@ namespace {
 
 // Times from outside may have any value; they are limited so that their differences fit.
 constexpr std::int64_t far_us = std::int64_t(1) << 60;
+// Blocks of a voice, of which the first names the speaker: at most 12 s.
+constexpr std::uint64_t blocks_of_a_speaker = 100;
 
-MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
-                                 const SegmentInfo& info, bool replace,
-                                 const std::string& recovered, bool has_room) {
+// RFC 7845, 5.1: one channel, 312 samples of the encoder's delay, made from 48 kHz, no gain.
+Bytes opus_head() {
+    Bytes head;
+    ByteWriter out(head);
+    out.put_bytes(as_bytes("OpusHead"));
+    out.put(std::uint8_t(1));  // version
+    out.put(std::uint8_t(1));  // channels
+    out.put(std::uint16_t(312));
+    out.put(std::uint32_t(48'000));
+    out.put(std::uint16_t(0));  // gain
+    out.put(std::uint8_t(0));   // mapping of channels
+    return head;
+}
+
+MatroskaWriter::Layout layout_of(const SegmentWriter::Content& content, const SegmentInfo& info,
+                                 bool replace, const std::string& recovered) {
+    const std::vector<RecordedCamera>& cameras = content.cameras;
     MatroskaWriter::Layout layout;
     layout.replace = replace;
     layout.side_name = side_name;
@@ -52,10 +69,20 @@ MatroskaWriter::Layout layout_of(const std::vector<RecordedCamera>& cameras,
         layout.attachments.push_back(
             {calibration_name(camera.id), calibration_mime_type, camera.calibration});
     }
-    if (has_room) {
+    for (const VoiceTrack& voice : content.voices) {
+        Track track;
+        track.number = voice.number;
+        track.kind = TrackKind::opus;
+        track.name = voice.name;
+        track.codec_id = voice_codec_id;
+        track.codec_private = opus_head();
+        track.note_name = speaker_note_name;
+        layout.tracks.push_back(std::move(track));
+    }
+    if (content.has_room) {
         Track room;
         room.number = track_number(room_stream);
-        room.is_video = false;
+        room.kind = TrackKind::metadata;
         room.name = room_track_name;
         room.codec_id = room_codec_id;
         room.shown = false;
@@ -80,11 +107,27 @@ std::int64_t block_time_us(TimePoint captured, TimePoint arrived, TimePoint begi
     return std::clamp<std::int64_t>(at.count(), 0, max_block_us);
 }
 
-SegmentWriter::SegmentWriter(const std::filesystem::path& path,
-                             const std::vector<RecordedCamera>& cameras, const SegmentInfo& info,
-                             bool replace, const std::string& recovered, bool has_room)
-    : begin_(info.clock.session),
-      writer_(path, layout_of(cameras, info, replace, recovered, has_room)) {}
+SegmentWriter::SegmentWriter(const std::filesystem::path& path, const Content& content,
+                             const SegmentInfo& info, bool replace, const std::string& recovered)
+    : begin_(info.clock.session), writer_(path, layout_of(content, info, replace, recovered)) {}
+
+// The line beside a block of depth or of a voice; empty: none.
+std::string SegmentWriter::note_of(const RecordedMessage& one) {
+    const wire::MediaHeader& header = one.header;
+    std::string& last = filters_[header.stream];
+    if (is_voice(header.stream)) {
+        // Repeated, so that damage to one block does not hide the speaker of many.
+        const bool repeats = voice_blocks_[header.stream]++ % blocks_of_a_speaker == 0;
+        if (std::exchange(last, one.filters) == one.filters && !repeats)
+            return {};
+        return one.filters;
+    }
+    // Written at each change, and again in key frames, where reading may begin.
+    if (!is_depth(header.stream) || (last == one.filters && (!header.key || last.empty())))
+        return {};
+    last = one.filters;
+    return last.empty() ? no_filters : last;
+}
 
 std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
     std::vector<Block> blocks;
@@ -92,27 +135,26 @@ std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
         const wire::MediaHeader& header = one.header;
         Block block;
         block.track = track_number(header.stream);
-        block.time_us = block_time_us(header.captured, one.arrived, begin_);
-        if (header.stream != room_stream) {
+        const bool is_speech = is_voice(header.stream);
+        // Nobody is to move what was put into a sequence.
+        block.time_us =
+            block_time_us(header.captured, is_speech ? header.captured : one.arrived, begin_);
+        if (header.stream != room_stream && !is_speech) {
             first_us_ = any_ ? std::min(first_us_, block.time_us) : block.time_us;
             last_us_ = any_ ? std::max(last_us_, block.time_us) : block.time_us;
             any_ = true;
         }
         block.key = header.key;
+        block.indexed = !is_speech;
         block.reference_us = block.time_us;
         if (const auto found = recent_us_.find({header.stream, header.reference});
             !header.key && found != recent_us_.end())
             block.reference_us = found->second;
-        recent_us_[{header.stream, header.frame}] = block.time_us;
+        if (!is_speech)
+            recent_us_[{header.stream, header.frame}] = block.time_us;
         block.payload = wire::media_payload(*one.message);
         block.side = ByteView(*one.message).first(wire::media_header_size);
-        // Written at each change, and again in key frames, where reading may begin.
-        std::string& filters = filters_[header.stream];
-        if (is_depth(header.stream) &&
-            (filters != one.filters || (header.key && !filters.empty()))) {
-            filters = one.filters;
-            block.note = filters.empty() ? no_filters : filters;
-        }
+        block.note = note_of(one);
         block.check = encode_check(
             check_of(block.track, block.time_us, block.side, block.note, block.payload));
         blocks.push_back(std::move(block));

@@ -12,6 +12,7 @@
 
 #include "record/matroska_writer.h"
 #include "record/recorded_camera.h"
+#include "record/recorded_voice.h"
 #include "record/segment_info.h"
 #include "wire/media_header.h"
 
@@ -21,8 +22,10 @@ namespace theatron::record {
 struct RecordedMessage {
     wire::MediaHeader header;
     std::shared_ptr<const Bytes> message;
-    std::string filters;  // of its depth (docs/filters.md); empty: none
-    TimePoint arrived;    // session time
+    // Depth: its filters (docs/filters.md), empty: none. A voice: its speaker
+    // (speaker_note()).
+    std::string filters;
+    TimePoint arrived;  // session time
 };
 
 // A picture whose capture time is more than max_picture_age before its arrival, or more than
@@ -37,12 +40,16 @@ inline constexpr std::int64_t max_block_us = std::int64_t(1) << 52;
 
 class SegmentWriter {
 public:
+    struct Content {
+        std::vector<RecordedCamera> cameras;
+        std::vector<VoiceTrack> voices;
+        bool has_room = false;  // messages of room_stream (recording_layout.h) will come, too
+        bool operator==(const Content&) const = default;
+    };
     // Creates the file; `replace`: in place of an existing one. `recovered`: losses of the original
-    // of a recovered file; empty if there are none or it is no recovered file. `has_room`: messages
-    // of room_stream (recording_layout.h) will come, too. Throws Error.
-    SegmentWriter(const std::filesystem::path& path, const std::vector<RecordedCamera>& cameras,
-                  const SegmentInfo& info, bool replace = true, const std::string& recovered = {},
-                  bool has_room = false);
+    // of a recovered file; empty if there are none or it is no recovered file. Throws Error.
+    SegmentWriter(const std::filesystem::path& path, const Content& content,
+                  const SegmentInfo& info, bool replace = true, const std::string& recovered = {});
 
     // Each returns one sentence if it failed; then only finish() may be called.
     std::string write(std::span<const RecordedMessage> messages);
@@ -56,10 +63,13 @@ public:
     Duration duration() const { return Duration(last_us_ - first_us_); }
 
 private:
+    std::string note_of(const RecordedMessage& one);
+
     TimePoint begin_;
     MatroskaWriter writer_;
     std::map<std::pair<StreamId, FrameNumber>, std::int64_t> recent_us_;
     std::map<StreamId, std::string> filters_;  // of each stream's last frame
+    std::map<StreamId, std::uint64_t> voice_blocks_;
     bool any_ = false;
     std::int64_t first_us_ = 0, last_us_ = 0;
 };

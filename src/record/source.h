@@ -38,6 +38,8 @@ public:
     virtual std::uint64_t lost_in_source(CameraId camera) const = 0;
     // Names of cameras that may not be recorded, in the order of their coming.
     virtual std::vector<std::string> not_agreed() const { return {}; }
+    // Names of people who were there and had not agreed that their voices are recorded.
+    virtual std::vector<std::string> voices_not_agreed() const { return {}; }
     // A camera was gone for a while.
     virtual bool was_gone(CameraId camera) const = 0;
     // No more frames from now on.

@@ -156,14 +156,39 @@ void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoi
                                variance < static_spread_m * static_spread_m;
         point = is_static ? SurfacePoint{mean, normalized(point.normal)} : SurfacePoint{};
     }
+    note_base(camera);
+}
+
+// The overlaps of a complete reference.
+void RigWatch::note_base(std::size_t camera) {
+    State& state = states_[camera];
+    state.base.clear();
     if (!state.about.room_from_camera)
         return;
     for (std::size_t other = 0; other < states_.size(); ++other)
         if (other != camera && states_[other].about.room_from_camera &&
             !states_[other].newest.empty())
-            state.base.push_back({other, overlap(reference.points, states_[other].surface,
+            state.base.push_back({other, overlap(state.reference.points, states_[other].surface,
                                                  std::as_const(states_[other].newest).view(),
                                                  between(other, camera), base_reach_m)});
+}
+
+void RigWatch::correct_place(std::size_t camera, const Pose& room_from_camera) {
+    State& corrected = states_[camera];
+    if (!corrected.about.room_from_camera)
+        return;
+    const Pose moved = inverse(*corrected.about.room_from_camera) *
+                       corrected.motion.room_from_camera.value_or(Pose{});
+    corrected.about.room_from_camera = room_from_camera;
+    corrected.motion.room_from_camera = room_from_camera * moved;
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (states_[i].reference.images >= reference_images)
+            note_base(i);
+    for (std::size_t i = pairs_.size(); i-- > 0;)
+        if (pairs_[i].a == camera || pairs_[i].b == camera) {
+            pairs_.erase(pairs_.begin() + std::ptrdiff_t(i));
+            pair_above_.erase(pair_above_.begin() + std::ptrdiff_t(i));
+        }
 }
 
 Pose RigWatch::between(std::size_t to, std::size_t from) const {

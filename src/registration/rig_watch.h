@@ -41,6 +41,10 @@ public:
     // `depth` as measured, of the camera's size, before any correction. Times of a camera grow.
     void add(std::size_t camera, DepthView depth, TimePoint captured);
 
+    // Somebody has corrected the place of a camera that had one. The state of its own picture
+    // stays, and the distances of its overlaps begin anew.
+    void correct_place(std::size_t camera, const Pose& room_from_camera);
+
     struct Motion {
         bool is_known = false;  // enough of the picture stands still
         bool is_alarm = false;
@@ -93,6 +97,7 @@ private:
     static void begin_reference(State& state);
     static void renew_reference(State& state);
     void add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid);
+    void note_base(std::size_t camera);
     void compare_with_reference(std::size_t camera);
     bool overlaps_deny(std::size_t camera, const Pose& reference_from_now) const;
     void compare_with_other(std::size_t camera, const std::vector<SurfacePoint>& grid);

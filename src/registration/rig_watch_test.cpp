@@ -100,6 +100,23 @@ TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAla
     EXPECT_FALSE(has_alarm(1));
 }
 
+// The pictures are those of a camera that was registered 4 cm away from where it is.
+TEST_F(Watching, ANudgeThatCorrectsAPlaceEndsTheAlarmOfTheOverlapAndRaisesNone) {
+    std::vector<RigWatch::Camera> cameras = about();
+    const Pose truth = *cameras[1].room_from_camera;
+    cameras[1].room_from_camera->translation.y += 0.04;
+    watch_ = std::make_unique<RigWatch>(cameras);
+    stream(std::chrono::seconds(12));
+    EXPECT_TRUE(watch_->wrong_pair(1));
+    watch_->correct_place(1, truth);
+    EXPECT_FALSE(watch_->wrong_pair(1)) << "it is compared anew";
+    stream(std::chrono::seconds(8));
+    EXPECT_FALSE(has_alarm(0));
+    EXPECT_FALSE(has_alarm(1));
+    EXPECT_EQ(watch_->pairs().size(), 1u);
+    EXPECT_LT(length(watch_->motion(1).room_from_camera->translation - truth.translation), 0.004);
+}
+
 // A place was found together with the offset of its camera's depth; only both together fit.
 TEST_F(Watching, TheSavedOffsetOfACamerasDepthBelongsToItsPlace) {
     constexpr std::uint16_t offset_mm = 25;

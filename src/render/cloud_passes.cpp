@@ -17,6 +17,7 @@ public:
         program_.use();
         glUniform2f(half_picture_, float(picture.width / 2.0), float(picture.height / 2.0));
         glUniform1f(pixels_per_tan_, float(picture.width / (frame.view.right - frame.view.left)));
+        glUniform1f(point_size_, float(frame.point_size));
         set_depth_from_w(frame.view, depth_from_w_);
         // Points near the border reach beyond the viewport of their middles.
         glEnable(GL_SCISSOR_TEST);
@@ -33,6 +34,7 @@ private:
     Program program_;
     GLint columns_ = program_.uniform("columns");
     GLint half_picture_ = program_.uniform("half_picture");
+    GLint point_size_ = program_.uniform("point_size");
     GLint pixels_per_tan_ = program_.uniform("pixels_per_tan");
     GLint depth_from_w_ = program_.uniform("depth_from_w");
 };

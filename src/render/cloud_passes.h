@@ -27,6 +27,7 @@ struct CloudFrame {
     const CameraView& view;
     DrawTarget target;
     BlendLayers& layers;
+    double point_size = 1;
 };
 
 class CloudPass {

@@ -88,6 +88,7 @@ struct CloudSet::Parts {
     std::shared_ptr<CloudPrograms> programs;
     std::map<CameraId, Camera> cameras;
     int depth_step = 1;
+    double point_size = 1;
     ColorBalance balance;
     DepthOffsets offsets;
     BlendLayers layers;
@@ -167,6 +168,10 @@ bool CloudSet::set_depth_step(int step) {
     return true;
 }
 
+void CloudSet::set_point_size(double factor) {
+    parts_->point_size = factor;
+}
+
 void CloudSet::remove_camera(CameraId id) {
     parts_->cameras.erase(id);
     parts_->balance.remove(id);
@@ -220,7 +225,7 @@ void CloudSet::draw(const CameraView& view, const DrawTarget& target, std::strin
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    pass.draw({cameras, view, target, p.layers});
+    pass.draw({cameras, view, target, p.layers, p.point_size});
     glBindVertexArray(0);
     glActiveTexture(GL_TEXTURE0);
 }

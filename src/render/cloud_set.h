@@ -93,6 +93,10 @@ public:
     // Sets the part of a camera's cloud that is drawn; all of it when added.
     void set_cut(CameraId camera, const CloudCut& cut);
 
+    // Factor of the diameter of points in "splat" and "disc": with 1 they leave no gaps. The other
+    // renderers have no points.
+    void set_point_size(double factor);
+
     // Takes a camera's newest images; both may be freed afterwards. `color` may
     // be empty (no pixels: the last one stays, grey if there was none) and of any size:
     // it is a scaled picture of the calibrated colour camera.

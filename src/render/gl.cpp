@@ -89,47 +89,66 @@ std::string info_log(GLuint object, GetLength get_length, GetLog get_log) {
     return log;
 }
 
-}  // namespace
-
-GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
+GLuint begin_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
     const std::string source = make_source(parts);
     const GLuint shader = glCreateShader(kind);
     const char* text = source.c_str();
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
+    return shader;
+}
+
+void require_compiled(GLuint shader, const std::vector<ShaderPart>& parts) {
     GLint compiled = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    if (!compiled) {
-        const std::string log = info_log(
-            shader, [](auto... a) { glGetShaderiv(a...); },
-            [](auto... a) { glGetShaderInfoLog(a...); });
+    if (compiled)
+        return;
+    const std::string log = info_log(
+        shader, [](auto... a) { glGetShaderiv(a...); },
+        [](auto... a) { glGetShaderInfoLog(a...); });
+    throw Error("The shader " + std::string(parts.back().name) +
+                " does not compile on this driver: " + with_file_names(log, parts));
+}
+
+}  // namespace
+
+GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
+    const GLuint shader = begin_shader(kind, parts);
+    try {
+        require_compiled(shader, parts);
+    } catch (...) {
         glDeleteShader(shader);
-        throw Error("The shader " + std::string(parts.back().name) +
-                    " does not compile on this driver: " + with_file_names(log, parts));
+        throw;
     }
     return shader;
 }
 
+// Asks for nothing before both shaders are on their way: each question waits for the driver, which
+// in a browser is another process.
 Program::Program(ShaderFiles vertex, ShaderFiles fragment) {
     const std::pair<GLenum, ShaderFiles> stages[] = {{GL_VERTEX_SHADER, vertex},
                                                      {GL_FRAGMENT_SHADER, fragment}};
+    std::vector<std::pair<GLuint, std::vector<ShaderPart>>> shaders;
     for (const auto& [kind, files] : stages) {
         std::vector<ShaderPart> parts;
         for (const std::string_view file : files)
             parts.push_back(find_part(file));
-        const GLuint shader = compile_shader(kind, parts);
-        glAttachShader(name(), shader);
-        glDeleteShader(shader);  // lives on as long as the program
+        shaders.emplace_back(begin_shader(kind, parts), parts);
+        glAttachShader(name(), shaders.back().first);
+        glDeleteShader(shaders.back().first);  // lives on as long as the program
     }
     glLinkProgram(name());
     GLint linked = 0;
     glGetProgramiv(name(), GL_LINK_STATUS, &linked);
-    if (!linked)
-        throw Error("The shaders " + std::string(*(vertex.end() - 1)) + " and " +
-                    std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
-                    info_log(
-                        name(), [](auto... a) { glGetProgramiv(a...); },
-                        [](auto... a) { glGetProgramInfoLog(a...); }));
+    if (linked)
+        return;
+    for (const auto& [shader, parts] : shaders)
+        require_compiled(shader, parts);
+    throw Error("The shaders " + std::string(*(vertex.end() - 1)) + " and " +
+                std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
+                info_log(
+                    name(), [](auto... a) { glGetProgramiv(a...); },
+                    [](auto... a) { glGetProgramInfoLog(a...); }));
 }
 
 GLint Program::uniform(const char* uniform_name) const {

@@ -13,6 +13,8 @@ public:
 
     DrawTarget target() const { return {framebuffer_.name(), 0, 0, size_}; }
     Size size() const { return size_; }
+    // The picture's colours, the lower row first.
+    const Texture& color() const { return color_; }
 
     void clear(Rgb background) const;
     // Reads the picture; waits for the GPU.

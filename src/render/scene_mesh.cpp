@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "image/image.h"
+#include "image/scratch.h"
 
 namespace theatron::render {
 
@@ -124,6 +126,34 @@ SceneMesh::~SceneMesh() = default;
 SceneMesh::SceneMesh(SceneMesh&&) noexcept = default;
 SceneMesh& SceneMesh::operator=(SceneMesh&&) noexcept = default;
 
+namespace {
+
+// As OpenGL has it: half of a side, rounded down, at least 1.
+Size level_size(Size size, int level) {
+    return {std::max(size.width >> level, 1), std::max(size.height >> level, 1)};
+}
+
+// The next level of a texture, in place: each pixel is the mean of four. Pixels are four bytes.
+void halve(std::vector<std::uint32_t>& pixels, Size size, Size half) {
+    constexpr std::uint32_t even = 0x00ff00ffu, round = 0x00020002u;
+    for (int y = 0; y < half.height; ++y) {
+        const std::uint32_t* above = pixels.data() + std::size_t(2 * y) * std::size_t(size.width);
+        const std::uint32_t* below = size.height > 1 ? above + size.width : above;
+        std::uint32_t* out = pixels.data() + std::size_t(y) * std::size_t(half.width);
+        for (int x = 0; x < half.width; ++x) {
+            const int left = 2 * x, right = size.width > 1 ? left + 1 : left;
+            const std::uint32_t a = above[left], b = above[right], c = below[left],
+                                d = below[right];
+            const std::uint32_t low = (a & even) + (b & even) + (c & even) + (d & even) + round,
+                                high = (a >> 8 & even) + (b >> 8 & even) + (c >> 8 & even) +
+                                       (d >> 8 & even) + round;
+            out[x] = (low >> 2 & even) | (high >> 2 & even) << 8;
+        }
+    }
+}
+
+}  // namespace
+
 SceneTexture::SceneTexture(Size size) : parts_(std::make_unique<Parts>()) {
     parts_->size = size;
     int levels = 1;
@@ -155,21 +185,26 @@ Size SceneTexture::size() const {
 
 void SceneTexture::set(ColorView picture) {
     assert(picture.size == size());
-    std::vector<std::uint8_t> rgba(4 * picture.size.area());
-    std::size_t at = 0;
+    // All machines that this is built for are little-endian.
+    // Fresh memory would cost more than the conversion.
+    auto& rgba = scratch_of_this_thread<Image<std::uint32_t>>(picture.size).pixels;
+    std::uint32_t* at = rgba.data();
     for (int y = 0; y < picture.size.height; ++y)
         for (int x = 0; x < picture.size.width; ++x) {
             const Rgb p = picture.row(y)[x];
-            rgba[at++] = p.r;
-            rgba[at++] = p.g;
-            rgba[at++] = p.b;
-            rgba[at++] = 255;
+            *at++ = p.r | std::uint32_t(p.g) << 8 | std::uint32_t(p.b) << 16 | 0xff000000u;
         }
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, parts_->texture.name());
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.size.width, picture.size.height, GL_RGBA,
-                    GL_UNSIGNED_BYTE, rgba.data());
-    finish();
+    // glGenerateMipmap() of software drivers takes several times as long.
+    for (int level = 0;; ++level) {
+        const Size size = level_size(picture.size, level);
+        glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, size.width, size.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, rgba.data());
+        if (size == Size{1, 1})
+            break;
+        halve(rgba, size, level_size(picture.size, level + 1));
+    }
 }
 
 DrawTarget SceneTexture::target() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/environment.h"
+#include "render/gl_driver.h"
 #include "render/matrix.h"
 #include "render/scene_mesh.h"
 #include "render/text_pass.h"
@@ -50,8 +51,8 @@ struct LightView {
     }
 };
 
-// The shaders of surfaces in one quality, with or without a texture: software drivers pay for all
-// branches.
+// The shaders of surfaces in one quality, with or without a texture and light: software drivers pay
+// for all branches.
 struct LitProgram {
     Program program;
     GLint clip_from_room = program.uniform("clip_from_room");
@@ -67,7 +68,6 @@ struct LitProgram {
     GLint base_color = program.uniform("base_color");
     GLint look = program.uniform("look");
     GLint tells_distance = program.uniform("tells_distance");
-    GLint unlit = program.uniform("unlit");
     GLint cut = program.uniform("cut");
     GLint spot_count = program.uniform("spot_count");
     GLint spot_place = program.uniform("spot_place");
@@ -99,6 +99,9 @@ struct BakedProgram {
     }
 };
 
+// An unlit surface has a texture, if only a white one.
+enum class Surface { plain, textured, unlit };
+
 struct LitPicture {
     const SceneFrame& frame;
     const CameraView& view;
@@ -112,7 +115,7 @@ bool is_translucent(const SceneObject& object) {
 }  // namespace
 
 struct ScenePasses::Parts {
-    std::optional<LitProgram> lit[2][2][2];  // high quality, textured, cut; made when first used
+    std::optional<LitProgram> lit[2][3][2];  // high quality, Surface, cut; made when first used
     const LitProgram* in_use = nullptr;
     std::optional<BakedProgram> baked;  // made when first used
     bool baked_in_use = false;
@@ -210,14 +213,16 @@ struct ScenePasses::Parts {
     }
 
     // Makes the right program current and sets its uniforms of the whole picture.
-    void use_lit(const LitPicture& picture, bool textured, bool cuts) {
+    void use_lit(const LitPicture& picture, Surface surface, bool cuts) {
         const SceneFrame& frame = picture.frame;
         const CameraView& view = picture.view;
         const bool high = frame.quality == SceneQuality::high;
-        std::optional<LitProgram>& wanted = lit[high][textured][cuts];
+        std::optional<LitProgram>& wanted = lit[high][int(surface)][cuts];
         if (!wanted)
             wanted.emplace(high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
-                           textured ? "#define TEXTURED" : "#define PLAIN",
+                           surface == Surface::plain      ? "#define PLAIN"
+                           : surface == Surface::textured ? "#define TEXTURED"
+                                                          : "#define TEXTURED\n#define UNLIT",
                            cuts ? "#define CUT" : "#define WHOLE");
         if (in_use == &*wanted)
             return;
@@ -281,7 +286,11 @@ struct ScenePasses::Parts {
         const SurfaceLook& look = object.look;
         if (look.baked)
             return draw_baked(picture, object);
-        use_lit(picture, look.texture || look.unlit, object.cut.has_value());
+        use_lit(picture,
+                look.unlit     ? Surface::unlit
+                : look.texture ? Surface::textured
+                               : Surface::plain,
+                object.cut.has_value());
         set_matrix(in_use->room_from_object, place_of(object));
         if (object.cut)
             glUniform4f(in_use->cut, float(object.cut->normal.x), float(object.cut->normal.y),
@@ -291,18 +300,13 @@ struct ScenePasses::Parts {
                     float(std::clamp(look.roughness, 0.05, 1.0)), float(look.opacity),
                     float(look.grid_m));
         glUniform1i(in_use->tells_distance, !object.backdrop);
-        glUniform1i(in_use->unlit, look.unlit);
         bind_texture(surface_unit, &texture_of(look).parts().texture);
         object.mesh->buffers().draw();
     }
 };
 
 SceneQuality usual_quality() {
-    const std::string_view name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    for (const std::string_view software : {"llvmpipe", "softpipe", "SwiftShader", "swrast"})
-        if (name.find(software) != std::string_view::npos)
-            return SceneQuality::low;
-    return SceneQuality::high;
+    return is_software(driver_name()) ? SceneQuality::low : SceneQuality::high;
 }
 
 ScenePasses::ScenePasses(const FontAtlas* atlas) : parts_(std::make_unique<Parts>(atlas)) {}

@@ -2,12 +2,12 @@
 #include "room/mark_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "room/facing.h"
 #include "room/mark_mesh.h"
 #include "room/people.h"
+#include "room/srgb.h"
 
 namespace theatron::room {
 
@@ -18,13 +18,6 @@ namespace {
 
 // Labels have about the same size in the picture, within limits.
 constexpr double least_label_m = 0.006, largest_label_m = 0.05, label_per_distance = 0.018;
-
-Rgb srgb_of(Vec3 linear) {
-    const auto byte = [](double v) {
-        return std::uint8_t(std::lround(std::clamp(std::pow(v, 1 / 2.2), 0.0, 1.0) * 255));
-    };
-    return {byte(linear.x), byte(linear.y), byte(linear.z)};
-}
 
 }  // namespace
 

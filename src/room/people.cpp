@@ -20,6 +20,8 @@ constexpr double free_around_eye_m = 0.3;
 constexpr double name_above_m = 0.18, letter_width = 0.8;
 // Names have about the same size in the picture, within limits.
 constexpr double least_name_m = 0.025, largest_name_m = 0.09, name_per_distance = 0.02;
+// The age of a person above the name: height and place, in heights of the name's letters.
+constexpr double age_share = 0.65, age_lines = 1.5;
 constexpr double stale_opacity = 0.35;
 
 // A head with ears' width, a nose, and a body that ends in the air.
@@ -96,12 +98,22 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
             frame.objects.push_back({&eyes_, *person.head, look({0.9, 0.9, 0.9}, opacity)});
             frame.objects.push_back({&pupils_, *person.head, look({0.02, 0.02, 0.02}, opacity)});
         }
-        const std::string name = person.name + (person.is_stale ? " (view is old)" : "");
+        const std::string name =
+            person.name + (person.is_stale && person.age.empty() ? " (view is old)" : "");
         const double height = std::clamp(name_per_distance * length(person.head->translation - eye),
                                          least_name_m, largest_name_m);
         Pose place = facing(person.head->translation + Vec3{0, name_above_m, 0}, eye);
         place.translation = place * Vec3{-0.5 * height * letter_width * double(name.size()), 0, 0};
         frame.texts.push_back({name, place, height, {235, 240, 240}});
+        if (person.age.empty())
+            continue;
+        const double small = age_share * height;
+        Pose above =
+            facing(person.head->translation + Vec3{0, name_above_m + age_lines * height, 0}, eye);
+        above.translation =
+            above * Vec3{-0.5 * small * letter_width * double(person.age.size()), 0, 0};
+        frame.texts.push_back(
+            {person.age, above, small, person.is_stale ? Rgb{255, 190, 70} : Rgb{175, 186, 196}});
     }
 }
 

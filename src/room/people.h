@@ -19,6 +19,7 @@ struct RoomPerson {
     std::string name;
     std::optional<Pose> head, left_hand, right_hand;
     bool is_stale = false;  // its poses are old: it is drawn half transparent
+    std::string age;        // of what is seen of it, above the name; empty: not shown
     // It is seen as a point cloud, in place of the head with a face.
     bool has_cloud = false;
     bool calls = false;   // asks the others to come

@@ -78,6 +78,17 @@ TEST_F(PeopleTest, WithOldPosesAreHalfTransparentAndSaidSo) {
     EXPECT_EQ(frame.texts.at(0).utf8, "Anna (view is old)");
 }
 
+TEST_F(PeopleTest, TheirAgeStandsAboveTheName) {
+    RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});
+    person.age = "85 ms";
+    const render::SceneFrame frame = seen({person}, view);
+    ASSERT_EQ(frame.texts.size(), 2u);
+    EXPECT_EQ(frame.texts[0].utf8, "Anna");
+    EXPECT_EQ(frame.texts[1].utf8, "85 ms");
+    EXPECT_GT(frame.texts[1].room_from_text.translation.y,
+              frame.texts[0].room_from_text.translation.y + frame.texts[0].height_m);
+}
+
 TEST(PersonColor, DiffersBetweenNeighbours) {
     for (std::uint32_t i = 0; i < 20; ++i)
         EXPECT_NE(color_of(ParticipantId{i}), color_of(ParticipantId{i + 1}));

@@ -34,10 +34,14 @@ void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& poi
             add(pointer.from + pointer.direction * t, dot_m);
         if (!pointer.reach_m)
             continue;
+        const auto radius_at = [&](Vec3 place) {
+            return std::clamp(end_per_distance * length(place - eye), least_end_m, largest_end_m);
+        };
         const Vec3 end = pointer.from + pointer.direction * reach;
-        const double distance = length(end - eye);
-        const double radius = std::clamp(end_per_distance * distance, least_end_m, largest_end_m);
+        const double distance = length(end - eye), radius = radius_at(end);
         add(end, radius);
+        if (pointer.twin)
+            add(*pointer.twin, radius_at(*pointer.twin));
         const double height =
             std::clamp(name_per_distance * distance, least_name_m, largest_name_m);
         const Pose place = facing(end, eye);

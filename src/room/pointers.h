@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pointing of people: a dotted ray to the surface that it meets, and there a dot with the name.
+// The pointing of people: a dotted ray to the surface that it meets, and there a dot with the name;
+// another dot where that place is seen a second time.
 #pragma once
 
 #include <optional>
@@ -17,6 +18,8 @@ struct Pointer {
     std::string name;
     Vec3 from, direction;           // of length 1
     std::optional<double> reach_m;  // to the surface; none: it meets none
+    // Where the same place is seen a second time: of an organ on its slice, and the reverse.
+    std::optional<Vec3> twin = {};
 };
 
 // Needs the GL context current in which it was made.

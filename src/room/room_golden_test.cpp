@@ -49,6 +49,7 @@ void expect_golden(render::SceneQuality quality, const std::string& file) {
     const auto view = render::view_towards({2.4, 2.2, 2.8}, {-0.4, 0.9, -0.5}, 66, picture_size);
     render::SceneFrame frame;
     frame.quality = quality;
+    room.build(frame.quality);
     room.add_to(frame, view);
     render::ScenePasses passes;
     const ColorImage drawn = render::draw_and_read(&frame, {}, {view}, picture_size, &passes).color;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "furniture/baked_light.h"
 #include "furniture/pieces.h"
@@ -24,8 +26,6 @@ constexpr double label_height_m = 0.065, label_below_m = 0.14;
 constexpr double letter_width = 0.8;  // of a capital's height, about
 // A camera's mark is not drawn if the eye is nearer than this: it would fill the picture.
 constexpr double free_around_eye_m = 0.35;
-// Nearer labels would fill the picture.
-constexpr double label_from_m = 1.2;
 // The lamps of the table, as in furniture/baked_light.cpp.
 constexpr double spot_strength = 14, spot_slope = 0.42;
 
@@ -86,23 +86,37 @@ struct VirtualRoom::Meshes {
     std::vector<Surface> surfaces;
     std::vector<render::Spotlight> spots;
     render::SceneMesh mark{mark_mesh()};
+    bool complete = false;
 
-    Meshes(const RoomExtent& extent, const std::vector<furniture::Piece>& pieces,
-           render::SceneQuality wanted)
-        : quality(wanted) {
-        const furniture::BakedLight light(extent, pieces);
+    explicit Meshes(render::SceneQuality wanted) : quality(wanted) {}
+
+    void step(const RoomExtent& extent, const std::vector<furniture::Piece>& pieces) {
         const bool low = quality == render::SceneQuality::low;
-        // Nothing throws a shadow on the ceiling.
-        for (const furniture::Side side : furniture::all_sides)
-            add_side(extent, side, low || side == furniture::Side::ceiling ? &light : nullptr);
-        if (low)
-            add(furniture::baked_mesh(pieces, light), baked_look(), false);
-        else
-            add_materials(pieces);
-        add_spots(pieces);
+        if (!light) {
+            light.emplace(extent, pieces);
+        } else if (sides_done < std::size(furniture::all_sides)) {
+            const furniture::Side side = furniture::all_sides[sides_done++];
+            // Nothing throws a shadow on the ceiling.
+            add_side(extent, side, low || side == furniture::Side::ceiling ? &*light : nullptr);
+        } else if (low && pieces_done < pieces.size()) {
+            furniture::append_baked(baked, pieces[pieces_done++], *light);
+        } else {
+            if (low)
+                add(std::exchange(baked, {}), baked_look(), false);
+            else
+                add_materials(pieces);
+            add_spots(pieces);
+            light.reset();
+            complete = true;
+        }
     }
 
 private:
+    // While they are made:
+    std::optional<furniture::BakedLight> light;
+    std::size_t sides_done = 0, pieces_done = 0;
+    MeshData baked;
+
     static render::SurfaceLook baked_look() {
         render::SurfaceLook look{{1, 1, 1}};
         look.baked = true;
@@ -176,12 +190,24 @@ void VirtualRoom::set_cameras(const std::vector<RoomCamera>& cameras) {
     meshes_.reset();
 }
 
+bool VirtualRoom::build_step(render::SceneQuality quality) {
+    if (!space_ || (meshes_ && meshes_->quality == quality && meshes_->complete))
+        return false;
+    if (!meshes_ || meshes_->quality != quality)
+        meshes_ = std::make_unique<Meshes>(quality);
+    meshes_->step(space_->extent, pieces_);
+    return meshes_->complete;
+}
+
+void VirtualRoom::build(render::SceneQuality quality) {
+    while (space_ && !(meshes_ && meshes_->quality == quality && meshes_->complete))
+        (void)build_step(quality);
+}
+
 void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& view) {
-    if (!space_)
+    if (!space_ || !meshes_ || !meshes_->complete)
         return;
     const RoomExtent& e = space_->extent;
-    if (!meshes_ || meshes_->quality != frame.quality)
-        meshes_ = std::make_unique<Meshes>(e, pieces_, frame.quality);
     frame.to_light = {0.2, 1, 0.28};
     frame.light = 2.5;
     frame.surroundings = 1.45;
@@ -201,7 +227,7 @@ void VirtualRoom::add_to(render::SceneFrame& frame, const render::CameraView& vi
         if (!camera.calibration.registered || distance < free_around_eye_m)
             continue;
         frame.objects.push_back({&meshes_->mark, pose, mark_look});
-        if (distance < label_from_m)
+        if (distance < camera_label_from_m)
             continue;
         // Cameras hang high.
         Pose place = facing(pose.translation - Vec3{0, label_below_m, 0}, eye);

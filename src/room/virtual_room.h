@@ -21,6 +21,9 @@
 
 namespace theatron::room {
 
+// Labels of nearer cameras would fill the picture, and are left out.
+inline constexpr double camera_label_from_m = 1.2;
+
 struct RoomCamera {
     std::string label;
     Calibration calibration;
@@ -47,11 +50,15 @@ public:
     // no room.
     const std::optional<FreeSpace>& free_space() const { return space_; }
 
+    // Makes the room for pictures of this quality, unless it is made: in some tenths of a second on
+    // low, whose light is computed.
+    void build(render::SceneQuality quality);
+    // A step of that, at most some milliseconds. True if it was the last one.
+    bool build_step(render::SceneQuality quality);
+
     // Appends the room's objects and texts and sets the light: labels face the eye of `view`, and a
-    // mark around the eye is left out. Appends nothing if there is no room. The appended objects
-    // are valid until the next call of set_cameras or of add_to. The furniture's light depends on
-    // frame.quality, which has to be set before: on low it is computed when the room changes, in
-    // some tenths of a second.
+    // mark around the eye is left out. Appends nothing if there is no room or it is not made. The
+    // appended objects are valid until the next call of any other function.
     void add_to(render::SceneFrame& frame, const render::CameraView& view);
 
 private:
@@ -59,7 +66,7 @@ private:
     std::optional<std::vector<RoomCamera>> cameras_;
     std::optional<FreeSpace> space_;
     std::vector<furniture::Piece> pieces_;
-    std::unique_ptr<Meshes> meshes_;  // of extent and pieces; null: to be made
+    std::unique_ptr<Meshes> meshes_;  // of extent and pieces; null: nothing is made
 };
 
 }  // namespace theatron::room

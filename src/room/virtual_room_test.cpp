@@ -26,6 +26,7 @@ render::SceneFrame seen(VirtualRoom& room, const render::CameraView& view,
                         render::SceneQuality quality = render::SceneQuality::low) {
     render::SceneFrame frame;
     frame.quality = quality;
+    room.build(frame.quality);
     room.add_to(frame, view);
     return frame;
 }
@@ -86,11 +87,35 @@ TEST(VirtualRoom, AppendsToWhatIsThere) {
     render::SceneFrame frame;
     frame.objects.push_back({&organ, {}, {}});
     frame.quality = render::SceneQuality::low;
+    room.build(frame.quality);
     room.add_to(frame, view);
     // The organ, six sides of the room, the furniture in one, and a mark.
     EXPECT_EQ(frame.objects.size(), 9u);
     EXPECT_EQ(frame.objects.front().mesh, &organ);
     EXPECT_EQ(frame.quality, render::SceneQuality::low);
+}
+
+TEST(VirtualRoom, InStepsItAppearsAsAWholeAndIsTheSame) {
+    render::test_context();
+    VirtualRoom room, at_once;
+    for (VirtualRoom* each : {&room, &at_once})
+        each->set_cameras({camera_at({2, 2, 1}, "a")});
+    const auto view = render::view_towards({0, 1.7, 3}, {0, 1, 0}, 60, {64, 48});
+    render::SceneFrame frame;
+    frame.quality = render::SceneQuality::low;
+    int steps = 1;
+    for (; !room.build_step(frame.quality); ++steps) {
+        ASSERT_LT(steps, 100);
+        room.add_to(frame, view);
+        ASSERT_TRUE(frame.objects.empty());
+    }
+    EXPECT_GT(steps, 20);
+    EXPECT_FALSE(room.build_step(frame.quality)) << "it is made";
+    room.add_to(frame, view);
+    const render::SceneFrame whole = seen(at_once, view);
+    ASSERT_EQ(frame.objects.size(), whole.objects.size());
+    for (std::size_t i = 0; i < whole.objects.size(); ++i)
+        EXPECT_EQ(frame.objects[i].look.baked, whole.objects[i].look.baked) << i;
 }
 
 TEST(VirtualRoom, WhoLooksFromACamerasPlaceDoesNotSeeItsMark) {

@@ -140,15 +140,19 @@ ByteView Child::receive() {
     return message;
 }
 
-ByteView Child::receive_within(Duration patience) {
-    if (pid_ < 0)
-        throw Error(problem_);
+bool Child::wait(Duration timeout) {
     pollfd ready{channel_, POLLIN, 0};
     int count;
     do {
-        count = poll(&ready, 1, milliseconds(patience));
+        count = poll(&ready, 1, milliseconds(timeout));
     } while (count < 0 && errno == EINTR);
-    if (count == 0)
+    return pid_ < 0 || count != 0;
+}
+
+ByteView Child::receive_within(Duration patience) {
+    if (pid_ < 0)
+        throw Error(problem_);
+    if (!wait(patience))
         fail("kept its reader busy for " + in_seconds(patience) + " without an answer");
     const ssize_t size = recv(channel_, message_.data(), message_.size(), MSG_DONTWAIT);
     if (size <= 0)

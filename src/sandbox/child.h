@@ -33,6 +33,9 @@ public:
     // ended because no message came in time.
     ByteView receive();
 
+    // Waits at most `timeout`; true if receive() would return or throw at once.
+    bool wait(Duration timeout);
+
     // The shared memory. The child may write to it at any time.
     ByteView area() const { return area_; }
 

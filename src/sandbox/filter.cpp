@@ -2,6 +2,7 @@
 #include "sandbox/filter.h"
 
 #include <errno.h>
+#include <linux/videodev2.h>
 #include <seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -107,15 +108,63 @@ void allow_source(Filter& filter) {
     filter.allow(SCMP_SYS(ppoll));
 }
 
+void allow_stream(Filter& filter) {
+    allow_source(filter);
+    refuse_politely(filter);
+    // libavformat asks for the name of the machine, to tell it to the server.
+    filter.fail(SCMP_SYS(uname), EACCES);
+}
+
+// The peer of a connected socket is fixed: the address in a message has no effect.
+void allow_display(Filter& filter) {
+    allow_source(filter);
+    filter.allow(SCMP_SYS(recvmsg), {is(0, input_descriptor)});
+    filter.allow(SCMP_SYS(sendmsg), {is(0, input_descriptor)});
+    filter.allow(SCMP_SYS(writev), {is(0, input_descriptor)});
+    // The parent set the flags that the library sets.
+    filter.fail(SCMP_SYS(fcntl), 0);
+}
+
+void allow_device(Filter& filter) {
+    for (const unsigned long request :
+         {VIDIOC_QUERYCAP, VIDIOC_ENUM_FMT, VIDIOC_G_FMT, VIDIOC_S_FMT, VIDIOC_S_PARM,
+          VIDIOC_REQBUFS, VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_DQBUF, VIDIOC_STREAMON})
+        filter.allow(SCMP_SYS(ioctl), {is(0, input_descriptor), is(1, request)});
+    constexpr unsigned protection = 2, descriptor = 4;
+    filter.allow(SCMP_SYS(mmap),
+                 {lacks(protection, PROT_EXEC | PROT_WRITE), is(descriptor, input_descriptor)});
+    filter.allow(SCMP_SYS(poll));
+    filter.allow(SCMP_SYS(ppoll));
+    refuse_politely(filter);
+}
+
 }  // namespace
 
 bool load_filter(Profile profile) {
     Filter filter;
     allow_computing(filter);
     allow_channel(filter);
-    profile == Profile::source ? allow_source(filter) : allow_file(filter);
-    if (profile == Profile::library)
-        refuse_politely(filter);
+    switch (profile) {
+        case Profile::file:
+            allow_file(filter);
+            break;
+        case Profile::library:
+            allow_file(filter);
+            refuse_politely(filter);
+            break;
+        case Profile::source:
+            allow_source(filter);
+            break;
+        case Profile::stream:
+            allow_stream(filter);
+            break;
+        case Profile::display:
+            allow_display(filter);
+            break;
+        case Profile::device:
+            allow_device(filter);
+            break;
+    }
     return filter.load();
 }
 

@@ -14,6 +14,9 @@ enum class Profile {
     file,     // may read and seek in a file
     library,  // the same; opening a file or starting a thread fails instead of ending the child
     source,   // may read from, write to and poll one connection
+    stream,   // the same for a library: opening a file or starting a thread fails
+    display,  // may also send and receive gathered messages on the connection: an X server's
+    device,   // may poll, map and control one video device (V4L2)
 };
 
 // A child that exceeds a limit is ended. Memory excludes the program itself and the shared area;

@@ -205,6 +205,16 @@ const std::vector<Forbidden> harm = {
     {{"source connect", Profile::source, when_asked<connect_somewhere>}, not_allowed},
     {{"source sendto", Profile::source, when_asked<send_elsewhere>}, not_allowed},
     {{"source ioctl", Profile::source, when_asked<control_a_device>}, not_allowed},
+    {{"stream connect", Profile::stream, when_asked<connect_somewhere>}, not_allowed},
+    {{"stream sendto", Profile::stream, when_asked<send_elsewhere>}, not_allowed},
+    {{"stream ioctl", Profile::stream, when_asked<control_a_device>}, not_allowed},
+    {{"stream fork", Profile::stream, when_asked<fork_itself>}, not_allowed},
+    {{"display open", Profile::display, when_asked<open_a_file>}, not_allowed},
+    {{"display connect", Profile::display, when_asked<connect_somewhere>}, not_allowed},
+    {{"display sendto", Profile::display, when_asked<send_elsewhere>}, not_allowed},
+    {{"device connect", Profile::device, when_asked<connect_somewhere>}, not_allowed},
+    {{"device ioctl", Profile::device, when_asked<control_a_device>}, not_allowed},
+    {{"device write", Profile::device, when_asked<write_to_the_file>}, not_allowed},
 };
 
 std::vector<Reader> all_readers() {

@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "base/outside_text.h"
+#include "geometry/screen.h"
 
 namespace theatron::send {
 namespace {
@@ -12,6 +13,27 @@ namespace {
 // If no frame comes in this time, a requested key frame is made of the last one:
 // a participant joined a camera that is stale or has ended.
 constexpr Duration key_patience = 100ms;
+
+// As the lines of filters (docs/filters.md), with the region that operators have drawn.
+std::string spelling_of(const filter::ChainSettings& filter,
+                        const std::optional<capture::Crop>& crop) {
+    std::string text = filter.spelling();
+    if (crop)
+        text += (text.empty() ? "" : "+") + std::string("region:x=") + std::to_string(crop->x) +
+                ",y=" + std::to_string(crop->y) + ",width=" + std::to_string(crop->size.width) +
+                ",height=" + std::to_string(crop->size.height);
+    return text;
+}
+
+// `in` without measurements outside of the crop; in `out`, whose memory is reused.
+DepthView inside_of(const capture::Crop& crop, DepthView in, DepthImage& out) {
+    out.resize(in.size);
+    std::fill(out.pixels.begin(), out.pixels.end(), std::uint16_t(0));
+    const MutableDepthView target = out.view();
+    for (int y = crop.y; y < crop.y + crop.size.height; ++y)
+        std::copy_n(in.row(y) + crop.x, crop.size.width, target.row(y) + crop.x);
+    return std::as_const(out).view();
+}
 
 }  // namespace
 
@@ -105,6 +127,13 @@ void CameraLane::set_filter(filter::ChainSettings settings,
     const std::lock_guard lock(mutex_);
     orders_.filter = std::move(settings);
     orders_.background = std::move(background);
+    orders_.filter_changed = true;
+}
+
+void CameraLane::set_crop(std::optional<capture::Crop> crop) {
+    assert(!crop || capture::lies_in(*crop, info_.calibration.depth.size));
+    const std::lock_guard lock(mutex_);
+    orders_.crop = std::move(crop);
     orders_.filter_changed = true;
 }
 
@@ -248,11 +277,13 @@ void CameraLane::take_orders() {
         encoders_.set_region(orders_.region);
     }
     if (std::exchange(orders_.filter_changed, false)) {
-        filter_ = orders_.filter;
+        // A screen's plane is not measured.
+        filter_ = is_screen(info_.calibration) ? filter::ChainSettings{} : orders_.filter;
         background_ = orders_.background;
+        crop_ = orders_.crop;
         chain_.reset();
         filtered_at_ = {};
-        meter_.on_filter(filter_.spelling());
+        meter_.on_filter(spelling_of(filter_, crop_));
     }
     keys_.merge(orders_.keys);
     orders_.keys.clear();
@@ -261,10 +292,10 @@ void CameraLane::take_orders() {
 // Filters the frame's depth into filtered_, if there is a filter.
 void CameraLane::filter_frame() {
     filtered_at_ = {};
-    if (filter_.off())
+    if (filter_.off() && !crop_)
         return;
     const Frame& frame = *last_->frame;
-    if (!chain_ || chain_->size() != frame.depth.size) {
+    if (!filter_.off() && (!chain_ || chain_->size() != frame.depth.size)) {
         filter::ChainCamera camera;
         camera.size = frame.depth.size;
         camera.depth_unit_mm = info_.calibration.depth_unit_mm;
@@ -273,7 +304,10 @@ void CameraLane::filter_frame() {
     }
     const TimePoint begin = now();
     const TimePoint captured = frame.times.captured;
-    filtered_ = chain_->apply(frame.depth.view(), captured - filtered_captured_);
+    filtered_ = chain_ ? chain_->apply(frame.depth.view(), captured - filtered_captured_)
+                       : frame.depth.view();
+    if (crop_ && capture::lies_in(*crop_, frame.depth.size))
+        filtered_ = inside_of(*crop_, filtered_, cropped_);
     filtered_captured_ = captured;
     filtered_at_ = now();
     meter_.on_stage(Stage::filter, filtered_at_ - begin);

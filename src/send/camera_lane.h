@@ -19,6 +19,7 @@
 #include "base/ids.h"
 #include "base/newest_slot.h"
 #include "capture/camera.h"
+#include "capture/crop.h"
 #include "codec/strata_region.h"
 #include "filter/chain.h"
 #include "send/capture_thread.h"
@@ -85,6 +86,10 @@ public:
     // where a codec's error is bounded; empty: all of it. It must be strata::is_valid.
     void set_region(codec::strata::Region region);
 
+    // Depth outside of this part of the picture is not sent, from the next frame on; empty: all of
+    // it is. It must lie in the picture.
+    void set_crop(std::optional<capture::Crop> crop);
+
     // While held, no work on a frame begins: no receiver could take it yet. The newest one waits.
     void hold(bool held);
 
@@ -110,7 +115,8 @@ private:
         bool settings_changed = false;  // or the region
         filter::ChainSettings filter;
         std::shared_ptr<const filter::Background> background;
-        bool filter_changed = false;
+        std::optional<capture::Crop> crop;
+        bool filter_changed = false;  // or the crop
         WantedKeys keys;
     };
 
@@ -174,6 +180,8 @@ private:
     std::unique_ptr<filter::Chain> chain_;
     filter::ChainSettings filter_;
     std::shared_ptr<const filter::Background> background_;
+    std::optional<capture::Crop> crop_;
+    DepthImage cropped_;
     DepthView filtered_;  // of last_, if there is a chain, which it belongs to
     TimePoint filtered_at_, filtered_captured_;
 

@@ -67,6 +67,7 @@ public:
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;
+        bool voice_recorded = false;             // it agrees that others record its voice
         std::string link, token;                 // by which it came
         std::optional<wire::Join> asked;         // while it waits for admission
         bool asks_to_publish = false;            // as in wire::Join

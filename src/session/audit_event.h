@@ -26,6 +26,9 @@ struct AuditEvent {
         link_revoked,  // by which the participant came; the connection ends
         shared,        // a camera, named by `detail`
         unshared,
+        voice_agreed,      // to the recording of its voice
+        voice_not_agreed,  // no longer
+        adjusted,          // a camera; `detail` says how
     };
     What what{};
     ParticipantId participant{};  // 0: none; the host itself
@@ -39,8 +42,9 @@ struct AuditEvent {
 
 constexpr const char* text_of(AuditEvent::What what) {
     constexpr const char* texts[] = {
-        "began",   "ended", "waits",   "admitted",     "turned_away",  "joined", "left",
-        "removed", "muted", "unmuted", "role_changed", "link_revoked", "shared", "unshared"};
+        "began",  "ended",    "waits",        "admitted",         "turned_away",  "joined",
+        "left",   "removed",  "muted",        "unmuted",          "role_changed", "link_revoked",
+        "shared", "unshared", "voice_agreed", "voice_not_agreed", "adjusted"};
     return texts[std::size_t(what)];
 }
 

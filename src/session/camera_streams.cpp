@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/calibration.h"
 #include "session/delivery.h"
 
 namespace theatron::session {
@@ -18,7 +19,28 @@ CameraStreams::CameraStreams(wire::Camera description, SettingNumbers& numbers, 
       depth_(numbers, usual.depth,
              [&codecs](const std::string& codec) { return depth_traits(codec, codecs); }),
       color_(numbers, usual.color),
-      refers_(codecs.refers) {}
+      refers_(codecs.refers) {
+    if (const auto calibration = decode_calibration(description_.calibration))
+        registered_ = calibration->room_from_camera;
+}
+
+void CameraStreams::set_calibration(const Bytes& calibration) {
+    description_.calibration = calibration;
+    if (const auto decoded = decode_calibration(calibration))
+        registered_ = decoded->room_from_camera;
+    adjust(adjustment_);
+}
+
+void CameraStreams::adjust(const CameraAdjustment& adjustment) {
+    adjustment_ = rounded(adjustment);
+    description_.adjustment = encode_adjustment(adjustment_);
+    auto calibration = decode_calibration(description_.calibration);
+    if (!calibration)
+        return;
+    calibration->room_from_camera =
+        adjustment_.is_nudged() ? nudged(registered_, adjustment_) : registered_;
+    description_.calibration = encode_calibration(*calibration);
+}
 
 std::optional<std::vector<SettingId>> CameraStreams::take_change() {
     std::vector<SettingId> gone;

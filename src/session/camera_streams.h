@@ -12,6 +12,7 @@
 
 #include "base/ids.h"
 #include "base/time.h"
+#include "session/camera_adjustment.h"
 #include "session/setting_table.h"
 #include "session/stream_rates.h"
 #include "wire/control.h"
@@ -28,7 +29,14 @@ public:
     CameraStreams(wire::Camera description, SettingNumbers& numbers, const Usual& usual,
                   const CodecSteps& codecs);
 
+    // With the adjusted calibration.
     const wire::Camera& description() const { return description_; }
+    const CameraAdjustment& adjustment() const { return adjustment_; }
+    const Pose& registered() const { return registered_; }
+    // The camera is registered anew, with the same lenses.
+    void set_calibration(const Bytes& calibration);
+    // Within its limits.
+    void adjust(const CameraAdjustment& adjustment);
     ParticipantId publisher() const { return description_.publisher; }
     // Nobody gets its own camera, and a recorder only cameras that may be recorded.
     bool is_for(ParticipantId receiver, bool records) const {
@@ -51,7 +59,8 @@ public:
 
     std::optional<wire::CameraState> state;  // the publisher's newest
 
-    int slot = 0;  // unique in the session; the position of a camera without a place
+    std::string publisher_name;  // empty: the host
+    int slot = 0;                // unique in the session; the position of a camera without a place
 
     // Settings that were active at the last call and are not any more; empty if the active settings
     // have not changed.
@@ -76,6 +85,8 @@ private:
         int layer = 0;
     };
     wire::Camera description_;
+    Pose registered_;  // the room from the camera
+    CameraAdjustment adjustment_;
     SettingTable depth_, color_;
     std::function<bool(std::uint8_t)> refers_;              // as in CodecSteps
     std::vector<ActiveSetting> known_depth_, known_color_;  // at the last take_change()

@@ -7,10 +7,16 @@
 namespace theatron::session {
 namespace {
 
-constexpr std::uint8_t organ_tag = 1, part_tag = 2, screen_tag = 3;
+// A screen with a picture or a presenter has a tag of its own, which older programs leave out.
+constexpr std::uint8_t organ_tag = 1, part_tag = 2, screen_tag = 3, full_screen_tag = 4;
+constexpr std::uint16_t no_picture = 0xffff;
 constexpr double max_position_mm = 1e5, max_value = 1e6;
 // The screen's middle, seen from that of the organ.
 constexpr Vec3 screen_from_organ{0.48, 0.12, -0.1};
+
+bool is_full(const CaseScreen& screen) {
+    return screen.picture || screen.presenter != ParticipantId{};
+}
 
 std::optional<CaseObject> read(ByteView properties) {
     ByteReader in(properties);
@@ -36,15 +42,25 @@ std::optional<CaseObject> read(ByteView properties) {
             return std::nullopt;
         part.shown = shown == 1;
         object = part;
-    } else if (tag == screen_tag) {
+    } else if (tag == screen_tag || tag == full_screen_tag) {
         CaseScreen screen{*id};
         screen.series = in.get<std::uint8_t>();
         screen.orientation = in.get<std::uint8_t>();
         screen.position_mm = in.get_f64();
         screen.center = in.get_f64();
         screen.width = in.get_f64();
+        if (tag == full_screen_tag) {
+            const auto picture = in.get<std::uint16_t>();
+            if (picture != no_picture)
+                screen.picture = picture;
+            screen.presenter = ParticipantId(in.get<std::uint32_t>());
+            // A screen has one form.
+            if (!is_full(screen))
+                return std::nullopt;
+        }
         // A comparison with nan is false.
         if (screen.series >= CaseFacts::max_series ||
+            screen.picture.value_or(0) >= CaseFacts::max_pictures ||
             screen.orientation >= CaseScreen::orientations ||
             !(std::abs(screen.position_mm) <= max_position_mm) ||
             !(std::abs(screen.center) <= max_value) ||
@@ -62,7 +78,9 @@ std::optional<CaseObject> read(ByteView properties) {
 Bytes encode_case_object(const CaseObject& object) {
     Bytes bytes;
     ByteWriter out(bytes);
-    out.put(std::uint8_t(organ_tag + object.index()));
+    const auto* screen = std::get_if<CaseScreen>(&object);
+    out.put(
+        std::uint8_t(screen && is_full(*screen) ? full_screen_tag : organ_tag + object.index()));
     std::visit(
         [&](const auto& o) {
             using T = std::decay_t<decltype(o)>;
@@ -80,6 +98,10 @@ Bytes encode_case_object(const CaseObject& object) {
                 out.put_f64(o.position_mm);
                 out.put_f64(o.center);
                 out.put_f64(o.width);
+                if (!is_full(o))
+                    return;
+                out.put(o.picture.value_or(no_picture));
+                out.put(std::uint32_t(o.presenter));
             }
         },
         object);
@@ -103,6 +125,12 @@ bool may_become(ObjectKind kind, ByteView before, ByteView after) {
     };
     const auto* part = std::get_if<CasePart>(&*was);
     return id(*was) == id(*will) && (!part || part->part == std::get<CasePart>(*will).part);
+}
+
+bool may_change(ParticipantId by, bool manages, const CaseScreen& before, const CaseScreen& after) {
+    const bool is_free = before.presenter == ParticipantId{} || before.presenter == by || manages;
+    return is_free && (after.presenter == ParticipantId{} || after.presenter == by ||
+                       after.presenter == before.presenter);
 }
 
 std::optional<CaseInRoom> case_in_room(const RoomObjects& objects) {

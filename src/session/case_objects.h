@@ -42,6 +42,10 @@ struct CaseScreen {
     std::uint8_t orientation = 0;     // medical::Orientation
     double position_mm = 0;           // of the slice: z (axial), y (coronal) or x (sagittal)
     double center = 40, width = 400;  // of the window, in measured values
+    // The number of a picture of the case, which is shown instead of the slice; none: the slice.
+    std::optional<std::uint16_t> picture = {};
+    // The participant that alone changes the screen, beside operators; 0: everybody may.
+    ParticipantId presenter{};
     bool operator==(const CaseScreen&) const = default;
 };
 using CaseObject = std::variant<CaseOrgan, CasePart, CaseScreen>;
@@ -58,6 +62,10 @@ std::optional<T> decode_as(ObjectKind kind, ByteView properties) {
 // True if somebody may change the properties from `before` to `after`: the object stays the same
 // organ, part or screen of the same case.
 bool may_become(ObjectKind kind, ByteView before, ByteView after);
+
+// True if a participant may change a screen so: everybody where nobody presents, else the presenter
+// and those who `manage`. Nobody makes somebody else the presenter.
+bool may_change(ParticipantId by, bool manages, const CaseScreen& before, const CaseScreen& after);
 
 // The open case: the objects of the one of this session, or else of a replayed one.
 struct CaseInRoom {
@@ -96,11 +104,12 @@ Pose part_in_organ(const RoomObject& organ, const Pose& room_from_part);
 struct CaseFacts {
     static constexpr std::size_t max_parts = 256;
     static constexpr std::size_t max_series = 16;
+    static constexpr std::size_t max_pictures = 64;
     ContentHash id;
     std::string name;
     std::uint64_t bytes = 0;              // of all its content
     std::vector<std::uint8_t> opacities;  // of its parts
-    std::optional<CaseScreen> screen;     // what it shows at first; none without images
+    std::optional<CaseScreen> screen;  // what it shows at first; none without images and pictures
     bool operator==(const CaseFacts&) const = default;
 };
 

@@ -134,11 +134,59 @@ TEST_F(CaseInRoom, SurvivesARestartOfTheHost) {
     EXPECT_EQ(organ_object.room_from_object.translation, (Vec3{1, 2, 3}));
 }
 
+TEST_F(CaseInRoom, APresenterAloneChangesTheScreen) {
+    const ParticipantId chief{4};
+    join(chief, Role::operator_);
+    ASSERT_EQ(open(anna, liver(1)), Refusal::none);
+    const ObjectId screen = of_case(anna).rbegin()->first;
+    const auto now = [&] {
+        const RoomObject object = of_case(ben).at(screen);
+        return *decode_as<CaseScreen>(object.kind, object.properties);
+    };
+    const auto change = [&](ParticipantId by, double position_mm, ParticipantId presenter) {
+        CaseScreen next = now();
+        next.position_mm = position_mm;
+        next.presenter = presenter;
+        return ask(by, request::SetProperties{screen, encode_case_object(next)});
+    };
+    const ParticipantId nobody{};
+    EXPECT_EQ(change(anna, 1, nobody), Refusal::none);
+    EXPECT_EQ(change(ben, 2, nobody), Refusal::none);
+    EXPECT_EQ(change(ben, 3, anna), Refusal::held_by_another) << "nobody presents for another";
+    EXPECT_EQ(change(anna, 4, anna), Refusal::none);
+    EXPECT_EQ(change(ben, 5, anna), Refusal::held_by_another);
+    EXPECT_EQ(change(ben, 5, ben), Refusal::held_by_another);
+    EXPECT_EQ(change(ben, 5, nobody), Refusal::held_by_another);
+    EXPECT_EQ(change(anna, 6, anna), Refusal::none);
+    EXPECT_EQ(change(chief, 7, anna), Refusal::none) << "operators may";
+    EXPECT_EQ(now().position_mm, 7);
+    // It ends with the presenter, with the right to handle, and with the host's run.
+    std::vector<Action> later_actions;
+    const HostRoom later(host.snapshot(), later_actions);
+    const RoomObjects objects = later.snapshot().objects;
+    const RoomObject& object = objects.at(screen);
+    EXPECT_EQ(decode_as<CaseScreen>(object.kind, object.properties)->presenter, nobody);
+    host.set_person(anna, {Role::observer, false, "Anna"});
+    deliver();
+    EXPECT_EQ(now().presenter, nobody);
+    host.set_person(anna, {Role::expert, false, "Anna"});
+    deliver();
+    EXPECT_EQ(change(anna, 8, anna), Refusal::none);
+    host.leave(anna);
+    members.erase(anna);
+    deliver();
+    EXPECT_EQ(now().presenter, nobody);
+    EXPECT_EQ(now().position_mm, 8);
+    EXPECT_EQ(change(ben, 9, ben), Refusal::none);
+}
+
 TEST(CaseObjects, AreReadAsTheyWereWrittenAndNothingElseIs) {
     const ContentHash id = liver(7).id;
     for (const CaseObject& object :
          {CaseObject(CaseOrgan{id, 12, true}), CaseObject(CasePart{id, 255, false, 7}),
-          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500})}) {
+          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500}),
+          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500, 63}),
+          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500, std::nullopt, ben})}) {
         const auto kind =
             std::holds_alternative<CaseScreen>(object) ? ObjectKind::screen : ObjectKind::organ;
         Bytes bytes = encode_case_object(object);
@@ -153,6 +201,10 @@ TEST(CaseObjects, AreReadAsTheyWereWrittenAndNothingElseIs) {
     }
     EXPECT_FALSE(
         decode_case_object(ObjectKind::organ, encode_case_object(CasePart{id, 256, true, 7})));
+    CaseScreen screen{id};
+    EXPECT_EQ(encode_case_object(screen)[0], std::byte(3)) << "as older programs have it";
+    screen.picture = 64;
+    EXPECT_FALSE(decode_case_object(ObjectKind::screen, encode_case_object(screen)));
 }
 
 }  // namespace

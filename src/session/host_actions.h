@@ -80,6 +80,16 @@ struct SendContent {
     std::uint64_t offset = 0;
     std::uint32_t count = 0;
 };
+// A camera was adjusted; the session's description of it says how.
+struct Adjusted {
+    CameraId camera{};
+};
+// Play the recording of the host's cameras so; then call HostSession::set_playback().
+struct Play {
+    wire::PlayAction action{};
+    Duration position{};
+    std::string by;
+};
 // Make this link invalid for good.
 struct RevokeLink {
     std::string link;
@@ -91,6 +101,6 @@ using Action =
     std::variant<action::Send, action::Close, action::End, action::Joined, action::TakeMedia,
                  action::RequestKey, action::ChangeSettings, action::KeepEverything,
                  action::SetCeiling, action::Stepped, action::Drawing, action::Audit,
-                 action::RevokeLink, action::SendContent>;
+                 action::RevokeLink, action::SendContent, action::Adjusted, action::Play>;
 
 }  // namespace theatron::session

@@ -2,6 +2,7 @@
 #include "session/host_room.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "session/mark_rules.h"
@@ -48,9 +49,12 @@ void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {
         return;
     member->second.role = facts.role;
     member->second.name = facts.name;
-    if (!may(facts.role, Right::handle))
+    if (!may(facts.role, Right::handle)) {
         for (const RoomChange& change : state_.release_all(id))
             tell(change);
+        for (const RoomChange& change : end_presenting(id))
+            tell(change);
+    }
     for (const RoomChange& change : state_.on_person(id, encode_person(facts)))
         tell(change);
 }
@@ -64,6 +68,8 @@ bool HostRoom::gives_to_observer(const Request& request) const {
 void HostRoom::leave(ParticipantId id) {
     if (members_.erase(id) == 0)
         return;
+    for (const RoomChange& change : end_presenting(id))
+        tell(change);
     for (const RoomChange& change : state_.on_left(id))
         tell(change);
 }
@@ -115,6 +121,13 @@ std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, st
         const RoomObject* object = find(change->object);
         if (object && !may_become(object->kind, object->properties, change->properties))
             return RoomState::Decision{Refusal::malformed, {}};
+        const auto screen = [&](const Bytes& properties) {
+            return decode_as<CaseScreen>(ObjectKind::screen, properties);
+        };
+        const bool manages = may(members_.at(id).role, Right::manage);
+        if (object && object->kind == ObjectKind::screen &&
+            !may_change(id, manages, *screen(object->properties), *screen(change->properties)))
+            return RoomState::Decision{Refusal::held_by_another, {}};
     }
     const auto* remove = std::get_if<request::Remove>(&request);
     const RoomObject* removed = remove ? find(remove->object) : nullptr;
@@ -165,6 +178,22 @@ std::optional<RoomState::Decision> HostRoom::decide_on_mark(ParticipantId id, st
     if (found->second.creator != id && !decides_on_others)
         return RoomState::Decision{Refusal::of_another, {}};
     return std::nullopt;
+}
+
+std::vector<RoomChange> HostRoom::end_presenting(std::optional<ParticipantId> presenter) {
+    std::vector<RoomChange> changes;
+    const RoomObjects objects = state_.objects();
+    for (const auto& [id, object] : objects) {
+        auto screen = decode_as<CaseScreen>(object.kind, object.properties);
+        if (!screen || screen->presenter == ParticipantId{} ||
+            screen->presenter != presenter.value_or(screen->presenter))
+            continue;
+        screen->presenter = {};
+        auto decision =
+            state_.on_request({}, 1, request::SetProperties{id, encode_case_object(*screen)}, true);
+        std::move(decision.changes.begin(), decision.changes.end(), std::back_inserter(changes));
+    }
+    return changes;
 }
 
 RoomState::Decision HostRoom::open_case(ParticipantId id, const request::Create& request) {

@@ -24,9 +24,14 @@ public:
     // The latest time of a pose, after the host's present time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
+    // The persons (wire::Join) who made these marks.
+    using Authors = std::map<ObjectId, Bytes>;
+
     // Continues from `restored`. `actions` must outlive this object.
-    HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions)
-        : state_(restored), actions_(actions) {}
+    HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions, Authors authors = {})
+        : state_(restored), authors_(std::move(authors)), actions_(actions) {
+        (void)end_presenting(std::nullopt);
+    }
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
     // `person`: as in wire::Join; somebody who comes back is the author of their marks again.
@@ -63,6 +68,9 @@ public:
 
     // Without a replayed recording.
     RoomSnapshot snapshot() const { return state_.snapshot(); }
+    // The authors of the marks of snapshot(), at least. A person's id proves who somebody is, so it
+    // stays at the host.
+    const Authors& authors() const { return authors_; }
     std::uint64_t revision() const { return state_.revision(); }
     // Grows with each change of snapshot().
     std::uint64_t version() const { return state_.revision() - replayed_changes_; }
@@ -85,6 +93,8 @@ private:
     // The same of marks.
     std::optional<RoomState::Decision> decide_on_mark(ParticipantId id, std::uint32_t number,
                                                       const Request& request);
+    // Makes a participant the presenter of no screen; without one: all participants.
+    std::vector<RoomChange> end_presenting(std::optional<ParticipantId> presenter);
     RoomState::Decision open_case(ParticipantId id, const request::Create& request);
     void tell(const RoomChange& change);
     void send(ParticipantId id, wire::ToParticipant message) {
@@ -95,7 +105,7 @@ private:
     RoomObjects replayed_;  // with recorded_bit
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
-    std::map<ObjectId, Bytes> authors_;  // the persons who made these marks
+    Authors authors_;
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

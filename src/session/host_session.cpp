@@ -47,6 +47,27 @@ Kind kind_of(const wire::Manage&) {
 Kind kind_of(const wire::RequestContent&) {
     return Kind::content;
 }
+Kind kind_of(const wire::VoiceConsent&) {
+    return Kind::other;
+}
+
+Kind kind_of(const wire::AdjustCamera&) {
+    return Kind::manage;
+}
+Kind kind_of(const wire::Play&) {
+    return Kind::manage;
+}
+
+// The number of a decision that is answered with Managed; 0: it is none.
+std::uint32_t decision_number(const wire::ToHost& message) {
+    if (const auto* decision = std::get_if<wire::Manage>(&message))
+        return decision->number;
+    if (const auto* decision = std::get_if<wire::AdjustCamera>(&message))
+        return decision->number;
+    if (const auto* decision = std::get_if<wire::Play>(&message))
+        return decision->number;
+    return 0;
+}
 
 }  // namespace
 
@@ -55,7 +76,7 @@ HostSession::HostSession(Config config)
       admission_(config_.admission),
       membership_(config_.admission.asks),
       streams_(config_.streams, actions_),
-      room_(config_.room, actions_) {
+      room_(config_.room, actions_, config_.authors) {
     std::vector<wire::Camera> cameras = config_.cameras;
     for (wire::Camera& camera : cameras)
         camera.session = config_.session;
@@ -95,9 +116,8 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
                 carry_out(id, std::get<wire::Unpublish>(*message), now);
             else if (message && std::holds_alternative<wire::RoomRequest>(*message))
                 room_.refuse(id, std::get<wire::RoomRequest>(*message), Refusal::too_often);
-            else if (message && std::holds_alternative<wire::Manage>(*message))
-                send(id, wire::Managed{std::get<wire::Manage>(*message).number,
-                                       wire::ManageRefusal::too_often});
+            else if (message && decision_number(*message) != 0)
+                send(id, wire::Managed{decision_number(*message), wire::ManageRefusal::too_often});
             else if (message)
                 Admission::keep_for_later(*participant, std::move(*message));
             break;
@@ -159,10 +179,11 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     tell_renderer(id);
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
-        room_.join(id, {participant.role, participant.records, participant.name, participant.muted},
-                   participant.has(wire::Feature::room), participant.connected, participant.person);
+        room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
+                   participant.connected, participant.person);
     if (!room_.cases().empty())
         tell_cases(id);
+    tell_playback(id);
     if (participant.may(Right::manage))
         tell_operators();
 }
@@ -229,6 +250,16 @@ void HostSession::carry_out(ParticipantId id, const wire::RequestContent& reques
                                 request.offset, request.count});
 }
 
+void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent, TimePoint) {
+    Participant& person = *admission_.find(id);
+    if (!person.has(wire::Feature::voice_consent) || person.voice_recorded == consent.may_record)
+        return;
+    person.voice_recorded = consent.may_record;
+    audit(consent.may_record ? AuditEvent::What::voice_agreed : AuditEvent::What::voice_not_agreed,
+          id);
+    room_.set_person(id, facts_of(person));
+}
+
 void HostSession::set_cases(std::vector<CaseFacts> cases) {
     room_.set_cases(std::move(cases));
     for (const auto& [id, participant] : admission_.participants())
@@ -291,6 +322,7 @@ void HostSession::on_tick(TimePoint now) {
         if (participant.takes_part())
             carry_out_late(id, participant, now);
     }
+    audit_adjustments(now);
     streams_.on_tick(now);
 }
 
@@ -304,6 +336,7 @@ void HostSession::resynchronise(ParticipantId id) {
     room_.send_snapshot(id);
     if (!room_.cases().empty())
         tell_cases(id);
+    tell_playback(id);
     if (participant->may(Right::manage))
         tell_operators();
 }

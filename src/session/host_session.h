@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ public:
                                             // streams are given, from 0 on
         CheckCodec check_depth, check_color;
         Streams::Config streams;
-        RoomSnapshot room;  // from the previous run
+        RoomSnapshot room;          // from the previous run
+        HostRoom::Authors authors;  // of its marks
     };
 
     // Cameras of one publisher at once.
@@ -94,6 +96,16 @@ public:
     void set_cases(std::vector<CaseFacts> cases);
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
+
+    // Adjusts a camera, as an operator of this name does.
+    wire::ManageRefusal adjust(CameraId camera, const CameraAdjustment& adjustment,
+                               const std::string& by, TimePoint now);
+    // See Streams.
+    void set_calibration(CameraId camera, const Bytes& calibration) {
+        streams_.set_calibration(camera, calibration);
+    }
+    // Where the recording of the host is from now on; told to all.
+    void set_playback(const wire::Playback& playback);
 
     // The condition of the host's own cameras, and measurements of encoding them.
     void on_camera(const wire::CameraState& state) { streams_.on_state(state); }
@@ -153,6 +165,9 @@ private:
     void carry_out(ParticipantId id, const wire::RoomRequest& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Manage& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::RequestContent& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::VoiceConsent& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void tell_cases(ParticipantId id);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
@@ -161,8 +176,11 @@ private:
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
     void set_role(ParticipantId id, Role role);
     void remove_without_link(const std::string& by);
+    static PersonFacts facts_of(const Participant& person);
     void tell_standing(ParticipantId id);
     void tell_operators();
+    void tell_playback(ParticipantId id);
+    void audit_adjustments(TimePoint now);
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);
@@ -182,6 +200,12 @@ private:
     HostRoom room_;
     RendererWishes renderers_;
     bool has_ended_ = false;
+    std::optional<wire::Playback> playback_;
+    struct Adjusting {
+        std::string by;
+        TimePoint at;
+    };
+    std::map<CameraId, Adjusting> adjusted_;  // not yet in the audit log
 };
 
 }  // namespace theatron::session

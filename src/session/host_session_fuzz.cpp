@@ -171,7 +171,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto choice = in.get<std::uint8_t>();
         const ParticipantId id{1 + choice % participants};
         const SettingId setting{std::uint16_t(choice / 8)};
-        switch (what % 19) {
+        switch (what % 20) {
             case 0:
                 if (!host.participants().contains(id))
                     host.on_connected(id, now);
@@ -276,6 +276,24 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                                    session::encode_request(requests[choice % 3])}),
                     now);
                 host.on_control(id, wire::encode(wire::RequestContent{Bytes(32), choice, choice}),
+                                now);
+                host.on_control(id, wire::encode(wire::VoiceConsent{choice % 3 == 0}), now);
+                break;
+            }
+            case 18: {
+                const session::CameraAdjustment adjustment{{choice / 500.0, 0, 0},
+                                                           {0, choice / 8.0, 0},
+                                                           session::PictureBox{0, 0, choice, 8}};
+                host.on_control(
+                    id,
+                    wire::encode(wire::AdjustCamera{choice, CameraId(choice % 4),
+                                                    session::encode_adjustment(adjustment)}),
+                    now);
+                if (choice % 16 == 0)
+                    host.set_playback({1s, now, 9s, false, ""});
+                host.on_control(id,
+                                wire::encode(wire::Play{choice, wire::PlayAction(1 + choice % 3),
+                                                        Duration(std::int64_t(choice) << 40)}),
                                 now);
                 break;
             }

@@ -39,6 +39,10 @@ void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
         room_.refuse(id, *request, Refusal::role);
     else if (const auto* decision = std::get_if<wire::Manage>(&message))
         send(id, wire::Managed{decision->number, ManageRefusal::role});
+    else if (const auto* adjusting = std::get_if<wire::AdjustCamera>(&message))
+        send(id, wire::Managed{adjusting->number, ManageRefusal::adjusting_role});
+    else if (const auto* play = std::get_if<wire::Play>(&message))
+        send(id, wire::Managed{play->number, ManageRefusal::playing_role});
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint) {
@@ -158,11 +162,15 @@ void HostSession::remove_without_link(const std::string& by) {
         }
 }
 
+PersonFacts HostSession::facts_of(const Participant& person) {
+    return {person.role, person.records, person.name, person.muted, person.voice_recorded};
+}
+
 // To the participant, and to all as a fact about its person in the room.
 void HostSession::tell_standing(ParticipantId id) {
     const Participant& person = *admission_.find(id);
     send(id, wire::Standing{person.role, person.muted});
-    room_.set_person(id, {person.role, person.records, person.name, person.muted});
+    room_.set_person(id, facts_of(person));
 }
 
 std::vector<wire::Visitor> HostSession::visitors() const {

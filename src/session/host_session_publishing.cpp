@@ -42,7 +42,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     send(id, std::move(answer));
     for (const wire::Camera& camera : cameras)
         audit(AuditEvent::What::shared, id, "", camera.name);
-    streams_.add(id, std::move(cameras));
+    streams_.add(id, std::move(cameras), admission_.find(id)->name);
     take_media(id);
     set_budgets();
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <set>
 #include <utility>
 
 #include "base/float_bytes.h"
@@ -63,34 +65,23 @@ double distance_to_line(Vec3 p, Vec3 a, Vec3 b) {
     return length(p - a - along * t);
 }
 
-std::vector<MarkPoint> reduced(const std::vector<MarkPoint>& line, double tolerance_m) {
-    std::vector<bool> kept(line.size(), false);
-    kept.front() = kept.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
-    while (!open.empty()) {
-        const auto [first, last] = open.back();
-        open.pop_back();
-        std::size_t farthest = first;
-        double most = tolerance_m;
-        for (std::size_t i = first + 1; i < last; ++i) {
-            const double d =
-                distance_to_line(line[i].position, line[first].position, line[last].position);
-            if (d > most) {
-                most = d;
-                farthest = i;
-            }
+// The points between two kept ones, and the one of them that is farthest from the line between.
+struct Span {
+    std::size_t begin = 0, end = 0, farthest = 0;
+    double deviation_m = 0;
+    bool operator<(const Span& other) const { return deviation_m < other.deviation_m; }
+};
+Span span_of(const std::vector<MarkPoint>& line, std::size_t begin, std::size_t end) {
+    Span span{begin, end};
+    for (std::size_t i = begin + 1; i < end; ++i) {
+        const double deviation_m =
+            distance_to_line(line[i].position, line[begin].position, line[end].position);
+        if (deviation_m > span.deviation_m) {
+            span.deviation_m = deviation_m;
+            span.farthest = i;
         }
-        if (farthest == first)
-            continue;
-        kept[farthest] = true;
-        open.push_back({first, farthest});
-        open.push_back({farthest, last});
     }
-    std::vector<MarkPoint> result;
-    for (std::size_t i = 0; i < line.size(); ++i)
-        if (kept[i])
-            result.push_back(line[i]);
-    return result;
+    return span;
 }
 
 }  // namespace
@@ -183,12 +174,19 @@ std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tol
                                   std::size_t most) {
     if (line.size() < 3)
         return line;
-    tolerance_m = std::max(tolerance_m, 1e-6);
-    std::vector<MarkPoint> result = reduced(line, tolerance_m);
-    while (result.size() > most) {
-        tolerance_m *= 2;
-        result = reduced(line, tolerance_m);
+    std::set<std::size_t> kept{0, line.size() - 1};
+    std::priority_queue<Span> spans;
+    spans.push(span_of(line, 0, line.size() - 1));
+    while (kept.size() < most && spans.top().deviation_m > std::max(tolerance_m, 1e-6)) {
+        const Span worst = spans.top();
+        spans.pop();
+        kept.insert(worst.farthest);
+        spans.push(span_of(line, worst.begin, worst.farthest));
+        spans.push(span_of(line, worst.farthest, worst.end));
     }
+    std::vector<MarkPoint> result;
+    for (const std::size_t i : kept)
+        result.push_back(line[i]);
     return result;
 }
 

@@ -62,9 +62,9 @@ constexpr std::uint8_t color_number(ParticipantId author) {
 // The first letters of the first and the last word of a name, in UTF-8; "?" without any.
 std::string initials_of(std::string_view name);
 
-// A line with fewer points, at most `most` (2 or more), whose distance to each point left out is at
-// most `tolerance_m`, or the least multiple of that by a power of two that suffices (Douglas and
-// Peucker 1973). The ends stay.
+// A line with fewer points, at most `most` (2 or more). The ends stay, and the point that is
+// farthest from the line so far is kept next, until no point that was left out is farther than
+// `tolerance_m` (Douglas and Peucker 1973) or there are `most` points.
 std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tolerance_m,
                                   std::size_t most);
 

@@ -220,6 +220,29 @@ TEST_F(MarksInRoom, HaveNoAuthorAfterARestartBecauseNumbersBeginAgain) {
     EXPECT_EQ(objects.at(mark).properties, marks().begin()->second.properties);
 }
 
+TEST_F(MarksInRoom, BelongToTheirAuthorAgainAfterARestart) {
+    const Bytes person(16, std::byte(7)), other(16, std::byte(8));
+    const ParticipantId eve{10}, fay{11};
+    join(eve, Role::expert, "Eve", person);
+    join(fay, Role::expert, "Fay", other);
+    ASSERT_EQ(make(eve, pin(eve)), Refusal::none);
+    ASSERT_EQ(make(fay, pin(fay)), Refusal::none);
+    ASSERT_EQ(make(ben, pin(ben)), Refusal::none) << "without an id of his own";
+    HostRoom again(host.snapshot(), actions, host.authors());
+    // Numbers of participants begin again: Eve gets one that Anna had, a stranger Eve's.
+    const auto number_of = [&](ParticipantId creator) {
+        return marks_of(again.snapshot().objects, creator, false).size();
+    };
+    again.join(eve, {Role::expert, false, "Eve"}, true, {}, Bytes(16, std::byte(9)));
+    EXPECT_EQ(number_of(eve), 0u);
+    again.join(ben, {Role::expert, false, "Ben"}, true, {}, {});
+    EXPECT_EQ(number_of(ben), 0u) << "nobody owns the marks of those without an id";
+    again.join(anna, {Role::expert, false, "Eve"}, true, {}, person);
+    EXPECT_EQ(number_of(anna), 1u);
+    EXPECT_EQ(number_of(fay), 0u);
+    actions.clear();
+}
+
 TEST(ClearMarks, IsARequestOfTwoBytes) {
     const Bytes all = encode_request(request::ClearMarks{true});
     EXPECT_EQ(all, (Bytes{std::byte(7), std::byte(1)}));

@@ -121,5 +121,17 @@ TEST(Mark, ALineThatIsTooLongLosesDetailAndNotItsEnd) {
     EXPECT_EQ(simplified(two, 0.1, 2), two);
 }
 
+TEST(Mark, AScribbleOfMorePointsThanFitStaysAScribble) {
+    std::vector<MarkPoint> zigzag;
+    for (int i = 0; i < 5000; ++i)
+        zigzag.push_back({{i * 0.001, i % 2 * 0.05, 0}, {0, 0, 1}});
+    const std::vector<MarkPoint> kept = simplified(zigzag, 0.0005, most_mark_points);
+    EXPECT_EQ(kept.size(), most_mark_points);
+    const auto high = std::count_if(kept.begin(), kept.end(),
+                                    [](const MarkPoint& p) { return p.position.y > 0; });
+    EXPECT_GT(high, 50);
+    EXPECT_GT(std::ssize(kept) - high, 50);
+}
+
 }  // namespace
 }  // namespace theatron::session

@@ -18,6 +18,8 @@ enum class Right : std::uint8_t {
     record,   // join as a recorder
     publish,  // send cameras
     manage,   // admit, mute and remove others, change their roles, end the session
+    adjust,   // nudge cameras, draw their regions
+    play,     // pause and seek the recording that the host plays
 };
 
 constexpr bool may(Role role, Right right) {
@@ -25,9 +27,9 @@ constexpr bool may(Role role, Right right) {
         case Role::observer:
             return right == Right::see;
         case Role::expert:
-            return right != Right::publish && right != Right::manage;
+            return right != Right::publish && right != Right::manage && right != Right::adjust;
         case Role::publisher:
-            return right != Right::manage;
+            return right != Right::manage && right != Right::adjust;
         case Role::operator_:
             return true;
     }
@@ -52,6 +54,13 @@ constexpr Right needed_right(const wire::RoomRequest& message) {
 }
 constexpr Right needed_right(const wire::Manage&) {
     return Right::manage;
+}
+
+constexpr Right needed_right(const wire::AdjustCamera&) {
+    return Right::adjust;
+}
+constexpr Right needed_right(const wire::Play&) {
+    return Right::play;
 }
 
 }  // namespace theatron::session

@@ -24,7 +24,7 @@ struct Board {
         const Bytes body = pose_at(now - age, x);
         return board.put(sender, {{wire::StateTopic::pose, std::uint32_t(sender)}, body}, now);
     }
-    // Whose pose is where.
+    // The places of the gathered poses, by owner.
     std::map<ParticipantId, float> gathered() { return places(board.gather(now)); }
     static std::map<ParticipantId, float> places(const std::vector<PoseBoard::Entry>& entries) {
         std::map<ParticipantId, float> result;

@@ -32,6 +32,7 @@ struct PersonFacts {
     bool records = false;
     std::string name;
     bool muted = false;
+    bool voice_recorded = false;  // the person agrees that others record its voice
     bool operator==(const PersonFacts&) const = default;
 };
 Bytes encode_person(const PersonFacts& facts);

@@ -77,6 +77,11 @@ TEST_F(RoomMessages, EverybodyIsInItByName) {
     host.leave(recorder);
     deliver();
     EXPECT_EQ(members[ben].objects().size(), 2u);
+    EXPECT_FALSE(facts->voice_recorded);
+    host.set_person(ben, {Role::expert, false, "Ben", true, true});
+    deliver();
+    const auto changed = decode_person(members[anna].objects().rbegin()->second.properties);
+    EXPECT_TRUE(changed->voice_recorded && changed->muted);
     expect_the_same();
 }
 

@@ -20,6 +20,35 @@ void stand_apart(wire::Camera& camera, double distance_m) {
     camera.calibration = encode_calibration(*calibration);
 }
 
+// The registered pose was the same when this was kept.
+bool is_same_place(const Pose& a, const Pose& b) {
+    constexpr double same_place_m = 1e-4, same_turn = 1e-5;  // half of an angle's sine
+    const Quat turn = conjugate(a.rotation) * b.rotation;
+    return length(a.translation - b.translation) < same_place_m &&
+           length(Vec3{turn.x, turn.y, turn.z}) < same_turn;
+}
+
+bool is_of(const KeptAdjustment& kept, const CameraStreams& camera) {
+    return kept.publisher == camera.publisher_name && kept.camera == camera.description().name;
+}
+
+// Null if there is none.
+const CameraAdjustment* find_kept(const std::vector<KeptAdjustment>& all,
+                                  const CameraStreams& camera) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const KeptAdjustment& kept) {
+        return is_of(kept, camera) && is_same_place(kept.registered, camera.registered());
+    });
+    return found == all.end() ? nullptr : &found->adjustment;
+}
+
+bool can_be_adjusted(const CameraStreams& camera, const CameraAdjustment& adjustment) {
+    const auto calibration = decode_calibration(camera.description().calibration);
+    return calibration && calibration->person == 0 &&
+           camera.description().frame == wire::CameraFrame::room &&
+           (!adjustment.region || camera.publisher() == host_publisher) &&
+           is_within_limits(adjustment, calibration->depth.size);
+}
+
 }  // namespace
 
 // Cameras.
@@ -34,7 +63,8 @@ int Streams::free_slot() const {
     return slot;
 }
 
-void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
+void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras,
+                  const std::string& publisher_name) {
     assert(has_numbers_for(cameras.size()));
     for (wire::Camera& camera : cameras) {
         camera.id = CameraId(next_camera_++);
@@ -48,6 +78,12 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras) {
             cameras_.try_emplace(camera.id, camera, numbers_, config_.usual, config_.codecs)
                 .first->second;
         streams.slot = slot;
+        streams.publisher_name = publisher_name;
+        if (const CameraAdjustment* kept = find_kept(adjustments_, streams);
+            kept && can_be_adjusted(streams, *kept)) {
+            streams.adjust(*kept);
+            camera = streams.description();
+        }
         for (auto& [id, receiver] : receivers_)
             if (streams.is_for(id, receiver.records)) {
                 set_wish(id, receiver, streams, true);
@@ -134,6 +170,46 @@ void Streams::on_state(const wire::CameraState& state) {
     found->second.state = state;
     for (const auto& [id, announced] : found->second.receivers)
         send(id, state);
+}
+
+wire::ManageRefusal Streams::adjust(CameraId id, const CameraAdjustment& adjustment) {
+    const auto found = cameras_.find(id);
+    if (found == cameras_.end() || !can_be_adjusted(found->second, {}))
+        return wire::ManageRefusal::no_such_camera;
+    CameraStreams& camera = found->second;
+    if (!can_be_adjusted(camera, adjustment))
+        return wire::ManageRefusal::beyond_limits;
+    camera.adjust(adjustment);
+    keep(camera);
+    tell_changed(camera);
+    return wire::ManageRefusal::none;
+}
+
+void Streams::set_calibration(CameraId id, const Bytes& calibration) {
+    const auto found = cameras_.find(id);
+    if (found == cameras_.end())
+        return;
+    wire::Camera apart;
+    apart.calibration = calibration;
+    stand_apart(apart, found->second.slot * unregistered_distance_m);
+    found->second.set_calibration(apart.calibration);
+    tell_changed(found->second);
+}
+
+void Streams::tell_changed(const CameraStreams& camera) {
+    for (const auto& [receiver, wishes] : receivers_)
+        if (receiver != camera.publisher())
+            send(receiver, wire::CameraChanged{camera.description()});
+}
+
+// The newest one of a camera replaces the one before.
+void Streams::keep(const CameraStreams& camera) {
+    std::erase_if(adjustments_, [&](const KeptAdjustment& kept) { return is_of(kept, camera); });
+    if (camera.adjustment() != CameraAdjustment{})
+        adjustments_.push_back({camera.publisher_name, camera.description().name,
+                                camera.registered(), camera.adjustment()});
+    if (adjustments_.size() > max_kept_adjustments)
+        adjustments_.erase(adjustments_.begin());
 }
 
 void Streams::on_region(bool is_drawn) {

@@ -13,6 +13,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/announced_cameras.h"
+#include "session/camera_adjustment.h"
 #include "session/camera_streams.h"
 #include "session/delivery.h"
 #include "session/host_actions.h"
@@ -27,12 +28,13 @@ inline constexpr ParticipantId host_publisher{0};
 class Streams {
 public:
     struct Config {
-        CodecSteps codecs;           // for the ladders
-        CameraStreams::Usual usual;  // in canonical spelling; empty: none
+        CodecSteps codecs;                             // for the ladders
+        CameraStreams::Usual usual;                    // in canonical spelling; empty: none
+        std::vector<KeptAdjustment> adjustments = {};  // of the previous run
     };
     // `actions` must outlive the streams.
     Streams(Config config, std::vector<Action>& actions)
-        : config_(std::move(config)), actions_(actions) {}
+        : config_(std::move(config)), actions_(actions), adjustments_(config_.adjustments) {}
     Streams(const Streams&) = delete;
     Streams& operator=(const Streams&) = delete;
 
@@ -41,8 +43,10 @@ public:
     static constexpr double unregistered_distance_m = 12;
 
     // Adds cameras and gives them their numbers and streams; no number is used twice. Cameras
-    // without a place in the room are put side by side. Needs has_numbers_for() them.
-    void add(ParticipantId publisher, std::vector<wire::Camera> cameras);
+    // without a place in the room are put side by side. Cameras that were adjusted before are so
+    // again. `publisher_name` is empty for the host. Needs has_numbers_for() them.
+    void add(ParticipantId publisher, std::vector<wire::Camera> cameras,
+             const std::string& publisher_name = "");
     // The number of the next camera, or of the one `further` behind it.
     CameraId next_id(std::size_t further) const { return CameraId(next_camera_ + int(further)); }
     bool has_numbers_for(std::size_t cameras) const {
@@ -61,6 +65,13 @@ public:
     std::vector<wire::Camera> seen_by(ParticipantId participant) const;
     std::vector<wire::CameraState> states_seen_by(ParticipantId participant) const;
     void on_state(const wire::CameraState& state);
+    // Adjusts a camera for all who see it. Cameras that move with a person cannot be, and only the
+    // host's own have a region.
+    wire::ManageRefusal adjust(CameraId camera, const CameraAdjustment& adjustment);
+    // A camera is registered anew, with the same lenses; told to all who see it.
+    void set_calibration(CameraId camera, const Bytes& calibration);
+    // Those of all cameras that are or were here.
+    const std::vector<KeptAdjustment>& adjustments() const { return adjustments_; }
     // `is_drawn`: some camera has a region of interest. Without one, depth never becomes lossy
     // because of a slow link.
     void on_region(bool is_drawn);
@@ -113,6 +124,8 @@ private:
     void send(ParticipantId participant, wire::ToParticipant message) {
         actions_.push_back(action::Send{participant, std::move(message)});
     }
+    void keep(const CameraStreams& camera);
+    void tell_changed(const CameraStreams& camera);
     void set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth);
     void take_step(ParticipantId id, Receiver& receiver);
     void take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera);
@@ -135,6 +148,7 @@ private:
     KeyRequests key_requests_;
     StreamRates rates_;
     bool region_is_drawn_ = false;
+    std::vector<KeptAdjustment> adjustments_;  // the oldest first
 };
 
 }  // namespace theatron::session

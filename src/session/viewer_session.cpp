@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "geometry/calibration.h"
 #include "session/announced_cameras.h"
 
 namespace theatron::session {
@@ -32,6 +33,7 @@ Bytes ViewerSession::begin() {
     renderer_word_ = {};
     goodbye_ = {};
     standing_ = {};
+    playback_.reset();
     visitors_.clear();
     wire::Join join;
     join.token = wishes_.token;
@@ -89,6 +91,9 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         remove_cameras(removed->cameras);
         return Change::cameras;
     }
+    if (auto* changed = std::get_if<wire::CameraChanged>(&*message))
+        return joined_ && change_camera(std::move(changed->camera)) ? Change::cameras
+                                                                    : Change::nothing;
     if (auto* published = std::get_if<wire::Published>(&*message)) {
         published_ = std::move(*published);
         return Change::published;
@@ -150,6 +155,10 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
         offered_cases_ = std::move(offer->cases);
         return Change::cases;
     }
+    if (auto* playback = std::get_if<wire::Playback>(&message)) {
+        playback_ = std::move(*playback);
+        return Change::playback;
+    }
     if (auto* content = std::get_if<wire::Content>(&message)) {
         content_ = std::move(*content);
         return Change::content;
@@ -170,8 +179,8 @@ Bytes ViewerSession::choose(CameraId camera, const std::string& depth_codec,
     return wire::encode(wire::ChooseCodecs{depth_codec, color_codec, {camera}});
 }
 
-bool ViewerSession::may_publish() const {
-    return std::find(welcome_.features.begin(), welcome_.features.end(), wire::Feature::publish) !=
+bool ViewerSession::has(wire::Feature feature) const {
+    return std::find(welcome_.features.begin(), welcome_.features.end(), feature) !=
            welcome_.features.end();
 }
 
@@ -201,6 +210,25 @@ void ViewerSession::add_cameras(std::vector<wire::Camera> cameras) {
     AnnouncedCameras judged = judge_cameras(std::move(all));
     welcome_.cameras = std::move(judged.accepted);
     left_out_ = std::move(judged.left_out);
+}
+
+// Only what does not concern its streams may change. False, and nothing changes, if there is no
+// such camera or its description cannot be used.
+bool ViewerSession::change_camera(wire::Camera camera) {
+    for (wire::Camera& known : welcome_.cameras) {
+        if (known.id != camera.id || known.session != camera.session ||
+            known.has_color != camera.has_color || known.frame != camera.frame)
+            continue;
+        const auto before = decode_calibration(known.calibration),
+                   now = decode_calibration(camera.calibration);
+        if (!before || !now || before->depth != now->depth || before->color != now->color)
+            return false;
+        known.calibration = std::move(camera.calibration);
+        known.adjustment = std::move(camera.adjustment);
+        left_out_.clear();
+        return true;
+    }
+    return false;
 }
 
 void ViewerSession::remove_cameras(const std::vector<CameraId>& cameras) {

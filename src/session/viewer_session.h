@@ -36,7 +36,7 @@ public:
     enum class Change {
         nothing,
         welcomed,    // cameras() are known; they may be others than those of the connection before
-        cameras,     // some of cameras() came or left; the others are as they were
+        cameras,     // some of cameras() came, left or are described anew
         refused,     // refusal() says why; the connection will end
         settings,    // settings(), and note(): the host's comment on them
         camera,      // camera_states()
@@ -53,6 +53,7 @@ public:
         managed,     // managed(): the host's answer to a decision
         cases,       // offered_cases(): all cases of the host
         content,     // content(): a piece of what this participant has asked for
+        playback,    // playback(): where the recording is that the host plays
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
@@ -76,7 +77,9 @@ public:
     const std::vector<wire::Text>& left_out() const { return left_out_; }
     // The settings of accepted cameras only.
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
-    bool may_publish() const;
+    // The host has this part of the protocol for this participant.
+    bool has(wire::Feature feature) const;
+    bool may_publish() const { return has(wire::Feature::publish); }
     const wire::Text& note() const { return note_; }
     // The states of accepted cameras only.
     const std::map<CameraId, wire::CameraState>& camera_states() const { return camera_states_; }
@@ -98,11 +101,14 @@ public:
     const wire::Managed& managed() const { return managed_; }
     const std::vector<wire::OfferedCase>& offered_cases() const { return offered_cases_; }
     const wire::Content& content() const { return content_; }
+    // Empty: the host plays no recording.
+    const std::optional<wire::Playback>& playback() const { return playback_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
     void take_settings(std::vector<wire::StreamSetting> settings);
     void add_cameras(std::vector<wire::Camera> cameras);
+    bool change_camera(wire::Camera camera);
     void remove_cameras(const std::vector<CameraId>& cameras);
 
     Change on_people(wire::ToParticipant message);
@@ -129,6 +135,7 @@ private:
     wire::Managed managed_;
     std::vector<wire::OfferedCase> offered_cases_;
     wire::Content content_;
+    std::optional<wire::Playback> playback_;
 };
 
 }  // namespace theatron::session

@@ -11,11 +11,22 @@ VoiceFloor::Forward VoiceFloor::on_voice(ParticipantId speaker, HostSession& ses
     if (!session.allow(speaker, Right::speak))
         return {};
     Forward forward;
-    for (const auto& [id, participant] : session.participants())
+    const auto& participants = session.participants();
+    const bool may_record = participants.at(speaker).voice_recorded;
+    for (const auto& [id, participant] : participants)
         if (id != speaker && participant.takes_part() &&
-            !participant.has(wire::Feature::sends_only))
+            !participant.has(wire::Feature::sends_only) && (may_record || !participant.records))
             forward.receivers.push_back(id);
     return forward;
+}
+
+std::vector<ParticipantId> VoiceFloor::listeners_of_replay(const HostSession& session) {
+    std::vector<ParticipantId> listeners;
+    for (const auto& [id, participant] : session.participants())
+        if (participant.takes_part() && !participant.has(wire::Feature::sends_only) &&
+            !participant.records)
+            listeners.push_back(id);
+    return listeners;
 }
 
 }  // namespace theatron::session

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides on the host who hears a packet of voice: nobody if its speaker is muted or has a role
-// that may not speak, otherwise everybody else in the session. Packets are not decoded.
+// that may not speak, otherwise everybody else in the session. Recorders hear only those who
+// agree to be recorded. Packets are not decoded.
 //
 // Pure; time is passed in.
 #pragma once
@@ -26,6 +27,9 @@ public:
     };
     // A packet of voice came from this participant.
     Forward on_voice(ParticipantId speaker, HostSession& session, TimePoint now);
+    // The receivers of the voices of a recording that the host plays: no recorder, because their
+    // speakers agreed to that recording only.
+    static std::vector<ParticipantId> listeners_of_replay(const HostSession& session);
     void remove(ParticipantId participant) { speakers_.erase(participant); }
 
 private:

@@ -57,6 +57,27 @@ TEST_F(Voices, AMutedSpeakerIsHeardByNobodyFromTheNextPacketOn) {
     EXPECT_EQ(heard_by(bob), People{alice});
 }
 
+TEST_F(Voices, ARecorderHearsOnlyThoseWhoAgreeAndOnlyWhileTheyDo) {
+    come(alice, "secret", {wire::Feature::voice_consent, wire::Feature::room});
+    all_.on_connected(bob, now);
+    wire::Join recorder;
+    recorder.token = "secret";
+    recorder.depth_codec = "trvl";
+    recorder.color_codec = "jpeg";
+    recorder.records = true;
+    all_.on_control(bob, wire::encode(recorder), now);
+    come(carol, "secret");
+    EXPECT_EQ(heard_by(alice), People{carol});
+    all_.on_control(alice, wire::encode(wire::VoiceConsent{true}), now);
+    EXPECT_EQ(heard_by(alice), (People{bob, carol}));
+    // Nothing is recorded of a program that does not know of this, whatever it says.
+    all_.on_control(carol, wire::encode(wire::VoiceConsent{true}), now);
+    EXPECT_EQ(heard_by(carol), People{alice});
+    all_.on_control(alice, wire::encode(wire::VoiceConsent{false}), now);
+    EXPECT_EQ(heard_by(alice), People{carol});
+    EXPECT_EQ(VoiceFloor::listeners_of_replay(all_), (People{alice, carol}));
+}
+
 TEST_F(Voices, AConnectionThatHasNotJoinedOrIsUnknownIsHeardByNobody) {
     come(alice, "or");
     all_.on_connected(bob, now);

@@ -16,10 +16,6 @@ namespace {
 
 constexpr const char* without_sound = " You can take part without it.";
 
-bool is_file(const std::string& name) {
-    return name.ends_with(".wav") || name.ends_with(".WAV");
-}
-
 // SDL's audio, while an object of this lives.
 struct Audio {
     explicit Audio(const std::string& what) {
@@ -83,6 +79,8 @@ public:
         SDL_PauseAudioDevice(id_, 0);
     }
     ~SdlDevice() override { SDL_CloseAudioDevice(id_); }
+    // SDL stops a device that the system has taken away.
+    bool works() const override { return SDL_GetAudioDeviceStatus(id_) != SDL_AUDIO_STOPPED; }
     SdlDevice(const SdlDevice&) = delete;
     SdlDevice& operator=(const SdlDevice&) = delete;
 
@@ -94,6 +92,19 @@ private:
 };
 
 }  // namespace
+
+bool is_file(const std::string& name) {
+    return name.ends_with(".wav") || name.ends_with(".WAV");
+}
+
+DeviceList devices() {
+    try {
+        const Audio audio("this program");
+        return {names_of(true), names_of(false), ""};
+    } catch (const Error& error) {
+        return {{}, {}, error.what()};
+    }
+}
 
 std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver) {
     if (is_file(name))

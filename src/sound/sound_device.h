@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/time.h"
 
@@ -20,10 +21,23 @@ inline constexpr int block_samples = 480;
 class SoundDevice {
 public:
     virtual ~SoundDevice() = default;
+    // False once it has been unplugged: no more samples come or go.
+    virtual bool works() const { return true; }
     // The time at which the first sample was spoken or is heard, if it is known: of a file, as if
     // it were a sound card with two blocks.
     virtual std::optional<TimePoint> began() const { return std::nullopt; }
 };
+
+// True for a name that means a WAV file.
+bool is_file(const std::string& name);
+
+// The devices of this machine, without files. Both lists are empty where `problem` is not, which
+// is then one sentence.
+struct DeviceList {
+    std::vector<std::string> microphones, loudspeakers;
+    std::string problem;
+};
+DeviceList devices();
 
 using Deliver = std::function<void(std::span<const float>)>;
 using Fill = std::function<void(std::span<float>)>;

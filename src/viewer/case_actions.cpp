@@ -11,7 +11,7 @@ namespace request = session::request;
 using session::CaseInRoom;
 using session::ObjectKind;
 
-std::optional<CaseInRoom> present(const client::Participant& participant) {
+std::optional<CaseInRoom> open_in(const client::Participant& participant) {
     return session::case_in_room(participant.room().objects);
 }
 
@@ -54,12 +54,12 @@ bool open_case(client::Participant& participant, const ContentHash& offered, Vec
 }
 
 bool close_case(client::Participant& participant) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     return open && participant.ask_room(request::Remove{open->organ_id}) != 0;
 }
 
 bool show_part(client::Participant& participant, std::size_t part, bool shown) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     const CaseInRoom::Part* found = find(open, part);
     if (!found)
         return false;
@@ -69,7 +69,7 @@ bool show_part(client::Participant& participant, std::size_t part, bool shown) {
 }
 
 bool set_opacity(client::Participant& participant, std::size_t part, double opacity) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     const CaseInRoom::Part* found = find(open, part);
     if (!found)
         return false;
@@ -79,7 +79,7 @@ bool set_opacity(client::Participant& participant, std::size_t part, double opac
 }
 
 bool explode(client::Participant& participant, double share) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     if (!open)
         return false;
     session::CaseOrgan organ = open->organ;
@@ -88,7 +88,7 @@ bool explode(client::Participant& participant, double share) {
 }
 
 bool put_together(client::Participant& participant) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     if (!open)
         return false;
     if (open->organ.explosion != 0)
@@ -103,13 +103,13 @@ bool put_together(client::Participant& participant) {
 }
 
 bool set_scale(client::Participant& participant, double scale) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     return open && place(participant, open->organ_id, open->organ_object,
                          open->organ_object.room_from_object, scale);
 }
 
 bool cut_at_slice(client::Participant& participant, bool cut) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     if (!open || !open->screen)
         return false;
     session::CaseOrgan organ = open->organ;
@@ -118,8 +118,17 @@ bool cut_at_slice(client::Participant& participant, bool cut) {
 }
 
 bool set_screen(client::Participant& participant, const session::CaseScreen& screen) {
-    const auto open = present(participant);
+    const auto open = open_in(participant);
     return open && open->screen && change(participant, open->screen->id, screen);
+}
+
+bool present(client::Participant& participant, bool presents) {
+    const auto open = open_in(participant);
+    if (!open || !open->screen)
+        return false;
+    session::CaseScreen screen = open->screen->facts;
+    screen.presenter = presents ? participant.room().self : ParticipantId{};
+    return set_screen(participant, screen);
 }
 
 }  // namespace theatron::viewer

@@ -28,5 +28,7 @@ bool set_scale(client::Participant& participant, double scale);  // 1: life size
 
 bool cut_at_slice(client::Participant& participant, bool cut);
 bool set_screen(client::Participant& participant, const session::CaseScreen& screen);
+// From now on only this participant, and operators, change the screen; or everybody again.
+bool present(client::Participant& participant, bool presents);
 
 }  // namespace theatron::viewer

@@ -73,8 +73,47 @@ void add_parts(const CasePanelFacts& facts, Builder& add) {
     }
 }
 
+void add_series(const CasePanelFacts& facts, Builder& add) {
+    const auto& series = facts.content->description->series;
+    std::vector<xr::PanelButton> buttons;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        const session::CaseScreen next =
+            of_series(facts.room->screen->facts, int(i), facts.content->volumes[i].get());
+        buttons.push_back(
+            add.action(series[i].name, [next](Participant& p) { return set_screen(p, next); }));
+    }
+    if (buttons.size() > 1)
+        add.row("Series", "", std::move(buttons));
+}
+
+void add_pictures(const CasePanelFacts& facts, Builder& add) {
+    const auto& pictures = facts.content->description->pictures;
+    if (pictures.empty())
+        return;
+    const session::CaseScreen screen = facts.room->screen->facts;
+    const auto step = [&](const char* label, int steps) {
+        return add.action(label, [next = stepped(screen, int(pictures.size()), steps)](
+                                     Participant& p) { return set_screen(p, next); });
+    };
+    if (!screen.picture || *screen.picture >= pictures.size())
+        return add.row("Pictures", std::to_string(pictures.size()), {step("Show", 0)});
+    add.row("Pictures",
+            std::to_string(*screen.picture + 1) + " of " + std::to_string(pictures.size()),
+            {step("Before", -1), step("Next", 1)});
+}
+
 void add_screen(const CasePanelFacts& facts, Builder& add) {
-    if (!facts.room->screen || !facts.volume)
+    if (!facts.room->screen || !facts.content || !facts.content->description)
+        return;
+    add_series(facts, add);
+    add_pictures(facts, add);
+    add.row("Screen",
+            facts.presents             ? "you present"
+            : !facts.presenter.empty() ? facts.presenter + " presents"
+                                       : "all may change it",
+            {add.action(facts.presents ? "All may" : "Present",
+                        [on = !facts.presents](Participant& p) { return present(p, on); })});
+    if (!facts.volume)
         return;
     const session::CaseScreen screen = facts.room->screen->facts;
     std::vector<xr::PanelButton> planes, windows;

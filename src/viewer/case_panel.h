@@ -12,7 +12,9 @@ struct CasePanelFacts {
     std::vector<wire::OfferedCase> offered;
     const session::CaseInRoom* room = nullptr;  // null: no case is open
     const client::OpenCase* content = nullptr;  // null: nothing of it is known yet
-    const medical::Volume* volume = nullptr;    // that the screen shows; may be null
+    const medical::Volume* volume = nullptr;    // whose slices the screen shows; may be null
+    std::string presenter;                      // the name; empty: everybody changes the screen
+    bool presents = false;                      // oneself
 };
 // Appends a panel and the commands of its buttons.
 void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel);

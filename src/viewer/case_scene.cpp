@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/case_scene.h"
 
+#include <cmath>
 #include <utility>
 
 #include "medical/mesh_measures.h"
@@ -88,7 +89,13 @@ void CaseScene::add_to(render::SceneFrame& frame, const render::CameraView& view
 }
 
 bool CaseScene::is_drawn(const session::CaseInRoom::Part& part) const {
-    return drawn(part.facts.part) && part.facts.shown && part.facts.opacity > 0;
+    return drawn(part.facts.part) && has_place(part);
+}
+
+bool CaseScene::has_place(const session::CaseInRoom::Part& part) const {
+    // Parts are drawn apart along the middles of their surfaces.
+    return part.facts.shown && part.facts.opacity > 0 &&
+           (drawn(part.facts.part) || room_->organ.explosion == 0);
 }
 
 std::optional<render::Cut> CaseScene::cut() const {
@@ -123,6 +130,30 @@ std::optional<Pose> CaseScene::stored_pose(session::ObjectId object,
     pose.translation = pose.translation -
                        (exploded(*part).translation - part->object.room_from_object.translation);
     return pose;
+}
+
+std::optional<Vec3> CaseScene::twin_place(session::ObjectId object, Vec3 place) const {
+    const medical::SharedCase* about = description();
+    if (!room_ || !about)
+        return std::nullopt;
+    if (room_->screen && object == room_->screen->id) {
+        const auto patient = monitor_.patient_point(*room_, place);
+        const session::RoomObject& organ = room_->organ_object;
+        return patient ? std::optional(
+                             organ.room_from_object *
+                             (room::organ_from_patient(*patient, about->middle_mm) * organ.scale))
+                       : std::nullopt;
+    }
+    const auto patient = patient_point(object, place);
+    const auto slice = slice_frame();
+    if (!patient || !slice || !slice->on_screen)
+        return std::nullopt;
+    const Vec3 in_organ = room::organ_from_patient(*patient, about->middle_mm);
+    const Vec3 on_screen = slice->screen_from_organ * (in_organ * slice->screen_scale);
+    const bool is_on_slice =
+        std::abs((slice->picture_from_organ * in_organ).z) <= slice->half_step_m;
+    return is_on_slice && monitor_.shows_at(*room_, on_screen) ? std::optional(on_screen)
+                                                               : std::nullopt;
 }
 
 std::optional<Vec3> CaseScene::patient_point(session::ObjectId object, Vec3 place) const {

@@ -34,8 +34,15 @@ public:
     // The patient coordinates of a place of the room on this part.
     std::optional<Vec3> patient_point(session::ObjectId part, Vec3 place) const;
 
+    // The same place of the patient on the other of the two, organ and slice, for a place of the
+    // room on a part or on the slice: nullopt if the slice does not show it.
+    std::optional<Vec3> twin_place(session::ObjectId object, Vec3 place) const;
+
     // A part whose surface is here, shown, and not quite transparent.
     bool is_drawn(const session::CaseInRoom::Part& part) const;
+    // A part that is shown and whose place is known, also before its surface has come, and where
+    // it never comes: in the replay of a session whose case the host does not offer.
+    bool has_place(const session::CaseInRoom::Part& part) const;
     // The removed side of the organ, if it is cut.
     std::optional<render::Cut> cut() const;
     std::optional<Monitor::SliceFrame> slice_frame() const;

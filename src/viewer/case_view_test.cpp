@@ -2,6 +2,8 @@
 // The slice that the screen of a case shows, and its changes.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "viewer/case_panel.h"
 #include "viewer/screen_handling.h"
 
@@ -61,6 +63,30 @@ TEST(CaseView, TheSliceGoesThroughAPlaceOfThePatient) {
     EXPECT_EQ(through(screen, {1, 2, 3}).position_mm, 1);
 }
 
+TEST(CaseView, PicturesAreSteppedThroughAndSlicesComeBack) {
+    session::CaseScreen screen = screen_at(110);
+    screen = stepped(screen, 3, 5);
+    EXPECT_EQ(screen.picture, 0) << "the first one comes first";
+    screen = stepped(screen, 3, 1);
+    EXPECT_EQ(screen.picture, 1);
+    EXPECT_EQ(stepped(screen, 3, 9).picture, 2);
+    EXPECT_EQ(stepped(screen, 3, -9).picture, 0);
+    EXPECT_EQ(screen.position_mm, 110) << "the slice stays";
+    EXPECT_FALSE(turned(screen, volume(), medical::Orientation::axial).picture);
+    EXPECT_FALSE(through(screen, {1, 2, 3}).picture);
+    EXPECT_FALSE(of_series(screen, 1, nullptr).picture);
+}
+
+TEST(CaseView, AnotherSeriesHasItsOwnWindowAndASliceWithinIt) {
+    medical::Volume v = volume();
+    v.window = {7, 90};
+    const session::CaseScreen screen = of_series(screen_at(5000), 3, &v);
+    EXPECT_EQ(screen.series, 3);
+    EXPECT_EQ(screen.center, 7);
+    EXPECT_EQ(screen.width, 90);
+    EXPECT_EQ(screen.position_mm, 120);
+}
+
 TEST(CasePanel, OffersCasesThatAreNotOpen) {
     Bytes first(32), second(32);
     second[0] = std::byte(7);
@@ -82,6 +108,38 @@ TEST(CasePanel, OffersCasesThatAreNotOpen) {
     add_case_panel(facts, with_open);
     const auto& rows = with_open.panels[0].rows;
     EXPECT_EQ(rows.back().text, "One") << "Two is open";
+}
+
+TEST(CasePanel, ShowsPicturesSeriesAndThePresenter) {
+    CasePanelFacts facts;
+    session::CaseInRoom room;
+    room.screen.emplace();
+    client::OpenCase content;
+    content.description.emplace();
+    content.description->series.resize(2);
+    content.description->pictures.resize(2);
+    content.volumes.resize(2);
+    content.pictures.resize(2);
+    facts.room = &room;
+    facts.content = &content;
+    const auto rows = [&] {
+        RoomPanel panel;
+        add_case_panel(facts, panel);
+        std::map<std::string, xr::PanelRow> found;
+        for (const xr::PanelRow& row : panel.panels[0].rows)
+            found[row.text] = row;
+        return found;
+    };
+    EXPECT_EQ(rows()["Series"].buttons.size(), 2u);
+    EXPECT_EQ(rows()["Pictures"].buttons.size(), 1u);
+    EXPECT_EQ(rows()["Screen"].detail, "all may change it");
+    room.screen->facts.picture = 1;
+    facts.presenter = "Ada";
+    EXPECT_EQ(rows()["Pictures"].detail, "2 of 2");
+    EXPECT_EQ(rows()["Pictures"].buttons.size(), 2u);
+    EXPECT_EQ(rows()["Screen"].detail, "Ada presents");
+    facts.presents = true;
+    EXPECT_EQ(rows()["Screen"].detail, "you present");
 }
 
 }  // namespace

@@ -12,7 +12,10 @@ CameraModel usual_lens() {
 }
 
 render::CameraView Eye::view(Size picture) const {
-    return render::view_of_camera(lens_, viewpoint_->room_from_eye, picture);
+    render::CameraView view = render::view_of_camera(lens_, viewpoint_->room_from_eye, picture);
+    if (nearest_m_)
+        view.near_m = *nearest_m_;
+    return view;
 }
 
 void Eye::go_home(const ViewChoice& choice, const ViewableCameras& cameras, Size picture) {
@@ -23,6 +26,7 @@ void Eye::go_home(const ViewChoice& choice, const ViewableCameras& cameras, Size
     lens_ = calibration.depth;
     home_ = choice;
     moved_ = false;
+    nearest_m_.reset();
 }
 
 bool Eye::follow(const ViewableCameras& cameras, bool must_exist, Size picture, TimePoint now) {
@@ -56,10 +60,11 @@ void Eye::stand(const Pose& room_from_eye) {
     lens_ = usual_lens();
 }
 
-void Eye::go_to(const Pose& room_from_eye) {
+void Eye::go_to(const Pose& room_from_eye, std::optional<double> nearest_m) {
     const double distance = length(viewpoint_->pivot - viewpoint_->room_from_eye.translation);
     viewpoint_ = {room_from_eye, room_from_eye * Vec3{0, 0, distance}};
     moved_ = true;
+    nearest_m_ = nearest_m;
 }
 
 void Eye::grab(Vec2 place, double distance_m, Size picture) {
@@ -87,6 +92,7 @@ bool Eye::steer(const xr::Steering& steering, Size picture, TimePoint now) {
         viewpoint_->pivot = viewpoint_->pivot + pushed;
     }
     moved_ = true;
+    nearest_m_.reset();
     return true;
 }
 

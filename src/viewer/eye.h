@@ -54,8 +54,9 @@ public:
     void set_space(const std::optional<room::FreeSpace>& space) { space_ = space; }
 
     // Needs is_placed(). Moves the eye to this pose (z forward, y down), whose pivot is ahead of it
-    // at the distance of the present one.
-    void go_to(const Pose& room_from_eye);
+    // at the distance of the present one. Until the person moves, nothing is seen that is nearer
+    // than `nearest_m` along the axis.
+    void go_to(const Pose& room_from_eye, std::optional<double> nearest_m = std::nullopt);
 
     // Begins a turn or a slide. `place` is in shares of the picture's width and height; the surface
     // there, at `distance_m` along the view's axis, stays under the mouse.
@@ -72,6 +73,7 @@ private:
     std::optional<room::FreeSpace> space_;
     bool moved_ = false;  // away from the home view
     bool flying_ = false;
+    std::optional<double> nearest_m_;
     TimePoint steered_at_, first_picture_at_;
 };
 

@@ -2,28 +2,18 @@
 #include "viewer/facts.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "viewer/age_text.h"
+#include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
 
 namespace theatron::viewer {
 namespace {
 
-// An older picture is marked as trouble.
-constexpr double old_ms = 500;
-
 std::string rounded(double value, int digits, const char* unit) {
     char text[40];
     std::snprintf(text, sizeof(text), "%.*f %s", digits, value, unit);
     return text;
-}
-
-std::string age_text(double ms) {
-    if (ms < 1000)
-        return rounded(ms, 0, "ms");
-    if (ms < 120'000)
-        return rounded(std::floor(ms / 1000), 0, "s");
-    return rounded(std::floor(ms / 60'000), 0, "min");
 }
 
 std::string first_sentence(const std::string& text) {
@@ -128,16 +118,20 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     std::vector<xr::Fact> line;
     line.push_back({"Host", status.host_name.empty() ? address : status.host_name});
     const xr::Fact age{"Age of picture", facts.age_ms ? age_text(*facts.age_ms) : "unknown",
-                       facts.age_ms && *facts.age_ms > old_ms};
+                       facts.age_ms && *facts.age_ms > old_picture_ms};
     if (!facts.visitors.empty())
         line.push_back({"At the door", visitors_text(facts.visitors), true});
     if (status.phase == Phase::joined) {
         // Visible to everybody, first of all.
         if (!recordings.empty())
             line.push_back({"Recording", client::recorded_text(facts.received), true});
+        if (const auto voice = recorded_voice_fact(facts.voices); voice && !recordings.empty())
+            line.push_back(*voice);
         if (status.standing.muted || status.standing.role != wire::Role::expert)
             line.push_back({"You", wire::text_of(status.standing.role) +
                                        std::string(status.standing.muted ? ", muted" : "")});
+        if (const auto microphone = microphone_fact(facts.voices, status.standing))
+            line.push_back(*microphone);
         line.push_back(cameras_fact(cameras));
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())
@@ -163,6 +157,9 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     }
     line.push_back({"Drawing", drawing_text(facts)});
     line.push_back({"Help", "F1"});
+    // The last one: it comes and goes with the mouse, and no other fact moves.
+    if (!facts.pointed.empty())
+        line.push_back({"Under the mouse", facts.pointed});
     return line;
 }
 
@@ -172,8 +169,14 @@ std::string warning_of(const Facts& facts) {
     // In other phases the message says it.
     if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture)
         return {};
+    if (facts.frozen)
+        return "Frozen by you" +
+               (facts.age_ms ? ": this picture is " + age_text(*facts.age_ms) + " old" : "") +
+               ". Space: live again";
     if (facts.age_ms && *facts.age_ms >= repeated_ms)
         return "This picture is " + age_text(*facts.age_ms) + " old";
+    if (const std::string text = not_live_text(facts.received); !text.empty())
+        return text;
     if (drawing_is_slow(facts))
         return facts.renderer_chosen_by == Facts::ChosenBy::person
                    ? "This computer draws too slowly; press M until \"auto\" appears"
@@ -228,8 +231,14 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
         content.notice = facts.notice;
     content.help = facts.help;
     // The help covers them.
-    if (message.text.empty() && !facts.help)
+    if (message.text.empty() && !facts.help) {
         content.panels = facts.panels;
+        content.pictures = facts.pictures;
+        content.bar = facts.bar;
+        content.rectangle = facts.rectangle;
+        if (facts.trust)
+            content.panels.push_back(trust_panel(facts.received, filter_name));
+    }
     return content;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/participant_figures.h"
+#include "viewer/voices.h"
 #include "xr/drawing_pace.h"
 #include "xr/overlay_content.h"
 
@@ -23,8 +24,15 @@ struct Facts {
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
     std::string notice;  // a recent event; empty: none
     bool help = false;
-    std::vector<xr::Panel> panels;  // of people and places, while they are shown
-    bool line = true;               // of facts, at the bottom
+    std::vector<xr::Panel> panels;             // of people and places, while they are shown
+    bool line = true;                          // of facts, at the bottom
+    std::vector<xr::OverlayPicture> pictures;  // of the cameras, while they are shown
+    bool frozen = false;                       // the clouds, by the person at the window
+    std::string pointed;                       // the place under the mouse; empty: none
+    Voices voices;
+    std::optional<xr::PanelRow> bar = {};                 // of the recording that the host plays
+    std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
+    bool trust = false;  // the panel of trust_panel.h is shown, too
 };
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into

@@ -47,12 +47,33 @@ TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
     EXPECT_EQ(fact(content, "Host").value, "OR 3");
 }
 
+TEST(Overlay, ShowsTheMicrophoneOfAWindowThatHasOne) {
+    Facts facts = healthy();
+    EXPECT_EQ(fact(overlay(facts), "Microphone").value, "");
+    facts.voices.microphone = Microphone::open;
+    facts.received.status.standing.muted = true;
+    EXPECT_EQ(fact(overlay(facts), "Microphone").value, "open, but an operator has muted you");
+    EXPECT_TRUE(fact(overlay(facts), "Microphone").warning);
+}
+
 TEST(Overlay, MarksDepthThatIsNotWhatTheCameraMeasured) {
     Facts facts = healthy();
     facts.received.cameras[0].depth.codec = "h264";
     facts.received.cameras[0].depth.exact = receive::Exactness::nowhere;
     EXPECT_EQ(fact(overlay(facts), "Depth").value, "h264 (lossy)");
     EXPECT_TRUE(fact(overlay(facts), "Depth").warning);
+}
+
+TEST(Overlay, WarnsOfOneCameraThatIsNotLiveBesideOthers) {
+    Facts facts = healthy();
+    facts.received.cameras.push_back(facts.received.cameras[0]);
+    facts.received.cameras[1].camera.description.name = "right";
+    facts.received.cameras[1].camera.state.condition = wire::CameraCondition::stale;
+    facts.received.cameras[1].depth.age_now_ms = 7000;
+    EXPECT_EQ(overlay(facts).warning, "Camera right is NOT LIVE: 7 s old");
+    EXPECT_TRUE(overlay(facts).panels.empty());
+    facts.trust = true;
+    EXPECT_EQ(overlay(facts).panels.at(0).title, "Cameras");
 }
 
 TEST(Overlay, NamesACameraThatWasMovedAlsoWithTheLineHidden) {
@@ -146,6 +167,26 @@ TEST(Facts, SomeoneWhoWaitsIsToldSo) {
     facts.received.status.phase = Phase::waiting;
     EXPECT_THAT(overlay(facts).message, HasSubstr("Waiting to be let in"));
     EXPECT_EQ(fact(overlay(facts), "Connection").value, "waiting");
+}
+
+TEST(Facts, AFrozenPictureSaysSoAtOnceWithItsAgeAndTheKey) {
+    Facts facts = healthy();
+    facts.frozen = true;
+    EXPECT_EQ(overlay(facts).warning,
+              "Frozen by you: this picture is 40 ms old. Space: live again");
+    facts.age_ms = 12'300;
+    EXPECT_EQ(overlay(facts).warning, "Frozen by you: this picture is 12 s old. Space: live again");
+}
+
+TEST(Facts, ThePlaceUnderTheMouseIsTheLastFactAndMovesNoOther) {
+    Facts facts = healthy();
+    const std::vector<xr::Fact> before = overlay(facts).facts;
+    facts.pointed = "1.28 m from camera 1";
+    std::vector<xr::Fact> after = overlay(facts).facts;
+    ASSERT_EQ(after.size(), before.size() + 1);
+    EXPECT_EQ(after.back().value, facts.pointed);
+    after.pop_back();
+    EXPECT_EQ(after, before);
 }
 
 }  // namespace

@@ -83,9 +83,7 @@ void Handling::release(const Meeting& meeting, client::Participant& participant)
 void Handling::on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
                       client::Participant& participant) {
     if (action == xr::Action::new_brick) {
-        const Vec3 ahead = view.room_from_eye * Vec3{0, 0, new_brick_distance_m};
-        participant.ask_room(request::Create{
-            session::ObjectKind::brick, {{}, ahead}, 1, room::encode_brick({4, 2, next_color_++})});
+        make_brick(view, participant);
     } else if (action == xr::Action::remove && held_) {
         const auto& open = meeting.case_scene().in_room();
         if (const auto* part = open ? open->find(held_->object) : nullptr) {
@@ -113,6 +111,12 @@ void Handling::on_key(xr::Action action, const render::CameraView& view, const M
     } else if ((action == xr::Action::give || action == xr::Action::remove) && !held_) {
         note_ = "Hold an object with the left mouse button first";
     }
+}
+
+void Handling::make_brick(const render::CameraView& view, client::Participant& participant) {
+    const Vec3 ahead = view.room_from_eye * Vec3{0, 0, new_brick_distance_m};
+    participant.ask_room(request::Create{
+        session::ObjectKind::brick, {{}, ahead}, 1, room::encode_brick({4, 2, next_color_++})});
 }
 
 std::string Handling::take_note() {

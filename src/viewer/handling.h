@@ -27,6 +27,9 @@ public:
                   const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant, TimePoint now);
 
+    // Asks for a new brick before an eye.
+    void make_brick(const render::CameraView& view, client::Participant& participant);
+
     // The newest sentence for the user since the last call; may be empty.
     std::string take_note();
 

@@ -7,7 +7,9 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "client/participant_figures.h"
+#include "room/facing.h"
 #include "session/room_object.h"
+#include "viewer/age_text.h"
 #include "wire/condition_text.h"
 #include "xr/font.h"
 
@@ -17,6 +19,8 @@ namespace {
 // Presence of a stale camera, and the time of a fade from 1 to 0.
 constexpr double stale_presence = 0.3;
 constexpr double fading_seconds = 0.5;
+// Below the camera's name.
+constexpr double age_below_m = 0.21, age_height_m = 0.045, letter_width = 0.8;
 constexpr Duration judge_every = std::chrono::milliseconds(200);
 
 LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
@@ -48,14 +52,26 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     std::vector<CameraId> updated;
     for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.
-        if (person_clouds_.has(frame->camera)) {
+        if (screens_.has(frame->camera)) {
+            screens_.take(*frame);
+            updated.push_back(frame->camera);
+        } else if (person_clouds_.has(frame->camera)) {
             if (person_clouds_.upload(frame) == Status::ok)
                 updated.push_back(frame->camera);
         } else if (upload(*frame) == Status::ok) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
+    note_screens(participant);
     return updated;
+}
+
+void LiveScene::note_screens(const client::Participant& participant) {
+    const TimePoint now = participant.now();
+    if (screens_.empty() || now - screens_noted_at_ < judge_every)
+        return;
+    screens_noted_at_ = now;
+    captions_changed_ |= screens_.note(client::figures_of(participant).cameras, now);
 }
 
 bool LiveScene::take_meeting(const client::Participant& participant) {
@@ -80,6 +96,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
             if (calibrations_.erase(id) > 0)
                 clouds_.remove_camera(id);
             person_clouds_.remove_camera(id);
+            screens_.remove_camera(id);
             origins_.erase(id);
             presence_.erase(id);
             newest_.erase(id);
@@ -89,6 +106,11 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         if (const auto person = person_of(camera)) {
             origins_[id] = origin_of(camera);
             person_clouds_.set_camera(*person, id, camera.calibration);
+            continue;
+        }
+        if (is_screen(camera.calibration)) {
+            origins_[id] = origin_of(camera);
+            screens_.set_camera(id, camera.description.name, camera.calibration);
             continue;
         }
         const auto known = calibrations_.find(id);
@@ -140,7 +162,7 @@ void LiveScene::cut_people(const std::vector<client::Participant::Camera>& camer
 void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {
     std::vector<room::RoomCamera> marks;
     for (const auto& camera : cameras) {
-        if (person_of(camera))
+        if (person_of(camera) || is_screen(camera.calibration))
             continue;
         std::string label = camera.description.name;
         if (camera.state.condition != wire::CameraCondition::live)
@@ -158,53 +180,152 @@ std::vector<CloudCamera> LiveScene::cloud() const {
     return cameras;
 }
 
+std::optional<double> LiveScene::pick_surface(const render::PickRay& ray) const {
+    const auto point = real_room_ ? std::nullopt : pick_cloud(cloud(), ray);
+    return point ? std::optional(point->distance_m) : std::nullopt;
+}
+
+std::vector<ColoredPoint> LiveScene::points() const {
+    std::vector<ColoredPoint> all;
+    for (const auto& [id, frame] : newest_) {
+        const auto known = calibrations_.find(id);
+        if (known == calibrations_.end() || frame->depth.size != known->second.depth.size)
+            continue;
+        Calibration calibration = known->second;
+        const ColorView color = frame->color ? frame->color->view() : ColorView{};
+        calibration.color = scaled(calibration.color, color.size);
+        std::vector<ColoredPoint> points;
+        append_points(frame->depth.view(), make_ray_table(calibration.depth), color, calibration,
+                      points);
+        transform_points(calibration.room_from_camera, points);
+        all.insert(all.end(), points.begin(), points.end());
+    }
+    return all;
+}
+
 void LiveScene::add_pointers(const render::CameraView& view) {
-    std::vector<room::Pointer> pointers;
     for (const room::RoomPerson& person : meeting_.people())
         if (person.points && !person.is_stale)
-            pointers.push_back({person.id, person.name, person.right_hand->translation,
-                                rotate(person.right_hand->rotation, {0, 0, -1}), std::nullopt});
-    if (own_pointer_)
-        pointers.push_back(*own_pointer_);
-    if (pointers.empty())
+            pointers_.push_back({person.id, person.name, person.right_hand->translation,
+                                 rotate(person.right_hand->rotation, {0, 0, -1}), std::nullopt});
+    pointers_.insert(pointers_.end(), own_pointers_.begin(), own_pointers_.end());
+    if (pointers_.empty())
         return;
-    const std::vector<CloudCamera> cameras = cloud();
-    for (room::Pointer& pointer : pointers) {
+    const std::vector<CloudCamera> cameras = real_room_ ? std::vector<CloudCamera>{} : cloud();
+    for (room::Pointer& pointer : pointers_) {
         const render::PickRay ray{pointer.from, pointer.direction};
-        if (const auto picked = render::pick(frame_, ray))
+        pointer.twin.reset();
+        if (const auto picked = render::pick(frame_, ray)) {
             pointer.reach_m = picked->distance_m;
+            pointer.twin = meeting_.case_scene().twin_place(
+                session::ObjectId(std::uint32_t(picked->id)), picked->place);
+        }
         if (const auto point = pick_cloud(cameras, ray);
-            point && point->distance_m < pointer.reach_m.value_or(farthest_pick_m))
+            point && point->distance_m < pointer.reach_m.value_or(farthest_pick_m)) {
             pointer.reach_m = point->distance_m;
+            pointer.twin.reset();
+        }
     }
-    if (!pointers_)
-        pointers_ = std::make_unique<room::Pointers>();
-    pointers_->add_to(frame_, pointers, view);
+    if (!drawn_pointers_)
+        drawn_pointers_ = std::make_unique<room::Pointers>();
+    drawn_pointers_->add_to(frame_, pointers_, view);
+}
+
+void LiveScene::add_headset_text(const render::CameraView& view) {
+    if (headset_text_.empty())
+        return;
+    constexpr double ahead_m = 1, below_m = 0.25, height_m = 0.016;
+    const double half_width = 0.5 * height_m * letter_width * double(headset_text_.size());
+    // The eye's frame is that of texts.
+    frame_.texts.push_back({headset_text_,
+                            view.room_from_eye * Pose{{}, {-half_width, below_m, ahead_m}},
+                            height_m,
+                            {255, 220, 150}});
+}
+
+// As large as the virtual room's table (furniture/table.cpp), with a mark at the patient's head.
+void LiveScene::add_table_outline() {
+    constexpr double half_length_m = 1, half_width_m = 0.26, height_m = 0.9;
+    if (!table_)
+        table_ =
+            std::make_unique<render::SceneMesh>(render::make_box_mesh({-1, -1, -1}, {1, 1, 1}));
+    render::SurfaceLook look{{0.1, 0.55, 0.75}, 0, 0.6, 0.45};
+    look.unlit = true;
+    const auto add = [&](Vec3 middle, double scale) {
+        render::SceneObject object{table_.get(), {{}, middle}, look};
+        object.scale = scale;
+        object.casts_shadow = false;
+        frame_.objects.push_back(object);
+    };
+    constexpr double dot_m = 0.02, dots_apart_m = 0.2, head_m = 0.07;
+    for (const double z : {-half_width_m, half_width_m})
+        for (double x = -half_length_m; x <= half_length_m + dot_m; x += dots_apart_m)
+            add({x, height_m, z}, dot_m);
+    add({-half_length_m + head_m, height_m, 0}, head_m);
+}
+
+const std::vector<room::Pointer>& LiveScene::pointers(const render::CameraView& view) {
+    (void)scene_for(view);
+    return pointers_;
 }
 
 const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
+    pointers_.clear();
+    if (choice_.in_steps && !passes_)
+        return nullptr;
     if (choice_.shown) {
         if (!passes_)
             frame_.quality = choice_.quality.value_or(render::usual_quality());
-        room_.add_to(frame_, view);
+        if (!choice_.in_steps)
+            room_.build(frame_.quality);
+        if (!real_room_)
+            room_.add_to(frame_, view);
         meeting_.add_to(frame_, view);
+        screens_.add_to(frame_);
         add_pointers(view);
+        if (menu_)
+            menu_->add_to(frame_, chosen_row_);
+        if (shows_table_)
+            add_table_outline();
+        if (!real_room_)
+            add_ages(view);
+        if (!choice_.has_texts)
+            frame_.texts.clear();
+        add_headset_text(view);
     }
     if (frame_.empty())
         return nullptr;
-    if (!passes_) {
-        const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
-        passes_ = std::make_unique<render::ScenePasses>(&atlas);
-    }
+    if (!passes_)
+        make_passes();
     return &frame_;
+}
+
+void LiveScene::make_passes() {
+    const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
+    passes_ = std::make_unique<render::ScenePasses>(&atlas);
+}
+
+bool LiveScene::prepare() {
+    if (!choice_.in_steps || !choice_.shown)
+        return false;
+    if (passes_)
+        return room_.build_step(frame_.quality);
+    frame_.quality = choice_.quality.value_or(render::usual_quality());
+    make_passes();
+    return true;
 }
 
 void LiveScene::draw(const render::CameraView& view, const render::DrawTarget& target,
                      const std::string& renderer) {
-    const render::SceneFrame* scene = scene_for(view);
-    render::draw({scene, clouds(renderer), {{view, target}}}, passes_.get());
+    draw(view, {{view, target}}, renderer);
+}
+
+void LiveScene::draw(const render::CameraView& head, std::vector<render::EyePicture> eyes,
+                     const std::string& renderer) {
+    const render::SceneFrame* scene = scene_for(head);
+    render::draw({scene, clouds(renderer), std::move(eyes)}, passes_.get());
 }
 
 render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, Size size,
@@ -214,22 +335,70 @@ render::Picture LiveScene::render(const std::vector<render::CameraView>& eyes, S
 }
 
 std::vector<render::DrawnClouds> LiveScene::clouds(const std::string& renderer) {
-    std::vector<render::DrawnClouds> clouds{{&clouds_, renderer}};
+    std::vector<render::DrawnClouds> clouds;
+    if (!real_room_)
+        clouds.push_back({&clouds_, renderer});
     person_clouds_.add_to(clouds, renderer);
+    for (const render::DrawnClouds& drawn : clouds)
+        drawn.set->set_point_size(point_size_);
     return clouds;
+}
+
+void LiveScene::set_ages_shown(bool shown) {
+    shows_ages_ = shown;
+    meeting_.set_ages_shown(shown);
+}
+
+// True if a warning is another one than before. Other ages are drawn with the next picture.
+bool LiveScene::note_ages(const client::Participant& participant) {
+    const auto before = std::exchange(ages_, {});
+    bool changed = false;
+    if (participant.status().clock_known)
+        for (const auto& [id, frame] : newest_) {
+            const auto live = live_.find(id);
+            const bool is_live = live == live_.end() || live->second;
+            if (!shows_ages_ && is_live)
+                continue;
+            const double ms = to_ms(participant.now() - frame->times.captured);
+            const auto known = before.find(id);
+            std::string age = seen_age(ms, is_live);
+            changed = changed || (!is_live && (known == before.end() || known->second != age));
+            ages_.emplace(id, std::move(age));
+        }
+    return changed;
+}
+
+// Below the cameras' names.
+void LiveScene::add_ages(const render::CameraView& view) {
+    const Vec3 eye = view.room_from_eye.translation;
+    for (const auto& [id, age] : ages_) {
+        const auto camera = calibrations_.find(id);
+        if (camera == calibrations_.end() || !camera->second.registered)
+            continue;
+        const Vec3 lens = camera->second.room_from_camera.translation;
+        if (length(lens - eye) < room::camera_label_from_m)
+            continue;
+        const bool is_live = live_.count(id) == 0 || live_.at(id);
+        Pose place = room::facing(lens - Vec3{0, age_below_m, 0}, eye);
+        place.translation =
+            place * Vec3{-0.5 * age_height_m * letter_width * double(age.size()), 0, 0};
+        frame_.texts.push_back(
+            {age, place, age_height_m, is_live ? Rgb{175, 186, 196} : Rgb{255, 190, 70}});
+    }
 }
 
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     const double step = to_seconds(now - faded_at_) / fading_seconds;
     faded_at_ = now;
+    bool changed = std::exchange(captions_changed_, false);
     if (now - judged_at_ >= judge_every) {
         judged_at_ = now;
         live_.clear();
         for (const auto& one : client::figures_of(participant).cameras)
             live_[one.camera.description.id] =
                 one.camera.state.condition == wire::CameraCondition::live;
+        changed = note_ages(participant) || changed;
     }
-    bool changed = false;
     for (const auto& [id, live] : live_) {
         if (person_clouds_.has(id))
             person_clouds_.set_live(id, live);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "client/participant.h"
+#include "geometry/ply.h"
 #include "render/room_picture.h"
 #include "room/pointers.h"
 #include "room/virtual_room.h"
@@ -14,6 +15,8 @@
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
 #include "viewer/person_clouds.h"
+#include "viewer/shared_screens.h"
+#include "viewer/wrist_menu.h"
 
 namespace theatron::viewer {
 
@@ -21,6 +24,8 @@ namespace theatron::viewer {
 struct RoomChoice {
     bool shown = true;
     std::optional<render::SceneQuality> quality;  // none: render::usual_quality()
+    bool has_texts = true;                        // names and labels in the room
+    bool in_steps = false;  // nothing but clouds is drawn until prepare() has made it
 };
 
 // Use from one thread, with the same GL context current.
@@ -45,11 +50,22 @@ public:
     // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
     void set_depth_step(int step);
 
-    // Fades stale cameras out to a low presence, and others back in. True while the picture
-    // changes by that.
+    // Shows or hides the age of what is seen beside each camera and person of the room. Warnings
+    // that something is not live are always shown.
+    void set_ages_shown(bool shown);
+
+    // See render::CloudSet; from the next picture on.
+    void set_point_size(double factor) { point_size_ = factor; }
+
+    // The points of the room's cameras in their newest pictures, in the room. Takes some tenths of
+    // a second.
+    std::vector<ColoredPoint> points() const;
+
+    // Fades stale cameras out to a low presence, and others back in, and tells the ages of screens.
+    // True while the picture changes by that.
     bool fade(const client::Participant& participant, TimePoint now);
 
-    // The cameras of the room, without those that see their publisher.
+    // The cameras of the room, without screens and those that see their publisher.
     bool has_picture() const { return !newest_.empty(); }
     // The host has told its cameras, and there are none of the room.
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
@@ -57,44 +73,91 @@ public:
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
     // The newest pictures of these, for cloud_pick.h; valid until take().
     std::vector<CloudCamera> cloud() const;
-    // A ray of this person, as the others see it; from the next picture on.
-    void set_own_pointer(std::optional<room::Pointer> pointer) {
-        own_pointer_ = std::move(pointer);
+    // The distance of the measured surface that a ray meets, in metres; none where the clouds are
+    // not drawn.
+    std::optional<double> pick_surface(const render::PickRay& ray) const;
+    // This person's own rays; from the next picture on.
+    void set_own_pointers(std::vector<room::Pointer> pointers) {
+        own_pointers_ = std::move(pointers);
     }
+    // The menu of a person with a headset, until the next call, and its row under a ray; null:
+    // none.
+    void set_menu(const WristMenu* menu, std::optional<std::size_t> chosen) {
+        menu_ = menu;
+        chosen_row_ = chosen;
+    }
+    // A line below the middle of the view, for a person with a headset; may be empty.
+    void set_headset_text(std::string text) { headset_text_ = std::move(text); }
+    // The place of the operating table, while a person shows where the real one is.
+    void set_table_outline(bool shown) { shows_table_ = shown; }
+    // The rays of all people who point, with the surfaces that they meet in the newest pictures.
+    // The sizes of what is drawn depend on the view, the rays do not. Empty where no room is shown.
+    const std::vector<room::Pointer>& pointers(const render::CameraView& view);
     // The last frame of each of these that sent one.
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
+
+    // A step of the work on the room, of some milliseconds; true if the picture changes by it. Only
+    // needed with RoomChoice::in_steps.
+    bool prepare();
 
     // Draws clouds and room into a cleared target. Throws Error if the driver cannot do it.
     void draw(const render::CameraView& view, const render::DrawTarget& target,
               const std::string& renderer);
+    // The same for several eyes of a head: the scene is made once, texts face `head`, a view in
+    // their middle.
+    void draw(const render::CameraView& head, std::vector<render::EyePicture> eyes,
+              const std::string& renderer);
+    // With a real room around the person: the virtual one and the clouds of the room's cameras are
+    // left out, people, their clouds, organs and pointers stay.
+    void set_real_room(bool real) { real_room_ = real; }
+    bool has_real_room() const { return real_room_; }
     // The pictures of these eyes beside each other, read back.
     render::Picture render(const std::vector<render::CameraView>& eyes, Size size,
                            const std::string& renderer, bool with_room);
 
 private:
     void take_cameras(const std::vector<client::Participant::Camera>& cameras);
+    void note_screens(const client::Participant& participant);
     Status upload(const receive::CameraFrame& frame);
     std::vector<render::DrawnClouds> clouds(const std::string& renderer);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
     void add_pointers(const render::CameraView& view);
+    void add_table_outline();
+    void add_headset_text(const render::CameraView& view);
+    void add_ages(const render::CameraView& view);
+    bool note_ages(const client::Participant& participant);
+    void make_passes();
     // Everything in the picture except the clouds; null if nothing.
     const render::SceneFrame* scene_for(const render::CameraView& view);
 
     RoomChoice choice_;
+    bool real_room_ = false;
     std::vector<SeenPerson> people_;
     render::CloudSet clouds_;  // of the room's cameras
     PersonClouds person_clouds_;
+    SharedScreens screens_;
+    TimePoint screens_noted_at_;
+    bool captions_changed_ = false;  // since the last fade()
+    double point_size_ = 1;
     room::VirtualRoom room_;
     Meeting meeting_;
-    std::optional<room::Pointer> own_pointer_;
-    std::unique_ptr<room::Pointers> pointers_;     // made for the first one
-    render::SceneFrame frame_;                     // of the picture that is drawn
-    std::unique_ptr<render::ScenePasses> passes_;  // made when there is a room
+    std::vector<room::Pointer> own_pointers_;
+    const WristMenu* menu_ = nullptr;
+    std::optional<std::size_t> chosen_row_;
+    std::string headset_text_;
+    bool shows_table_ = false;
+    std::unique_ptr<render::SceneMesh> table_;        // made for the first outline
+    std::unique_ptr<room::Pointers> drawn_pointers_;  // made for the first one
+    std::vector<room::Pointer> pointers_;             // of frame_
+    render::SceneFrame frame_;                        // of the picture that is drawn
+    std::unique_ptr<render::ScenePasses> passes_;     // made when there is a room
     std::uint64_t generation_ = 0;
     std::map<CameraId, double> presence_;
     TimePoint faded_at_, judged_at_;
     std::map<CameraId, bool> live_;  // as judged last
+    bool shows_ages_ = false;
+    std::map<CameraId, std::string> ages_;  // likewise
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
     std::map<CameraId, receive::CameraFramePtr> newest_;

@@ -2,10 +2,13 @@
 #include "viewer/meeting.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "room/facing.h"
 #include "session/room_bytes.h"
+#include "viewer/age_text.h"
 #include "viewer/placed_marks.h"
+#include "viewer/voices.h"
 
 namespace theatron::viewer {
 namespace {
@@ -16,10 +19,11 @@ std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
     return part ? std::optional(session::pose_of(*part)) : std::nullopt;
 }
 
+// The age of a live person changes all the time: it is drawn with what else changes.
 bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
            a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
-           a.calls == b.calls && a.points == b.points;
+           a.calls == b.calls && a.points == b.points && (!a.is_stale || a.age == b.age);
 }
 
 }  // namespace
@@ -65,6 +69,13 @@ wire::PersonPose pose_of_eye(const Pose& room_from_eye, TimePoint time) {
     return pose;
 }
 
+bool Meeting::set_speaking(const std::map<ParticipantId, int>& levels_db) {
+    std::map<ParticipantId, std::string> meters;
+    for (const auto& [id, level_db] : levels_db)
+        meters[id] = meter_text(level_db);
+    return std::exchange(meters_, meters) != meters;
+}
+
 bool Meeting::take(const client::Participant& participant) {
     bool changed = false;
     if (const std::uint64_t version = participant.room_version(); version != version_) {
@@ -82,12 +93,15 @@ bool Meeting::take(const client::Participant& participant) {
         pose = *track.at(now);
     }
     std::vector<room::RoomPerson> people = people_of(room_, poses, now);
-    for (room::RoomPerson& person : people)
+    for (room::RoomPerson& person : people) {
         person.has_cloud = clouds_.contains(person.id);
-    if (!std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same)) {
-        people_ = std::move(people);
-        changed = true;
+        const auto pose = poses.find(person.id);
+        if (pose != poses.end() && (shows_ages_ || person.is_stale))
+            person.age = seen_age(to_ms(now - pose->second.time), !person.is_stale);
     }
+    changed =
+        changed || !std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same);
+    people_ = std::move(people);
     return changed;
 }
 
@@ -128,11 +142,23 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
         append_placed(*new_mark_, false, case_, marks);
     mark_scene_.add_to(frame, marks, view);
     add_teleports(frame);
-    if (people_.empty())
+    const bool has_hands = own_hands_[0] || own_hands_[1];
+    if (people_.empty() && !has_hands)
         return;
     if (!avatars_)
         avatars_ = std::make_unique<room::People>();
-    avatars_->add_to(frame, people_, view);
+    std::vector<room::RoomPerson> shown = people_;
+    if (has_hands) {
+        room::RoomPerson self;
+        self.id = room_.self;
+        self.left_hand = own_hands_[0];
+        self.right_hand = own_hands_[1];
+        shown.push_back(std::move(self));
+    }
+    for (room::RoomPerson& person : shown)
+        if (const auto meter = meters_.find(person.id); meter != meters_.end())
+            person.name += " " + meter->second;
+    avatars_->add_to(frame, shown, view);
 }
 
 // The name of another person above what they hold.

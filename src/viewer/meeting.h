@@ -2,6 +2,7 @@
 // The people and shared objects of a session's room, as one participant sees them.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,6 +32,12 @@ public:
     // The people who are seen as point clouds, from the next take().
     void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }
 
+    // Shows or hides the age of each person in the room; that of an old view is always shown.
+    void set_ages_shown(bool shown) { shows_ages_ = shown; }
+
+    // The others who speak, with their levels (Voices). True if the picture changes.
+    bool set_speaking(const std::map<ParticipantId, int>& levels_db);
+
     // Takes over new objects, people and poses. True if the picture changes.
     bool take(const client::Participant& participant);
     // True while people move although no pose arrives (session/pose_track.h).
@@ -40,6 +47,11 @@ public:
 
     // The arc of this person's own teleport, while it is aimed.
     void set_arc(std::optional<room::TeleportArc> arc) { arc_ = std::move(arc); }
+
+    // This person's own hands, in a headset: y up, -z forward.
+    void set_own_hands(std::optional<Pose> left, std::optional<Pose> right) {
+        own_hands_ = {left, right};
+    }
 
     // A mark that this person is making, before the host has it.
     void set_new_mark(std::optional<session::Mark> mark) { new_mark_ = std::move(mark); }
@@ -84,9 +96,12 @@ private:
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;
     std::set<ParticipantId> clouds_;
+    bool shows_ages_ = false;
+    std::map<ParticipantId, std::string> meters_;  // of those who speak
     std::map<ParticipantId, session::PoseTrack> tracks_;
     TimePoint taken_at_;  // session time
     std::optional<room::TeleportArc> arc_;
+    std::array<std::optional<Pose>, 2> own_hands_;
     std::unique_ptr<room::TeleportMarks> marks_;  // made for the first teleport
     std::unique_ptr<room::People> avatars_;       // created for the first other person
     std::map<std::tuple<int, int>, render::SceneMesh> bricks_;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
+#include "image/scratch.h"
 #include "room/mesh_parts.h"
 #include "room/organ_mesh.h"
 
@@ -53,6 +55,22 @@ SurfaceLook unlit(Vec3 color) {
     return look;
 }
 
+// Texts and lines on a screen, in the frame of its picture.
+struct ScreenWriter {
+    render::SceneFrame& frame;
+    const session::RoomObject& object;
+
+    ScreenWriter(render::SceneFrame& to, const session::RoomObject& screen)
+        : frame(to), object(screen) {}
+    Pose at(double x, double y) const {
+        return object.room_from_object * object_from_picture *
+               Pose{{}, Vec3{x, y, -before_m} * object.scale};
+    }
+    void write(const std::string& text, double x, double y, double height) const {
+        frame.texts.push_back({text, at(x, y), height * object.scale, ink});
+    }
+};
+
 }  // namespace
 
 SlicePicture slice_picture(const medical::Volume& volume, const session::CaseScreen& screen) {
@@ -61,7 +79,8 @@ SlicePicture slice_picture(const medical::Volume& volume, const session::CaseScr
     SlicePicture slice;
     slice.plane = medical::slice_plane(
         volume.grid, orientation, std::clamp(screen.position_mm, range.first_mm, range.last_mm));
-    Image<std::int16_t> samples(slice.plane.size);
+    // Fresh memory would cost more than the slice.
+    auto& samples = scratch_of_this_thread<Image<std::int16_t>>(slice.plane.size);
     medical::reslice(volume, slice.plane,
                      volume.inverted ? std::numeric_limits<std::int16_t>::max()
                                      : std::numeric_limits<std::int16_t>::min(),
@@ -79,101 +98,150 @@ void Monitor::take(const std::optional<session::CaseInRoom>& room,
                    const client::OpenCase* content) {
     wanted_.reset();
     std::shared_ptr<const medical::Volume> volume;
-    if (room && room->screen && content && content->id == room->screen->facts.of_case &&
-        room->screen->facts.series < content->volumes.size()) {
+    std::shared_ptr<const ColorImage> picture;
+    const bool known = room && room->screen && content && content->description &&
+                       content->id == room->screen->facts.of_case;
+    pictures_ = known ? int(content->pictures.size()) : 0;
+    if (known && room->screen->facts.series < content->volumes.size()) {
         wanted_ = room->screen->facts;
+        wanted_->picture.reset();
         volume = content->volumes[wanted_->series];
         series_ = content->description->series[wanted_->series].name;
+    }
+    wants_picture_ = known && room->screen->facts.picture.value_or(pictures_) < pictures_;
+    if (wants_picture_) {
+        number_ = *room->screen->facts.picture;
+        picture = content->pictures[std::size_t(number_)];
+        picture_name_ = content->description->pictures[std::size_t(number_)].name;
     }
     if (volume != volume_) {
         volume_ = std::move(volume);
         shown_.reset();
     }
+    if (wants_picture_ && (picture != picture_ || !picture_face_.panel)) {
+        picture_ = std::move(picture);
+        picture_is_new_ = true;
+    }
 }
 
-Vec2 Monitor::size_m() const {
-    const double width = plane_.size.width, height = plane_.size.height;
-    const double scale = side_m / std::max({width, height, 1.0});
-    return {width * scale, height * scale};
+void Monitor::Face::show(ColorView picture) {
+    if (!texture || texture->size() != picture.size)
+        texture.emplace(picture.size);
+    texture->set(picture);
+    const double scale = side_m / std::max(picture.size.width, picture.size.height);
+    const Vec2 size{picture.size.width * scale, picture.size.height * scale};
+    if (panel && size == size_m)
+        return;
+    size_m = size;
+    panel.emplace(render::make_panel_mesh(size.x, size.y));
+    render::MeshData mesh = render::make_box_mesh({-size.x / 2, size.y / 2, -0.01},
+                                                  {size.x / 2, size.y / 2 + bar_m, 0.01});
+    room::append(
+        mesh,
+        render::make_box_mesh({-size.x / 2, -size.y / 2, 0.002}, {size.x / 2, size.y / 2, 0.01}),
+        {1, 1, 1}, {});
+    housing.emplace(mesh);
 }
 
 // Draws the slice again if it has changed.
-void Monitor::update() {
+void Monitor::update_slice() {
     if (!volume_ || !wanted_ || shown_ == wanted_)
         return;
     const SlicePicture slice = slice_picture(*volume_, *wanted_);
     plane_ = slice.plane;
-    if (!texture_ || texture_->size() != slice.picture.size)
-        texture_.emplace(slice.picture.size);
-    texture_->set(slice.picture.view());
+    slice_.show(slice.picture.view());
     shown_ = wanted_;
-    const Vec2 size = size_m();
     const double mm = plane_.mm_per_pixel * 0.001;
-    const double m_per_pixel = size.x / plane_.size.width;
-    const double ruler_m =
-        medical::scale_bar(plane_.mm_per_pixel, plane_.size.width / 3.0).pixels * m_per_pixel;
-    if (panel_ && size == panel_size_ && ruler_m == ruler_m_)
+    const Vec2 life_size{plane_.size.width * mm, plane_.size.height * mm};
+    const double ruler_m = medical::scale_bar(plane_.mm_per_pixel, plane_.size.width / 3.0).pixels *
+                           slice_.size_m.x / plane_.size.width;
+    if (inside_ && life_size == life_size_m_ && ruler_m == ruler_m_)
         return;
-    panel_size_ = size;
+    life_size_m_ = life_size;
     ruler_m_ = ruler_m;
-    panel_.emplace(render::make_panel_mesh(size.x, size.y));
-    inside_.emplace(two_sided_panel(plane_.size.width * mm, plane_.size.height * mm));
-    render::MeshData housing = render::make_box_mesh({-size.x / 2, size.y / 2, -0.01},
-                                                     {size.x / 2, size.y / 2 + bar_m, 0.01});
-    room::append(
-        housing,
-        render::make_box_mesh({-size.x / 2, -size.y / 2, 0.002}, {size.x / 2, size.y / 2, 0.01}),
-        {1, 1, 1}, {});
-    housing_.emplace(housing);
+    inside_.emplace(two_sided_panel(life_size.x, life_size.y));
     ruler_.emplace(render::make_box_mesh({0, 0, 0}, {ruler_m, 0.004, 0.001}));
+}
+
+void Monitor::update_picture() {
+    if (!std::exchange(picture_is_new_, false))
+        return;
+    if (picture_)
+        return picture_face_.show(picture_->view());
+    // An empty screen until it comes.
+    ColorImage empty({4, 3});
+    std::fill(empty.pixels.begin(), empty.pixels.end(), Rgb{20, 22, 24});
+    picture_face_.show(empty.view());
+}
+
+const Monitor::Face* Monitor::face() const {
+    if (wants_picture_)
+        return picture_face_.panel ? &picture_face_ : nullptr;
+    return shown_ ? &slice_ : nullptr;
 }
 
 void Monitor::add_to(render::SceneFrame& frame, const session::CaseInRoom& room, Vec3 middle_mm,
                      const render::CameraView&) {
-    update();
-    if (!shown_ || !room.screen)
+    if (!wants_picture_ || room.organ.cut)
+        update_slice();
+    if (wants_picture_)
+        update_picture();
+    const Face* shown = face();
+    if (!shown || !room.screen)
         return;
     const session::RoomObject& object = room.screen->object;
     const auto id = render::ObjectId(std::uint32_t(room.screen->id));
     const Pose place = object.room_from_object * object_from_picture;
-    const double scale = object.scale;
     SurfaceLook look = unlit({1, 1, 1});
-    look.texture = &*texture_;
-    frame.objects.push_back({&*panel_, place, look, false, id, scale});
-    frame.objects.push_back({&*housing_, place, {{0.12, 0.14, 0.16}, 0, 0.5}, false, id, scale});
-    const auto at = [&](double x, double y) {
-        return place * Pose{{}, Vec3{x, y, -before_m} * scale};
-    };
-    const Vec2 half{panel_size_.x / 2, panel_size_.y / 2};
-    frame.objects.push_back({&*ruler_, at(-half.x + 0.02, half.y - 0.02), unlit({1, 0.86, 0.35}),
-                             false, render::ObjectId::none, scale});
-    const auto write = [&](const std::string& text, double x, double y, double height) {
-        frame.texts.push_back({text, at(x, y), height * scale, ink});
-    };
-    const auto width = [](const std::string& text) {
-        return double(text.size()) * letter_m * letter_width;
-    };
-    const medical::EdgeLetters letters = medical::edge_letters(plane_);
-    write(letters.left, -half.x + 0.01, letter_m / 2, letter_m);
-    write(letters.right, half.x - 0.01 - width(letters.right), letter_m / 2, letter_m);
-    write(letters.top, -width(letters.top) / 2, -half.y + 0.01 + letter_m, letter_m);
-    write(letters.bottom, -width(letters.bottom) / 2, half.y - 0.01, letter_m);
-    const medical::ScaleBar ruler =
-        medical::scale_bar(plane_.mm_per_pixel, plane_.size.width / 3.0);
-    char text[120];
-    std::snprintf(text, sizeof(text), "%g mm", ruler.length_mm);
-    write(text, -half.x + 0.02, half.y - 0.026, fact_m);
-    std::snprintf(text, sizeof(text), "%s  %s %.1f mm  window %.0f / %.0f", series_.c_str(),
-                  orientation_names[shown_->orientation], shown_->position_mm, shown_->center,
-                  shown_->width);
-    write(text, -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
-    if (!room.organ.cut)
+    look.texture = &*shown->texture;
+    frame.objects.push_back({&*shown->panel, place, look, false, id, object.scale});
+    frame.objects.push_back(
+        {&*shown->housing, place, {{0.12, 0.14, 0.16}, 0, 0.5}, false, id, object.scale});
+    if (wants_picture_)
+        add_picture_facts(frame, object);
+    else
+        add_slice_facts(frame, object);
+    if (!room.organ.cut || !shown_)
         return;
     // The slice in the organ.
     const session::ScaledPose inside =
         session::part_in_room(room.organ_object, organ_from_picture(middle_mm));
+    look.texture = &*slice_.texture;
     frame.objects.push_back(
         {&*inside_, inside.pose, look, false, render::ObjectId::none, inside.scale});
+}
+
+void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObject& object) const {
+    const ScreenWriter facts(frame, object);
+    const Vec2 half{slice_.size_m.x / 2, slice_.size_m.y / 2};
+    frame.objects.push_back({&*ruler_, facts.at(-half.x + 0.02, half.y - 0.02),
+                             unlit({1, 0.86, 0.35}), false, render::ObjectId::none, object.scale});
+    const auto width = [](const std::string& text) {
+        return double(text.size()) * letter_m * letter_width;
+    };
+    const medical::EdgeLetters letters = medical::edge_letters(plane_);
+    facts.write(letters.left, -half.x + 0.01, letter_m / 2, letter_m);
+    facts.write(letters.right, half.x - 0.01 - width(letters.right), letter_m / 2, letter_m);
+    facts.write(letters.top, -width(letters.top) / 2, -half.y + 0.01 + letter_m, letter_m);
+    facts.write(letters.bottom, -width(letters.bottom) / 2, half.y - 0.01, letter_m);
+    const medical::ScaleBar ruler =
+        medical::scale_bar(plane_.mm_per_pixel, plane_.size.width / 3.0);
+    char text[120];
+    std::snprintf(text, sizeof(text), "%g mm", ruler.length_mm);
+    facts.write(text, -half.x + 0.02, half.y - 0.026, fact_m);
+    std::snprintf(text, sizeof(text), "%s  %s %.1f mm  window %.0f / %.0f", series_.c_str(),
+                  orientation_names[shown_->orientation], shown_->position_mm, shown_->center,
+                  shown_->width);
+    facts.write(text, -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
+}
+
+void Monitor::add_picture_facts(render::SceneFrame& frame,
+                                const session::RoomObject& object) const {
+    const Vec2 half{picture_face_.size_m.x / 2, picture_face_.size_m.y / 2};
+    ScreenWriter(frame, object)
+        .write(picture_name_ + "  " + std::to_string(number_ + 1) + " of " +
+                   std::to_string(pictures_) + (picture_ ? "" : "  (it is being fetched)"),
+               -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
 }
 
 Pose Monitor::organ_from_picture(Vec3 middle_mm) const {
@@ -193,14 +261,14 @@ std::optional<Monitor::SliceFrame> Monitor::slice_frame(const session::CaseInRoo
     SliceFrame frame;
     frame.picture_from_organ = inverse(organ_from_picture(middle_mm));
     const session::RoomObject& screen = room.screen->object;
-    const double life_size_m = plane_.size.width * plane_.mm_per_pixel * 0.001;
-    frame.screen_scale = screen.scale * panel_size_.x / life_size_m;
+    frame.screen_scale = screen.scale * slice_.size_m.x / life_size_m_.x;
     Pose screen_from_points = frame.picture_from_organ;
     screen_from_points.translation = screen_from_points.translation * frame.screen_scale;
     frame.screen_from_organ = screen.room_from_object * object_from_picture * screen_from_points;
     const auto range =
         medical::slice_range(volume_->grid, medical::Orientation(shown_->orientation));
     frame.half_step_m = 0.0005 * range.step_mm;
+    frame.on_screen = !wants_picture_;
     return frame;
 }
 
@@ -220,16 +288,26 @@ std::optional<render::Cut> Monitor::plane_in(const session::CaseInRoom& room,
     return render::Cut{normal, dot(normal, place)};
 }
 
-std::optional<Vec3> Monitor::patient_point(const session::CaseInRoom& room, Vec3 place) const {
-    if (!shown_ || !room.screen)
+std::optional<Vec2> Monitor::place_on(const session::CaseInRoom& room, Vec3 place) const {
+    const Face* shown = face();
+    if (!shown || !room.screen)
         return std::nullopt;
     const session::RoomObject& object = room.screen->object;
     const Vec3 p = inverse(object.room_from_object * object_from_picture) * place;
-    const double u = p.x / object.scale / panel_size_.x + 0.5,
-                 v = p.y / object.scale / panel_size_.y + 0.5;
-    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1))
+    const Vec2 in{p.x / object.scale / shown->size_m.x + 0.5,
+                  p.y / object.scale / shown->size_m.y + 0.5};
+    return in.x >= 0 && in.x <= 1 && in.y >= 0 && in.y <= 1 ? std::optional(in) : std::nullopt;
+}
+
+bool Monitor::shows_at(const session::CaseInRoom& room, Vec3 place) const {
+    return place_on(room, place).has_value();
+}
+
+std::optional<Vec3> Monitor::patient_point(const session::CaseInRoom& room, Vec3 place) const {
+    const auto in = wants_picture_ ? std::nullopt : place_on(room, place);
+    if (!in)
         return std::nullopt;
-    return plane_.point_at(u * plane_.size.width - 0.5, v * plane_.size.height - 0.5);
+    return plane_.point_at(in->x * plane_.size.width - 0.5, in->y * plane_.size.height - 0.5);
 }
 
 }  // namespace theatron::viewer

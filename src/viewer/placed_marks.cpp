@@ -30,8 +30,9 @@ std::optional<MarkFrame> mark_frame(const CaseScene& scene, session::ObjectId ob
         return organ_frame(*room);
     if (room->screen && object == room->screen->id) {
         const auto slice = scene.slice_frame();
-        return slice ? std::optional(MarkFrame{slice->screen_from_organ, slice->screen_scale})
-                     : std::nullopt;
+        return slice && slice->on_screen
+                   ? std::optional(MarkFrame{slice->screen_from_organ, slice->screen_scale})
+                   : std::nullopt;
     }
     const auto shown = scene.shown_pose(object);
     return shown ? std::optional(MarkFrame{*shown, room->organ_object.scale}) : std::nullopt;
@@ -45,20 +46,23 @@ void append_placed(const Mark& mark, bool is_recorded, const CaseScene& scene,
     }
     const auto& room = scene.in_room();
     const session::ObjectId object{is_recorded ? mark.object | session::recorded_bit : mark.object};
-    const auto frame = mark_frame(scene, object);
-    if (!room || !frame)
+    if (!room)
         return;
+    const auto frame = mark_frame(scene, object);
     if (mark.surface == MarkedSurface::organ) {
+        if (!frame)
+            return;
         const session::CaseInRoom::Part* part = room->find(object);
-        if (part && !scene.is_drawn(*part))
+        if (part && !scene.has_place(*part))
             return;
         placed.push_back({mark, frame->room_from_points, frame->scale, scene.cut()});
         return;
     }
     const auto slice = scene.slice_frame();
-    if (!slice || !is_on(mark, *slice))
+    if (!slice || !room->screen || object != room->screen->id || !is_on(mark, *slice))
         return;
-    placed.push_back({mark, frame->room_from_points, frame->scale, {}});
+    if (frame)
+        placed.push_back({mark, frame->room_from_points, frame->scale, {}});
     if (room->organ.cut)
         placed.push_back({mark, organ_frame(*room).room_from_points, organ_frame(*room).scale, {}});
 }

@@ -9,8 +9,9 @@
 namespace theatron::viewer {
 namespace {
 
-constexpr double side_distance_m = 0.9, above_m = 1.0, overview_distance_m = 2.6,
-                 overview_height_m = 2.1, beside_m = 0.6, elbow_room_m = 0.45;
+constexpr double side_distance_m = 0.9, above_m = 1.0, from_above_m = 2.2,
+                 overview_distance_m = 2.6, overview_height_m = 2.1, beside_m = 0.6,
+                 elbow_room_m = 0.45;
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -18,14 +19,18 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-}  // namespace
+// The point that the cameras look at, and the horizontal direction to it from the first one.
+struct Sight {
+    Vec3 middle, ahead;
+};
 
-std::vector<Place> places_of(const ViewableCameras& cameras) {
+std::optional<Sight> sight_of(const ViewableCameras& cameras, bool registered_only) {
     std::vector<double> x, y, z;
-    Vec3 towards{};  // horizontal, from the first camera to the point
+    Vec3 towards{};
     for (const auto& [id, frame] : cameras.newest) {
         const auto calibration = cameras.calibrations.find(id);
-        if (calibration == cameras.calibrations.end() || !calibration->second.registered)
+        if (calibration == cameras.calibrations.end() ||
+            (registered_only && !calibration->second.registered))
             continue;
         const Vec3 point = render::point_of_interest(calibration->second, frame->depth.view());
         if (x.empty())
@@ -35,10 +40,19 @@ std::vector<Place> places_of(const ViewableCameras& cameras) {
         z.push_back(point.z);
     }
     if (x.empty())
-        return {};
-    const Vec3 middle{median(x), median(y), median(z)};
+        return std::nullopt;
     towards.y = 0;
-    const Vec3 ahead = length(towards) > 1e-3 ? normalized(towards) : Vec3{0, 0, -1};
+    return Sight{{median(x), median(y), median(z)},
+                 length(towards) > 1e-3 ? normalized(towards) : Vec3{0, 0, -1}};
+}
+
+}  // namespace
+
+std::vector<Place> places_of(const ViewableCameras& cameras) {
+    const auto sight = sight_of(cameras, true);
+    if (!sight)
+        return {};
+    const Vec3 middle = sight->middle, ahead = sight->ahead;
     const Vec3 up{0, 1, 0}, side = cross(ahead, up);
     const auto standing = [&](Vec3 from, double height) {
         const Vec3 eye{middle.x + from.x, height, middle.z + from.z};
@@ -48,6 +62,13 @@ std::vector<Place> places_of(const ViewableCameras& cameras) {
             {"Opposite", standing(side * -side_distance_m, room::standing_eyes_m)},
             {"Above the situs", look_at(middle + up * above_m, middle, ahead)},
             {"Overview", standing(ahead * -overview_distance_m, overview_height_m)}};
+}
+
+std::optional<Pose> from_above(const ViewableCameras& cameras) {
+    const auto sight = sight_of(cameras, false);
+    if (!sight)
+        return std::nullopt;
+    return look_at(sight->middle + Vec3{0, from_above_m, 0}, sight->middle, sight->ahead);
 }
 
 Pose beside(const Pose& room_from_head, const std::vector<Vec3>& heads) {

@@ -18,6 +18,10 @@ struct Place {
 // has sent a picture.
 std::vector<Place> places_of(const ViewableCameras& cameras);
 
+// The eye high above that point, which looks straight down; the side towards the first camera is
+// below. Also of cameras that are not registered; nullopt while none has sent a picture.
+std::optional<Pose> from_above(const ViewableCameras& cameras);
+
 // The eye of somebody who joins a conversation with the person at `room_from_head` (y up, -z
 // forward): beside this person, with the same direction, at the nearest place to the right or left
 // where nobody else is. `heads`: of the others.

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <memory>
+
 namespace theatron::viewer {
 namespace {
 
@@ -20,6 +24,26 @@ TEST(Places, PeopleWhoComeToSomebodyStandBesideEachOther) {
         heads.push_back(place);
     }
     EXPECT_NEAR(heads.front().x, 1.6, 1e-9) << "the first on the right";
+}
+
+TEST(Places, FromAboveTheEyeLooksStraightDownAtWhatTheCamerasSee) {
+    Calibration calibration;  // not registered
+    calibration.depth = pinhole({32, 24}, 70);
+    auto frame = std::make_shared<receive::CameraFrame>();
+    frame->depth = DepthImage(calibration.depth.size);
+    std::fill(frame->depth.pixels.begin(), frame->depth.pixels.end(), std::uint16_t(2000));
+    std::map<CameraId, Calibration> calibrations{{CameraId(0), calibration}};
+    std::map<CameraId, receive::CameraFramePtr> newest;
+    EXPECT_EQ(from_above({calibrations, newest}), std::nullopt);
+    newest[CameraId(0)] = frame;
+    const auto eye = from_above({calibrations, newest});
+    ASSERT_TRUE(eye);
+    // The camera stands above the origin and looks along -z.
+    EXPECT_NEAR(eye->translation.x, 0, 1e-6);
+    EXPECT_NEAR(eye->translation.z, -2, 1e-3);
+    EXPECT_GT(eye->translation.y, 3);
+    EXPECT_NEAR(rotate(eye->rotation, {0, 0, 1}).y, -1, 1e-6);
+    EXPECT_NEAR(rotate(eye->rotation, {0, 1, 0}).z, 1, 1e-6) << "the camera's side is below";
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ std::optional<session::PersonFacts> facts_of(const client::Participant::Room& ro
 // "observer, muted, records, holds 2 objects".
 std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
     std::string text;
+    if (const auto level = facts.speaking.find(person.id); level != facts.speaking.end())
+        add(text, "speaks " + meter_text(level->second));
     if (const auto known = facts_of(facts.room, person.id)) {
         if (known->role != wire::Role::expert)
             add(text, wire::text_of(known->role));
@@ -29,6 +31,8 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
             add(text, "muted");
         if (known->records)
             add(text, "records");
+        if (known->voice_recorded)
+            add(text, "voice may be recorded");
     }
     int held = 0;
     for (const auto& [number, object] : facts.room.objects)
@@ -37,6 +41,8 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
         add(text, held == 1 ? "holds an object" : "holds " + std::to_string(held) + " objects");
     if (!person.head)
         add(text, "not in the room");
+    else if (!person.age.empty())
+        add(text, person.age);
     else if (person.is_stale)
         add(text, "view is old");
     if (person.calls)

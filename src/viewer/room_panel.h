@@ -4,12 +4,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <variant>
 #include <vector>
 
 #include "session/mark.h"
 #include "viewer/meeting.h"
 #include "viewer/places.h"
+#include "viewer/voices.h"
 #include "xr/overlay_content.h"
 
 namespace theatron::viewer {
@@ -48,8 +50,24 @@ struct AnswerCall {
     ParticipantId person{};  // who asks the user to come
     bool comes = false;
 };
-using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
-                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall>;
+enum class PictureKind { color, depth, blended };
+struct ShowLarge {  // a plain picture of a camera; again: as small as the others
+    CameraId camera{};
+    PictureKind kind{};
+    bool operator==(const ShowLarge&) const = default;
+};
+struct AdjustStep {  // of the chosen camera
+    enum class What { choose, step, slide, undo, reset, draw, whole } what{};
+    CameraId camera{};  // for `choose`
+    int part = 0;       // 0 to 2: moved along x, y, z; 3 to 5: turned about them
+    double by = 0;      // metres or degrees, for `step`
+};
+struct PlayStep {  // of the recording that the host plays
+    enum class What { toggle, back, forward, slide } what{};
+};
+using RoomCommand =
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
+                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
@@ -64,6 +82,7 @@ struct RoomPanelFacts {
     bool is_operator = false;               // the user decides on people
     std::vector<wire::Visitor> visitors;    // who wait for that
     bool may_call = false, is_calling = false;
+    std::map<ParticipantId, int> speaking = {};  // as in Voices
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

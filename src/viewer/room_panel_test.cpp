@@ -118,6 +118,18 @@ TEST(RoomPanel, OffersToGoToWhoeverCallsAndToCall) {
     EXPECT_FALSE(std::get<Call>(calling.commands.back()).begins);
 }
 
+TEST(RoomPanel, MarksThePersonWhoSpeaks) {
+    room::RoomPerson anna, ben;
+    anna.id = ParticipantId{2};
+    ben.id = ParticipantId{3};
+    RoomPanelFacts facts;
+    facts.people = {anna, ben};
+    facts.speaking = {{anna.id, -25}};
+    const RoomPanel panel = room_panel(facts);
+    EXPECT_EQ(panel.panels.at(0).rows.at(0).detail, "speaks |||.., not in the room");
+    EXPECT_EQ(panel.panels.at(0).rows.at(1).detail, "not in the room");
+}
+
 TEST(RoomPanel, SaysThatNobodyIsHere) {
     const RoomPanel panel = room_panel({});
     ASSERT_EQ(panel.panels.size(), 1u);

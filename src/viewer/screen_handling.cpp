@@ -33,6 +33,7 @@ session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::V
 session::CaseScreen turned(const session::CaseScreen& screen, const medical::Volume& volume,
                            medical::Orientation orientation) {
     session::CaseScreen next = screen;
+    next.picture.reset();
     next.orientation = std::uint8_t(orientation);
     const medical::SliceRange range = medical::slice_range(volume.grid, orientation);
     next.position_mm = range.first_mm + range.step_mm * (range.count / 2);
@@ -41,6 +42,7 @@ session::CaseScreen turned(const session::CaseScreen& screen, const medical::Vol
 
 session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm) {
     session::CaseScreen next = screen;
+    next.picture.reset();
     switch (medical::Orientation(screen.orientation)) {
         case medical::Orientation::axial:
             next.position_mm = patient_mm.z;
@@ -52,6 +54,26 @@ session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm) 
             next.position_mm = patient_mm.x;
             break;
     }
+    return next;
+}
+
+session::CaseScreen of_series(const session::CaseScreen& screen, int series,
+                              const medical::Volume* volume) {
+    session::CaseScreen next = screen;
+    next.picture.reset();
+    next.series = std::uint8_t(series);
+    if (volume) {
+        next.center = volume->window.center;
+        next.width = volume->window.width;
+        next = scrolled(next, *volume, 0);
+    }
+    return next;
+}
+
+session::CaseScreen stepped(const session::CaseScreen& screen, int count, double steps) {
+    session::CaseScreen next = screen;
+    const double to = screen.picture ? *screen.picture + steps : 0;
+    next.picture = std::uint16_t(std::clamp(to, 0.0, count - 1.0));
     return next;
 }
 
@@ -69,7 +91,7 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     const CaseScene& scene = meeting.case_scene();
     const auto& open = scene.in_room();
     const medical::Volume* volume = scene.monitor().volume();
-    if (!open || !open->screen || !volume) {
+    if (!open || !open->screen || (!volume && scene.monitor().pictures() == 0)) {
         drags_window_ = false;
         waiting_.reset();
         return;
@@ -77,12 +99,12 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     const auto picks_picture = [&](Vec2 pointer) {
         const auto hit = meeting.pick(render::ray_through(view, pointer), view);
         return hit && hit->object == open->screen->id &&
-               scene.monitor().patient_point(*open, hit->picked.place) &&
+               scene.monitor().shows_at(*open, hit->picked.place) &&
                !is_hidden(hit->picked.place, surface_m, view);
     };
     session::CaseScreen next = waiting_.value_or(open->screen->facts);
     const session::CaseScreen before = next;
-    if (input.grabbed && input.grabbed_left && picks_picture(*input.grabbed)) {
+    if (input.grabbed && input.grabbed_left && !next.picture && picks_picture(*input.grabbed)) {
         drags_window_ = true;
         input.grabbed.reset();
     }
@@ -94,8 +116,13 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     }
     if (input.released)
         drags_window_ = false;
-    if (input.steering.approach != 0 && input.pointer && picks_picture(*input.pointer))
-        next = scrolled(next, *volume, std::round(std::exchange(input.steering.approach, 0)));
+    if (input.steering.approach != 0 && input.pointer && picks_picture(*input.pointer)) {
+        const double steps = std::round(std::exchange(input.steering.approach, 0));
+        if (next.picture)
+            next = stepped(next, std::max(scene.monitor().pictures(), 1), steps);
+        else if (volume)
+            next = scrolled(next, *volume, steps);
+    }
     if (next != before)
         waiting_ = next;
     send(participant, now);

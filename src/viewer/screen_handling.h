@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen of a case: other slices and windows, and the mouse on it: the wheel scrolls, a drag
-// changes the window.
+// The screen of a case: other slices, windows and pictures, and the mouse on it: the wheel scrolls,
+// a drag changes the window.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,18 @@ namespace theatron::viewer {
 bool is_hidden(Vec3 place, std::optional<double> surface_m, const render::CameraView& view);
 
 // The screen with another slice: so many slices further; of another orientation, through its
-// middle; through a place of the patient. Pure.
+// middle; through a place of the patient; of another series, whose window it takes if there is
+// `volume`. All but the first show slices instead of pictures. Pure.
 session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
                              double slices);
 session::CaseScreen turned(const session::CaseScreen& screen, const medical::Volume& volume,
                            medical::Orientation orientation);
 session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm);
+session::CaseScreen of_series(const session::CaseScreen& screen, int series,
+                              const medical::Volume* volume);
+// The screen with a picture so many further; the first one if it showed a slice. `count`: of the
+// case, at least 1. Pure.
+session::CaseScreen stepped(const session::CaseScreen& screen, int count, double steps);
 
 // Use from one thread.
 class ScreenHandling {

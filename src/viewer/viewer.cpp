@@ -8,11 +8,8 @@
 #include "session/permissions.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
-#include "viewer/case_actions.h"
-#include "viewer/case_panel.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
-#include "viewer/screen_handling.h"
 #include "wire/manage_text.h"
 
 namespace theatron::viewer {
@@ -21,8 +18,6 @@ namespace {
 constexpr Duration pose_interval = std::chrono::milliseconds(15);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
 constexpr Duration notice_shown = std::chrono::seconds(5);
-// A case is opened at this distance in front of the eye.
-constexpr double new_case_distance_m = 0.9;
 // A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
 
@@ -44,7 +39,9 @@ Viewer::Viewer(Options options, client::Participant& participant)
       pace_(xr::automatic_ways(1, options_.scale)),
       sits_(options_.sits),
       shows_panels_(options_.shows_people),
-      line_(options_.shows_facts) {}
+      line_(options_.shows_facts) {
+    scene_.set_ages_shown(line_);
+}
 
 client::Settings Viewer::settings(client::Settings before) const {
     before.renderer = options_.renderer;
@@ -61,6 +58,9 @@ void Viewer::note(const std::string& text, TimePoint now) {
 
 void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
                       TimePoint now) {
+    mouse_ = input.pointer_covered ? std::nullopt : input.pointer;
+    picture_ = picture;
+    draw_region(input, picture, now);
     mark(input, picture);
     point(input, picture);
     if (eye_.is_placed())
@@ -90,6 +90,8 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::facts:
             line_ = !line_;
+            scene_.set_ages_shown(line_);
+            scene_changed_ = true;
             break;
         case xr::Action::next_renderer:
             choose_next_renderer(now);
@@ -137,25 +139,31 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             note(sits_ ? "Sitting" : "Standing", now);
             break;
         case xr::Action::own_view:
-        case xr::Action::view_camera: {
-            stop_following();
-            if (const auto place = meeting_place(); place && eye_.is_placed()) {
-                eye_.go_to(at_eye_height(*place));
-                scene_changed_ = true;
-                break;
-            }
-            ViewChoice choice{eye_.home().camera, 0, 0};
-            if (key.action == xr::Action::view_camera)
-                choice.camera = CameraId(key.camera);
-            try {
-                eye_.go_home(choice, cameras(), picture);
-                scene_changed_ = true;
-                note("View of " + camera_text(choice.camera), now);
-            } catch (const Error& e) {
-                note(e.what(), now);
-            }
+        case xr::Action::view_camera:
+            go_home(key, picture, now);
             break;
-        }
+        case xr::Action::camera_pictures:
+            camera_pictures_ =
+                camera_pictures_ ? std::nullopt : std::optional<CameraPictures>(std::in_place);
+            large_.reset();
+            break;
+        case xr::Action::from_above:
+            view_from_above(now);
+            break;
+        case xr::Action::larger_points:
+        case xr::Action::smaller_points:
+            change_point_size(key.action == xr::Action::larger_points ? 1.25 : 1 / 1.25, now);
+            break;
+        case xr::Action::freeze:
+            freeze(now);
+            break;
+        case xr::Action::pause_recording:
+        case xr::Action::seek_back:
+        case xr::Action::seek_forward:
+        case xr::Action::adjust_cameras:
+        case xr::Action::nudge:
+            on_camera_key(key, picture, now);
+            break;
         case xr::Action::call:
             call(!is_calling(now), now);
             break;
@@ -178,22 +186,12 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::leave:
         case xr::Action::full_screen:
         case xr::Action::microphone:
+        case xr::Action::push_to_talk:
+        case xr::Action::voice_recording:
+        case xr::Action::save_picture:
+        case xr::Action::save_points:
             break;  // of the window, not of the scene
     }
-}
-
-void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now) {
-    if (!eye_.is_placed() || !input.pointer)
-        return;
-    Meeting& meeting = scene_.meeting();
-    const render::CameraView view = eye_.view(picture);
-    const auto hit = meeting.pick(render::ray_through(view, *input.pointer), view);
-    const auto& open = meeting.case_scene().in_room();
-    const auto place =
-        hit ? meeting.case_scene().patient_point(hit->object, hit->picked.place) : std::nullopt;
-    if (!place || !open || !open->screen)
-        return note("Point at a part of an organ with images", now);
-    set_screen(participant_, through(open->screen->facts, *place));
 }
 
 // The arc begins below the eye, so that it is seen from above.
@@ -234,6 +232,12 @@ void Viewer::press(int command, TimePoint now) {
             note("This is not in the room any more", now);
         return;
     }
+    if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
+        slides_playback_ = false;
+        return adjusting_.carry_out(*step);
+    }
+    if (const auto* step = std::get_if<PlayStep>(&chosen))
+        return play(*step, now);
     if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
@@ -241,11 +245,10 @@ void Viewer::press(int command, TimePoint now) {
             note("There is no such mark", now);
         return;
     }
-    if (const auto* offer = std::get_if<OpenOffered>(&chosen)) {
-        constexpr Size any{16, 9};
-        const Pose eye = eye_.view(any).room_from_eye;
-        open_case(participant_, offer->offered, eye * Vec3{0, 0.1, new_case_distance_m},
-                  eye.translation);
+    if (const auto* offer = std::get_if<OpenOffered>(&chosen))
+        return open_before_eye(offer->offered);
+    if (const auto* large = std::get_if<ShowLarge>(&chosen)) {
+        large_ = large_ == *large ? std::nullopt : std::optional(*large);
         return;
     }
     if (const auto* calls = std::get_if<Call>(&chosen))
@@ -270,18 +273,6 @@ void Viewer::press(int command, TimePoint now) {
 
 void Viewer::stop_following() {
     followed_.reset();
-}
-
-void Viewer::look_through_followed(TimePoint now) {
-    if (!followed_ || !eye_.is_placed())
-        return;
-    const room::RoomPerson* person = scene_.meeting().person(*followed_);
-    if (!person) {
-        stop_following();
-        return note("The person through whose eyes you saw has left", now);
-    }
-    // The eye's frame has y down and z forward.
-    eye_.go_to(*person->head * Pose{Quat{0, 1, 0, 0}, {}});
 }
 
 // The numbers of participants grow, so the first one has waited longest.
@@ -332,7 +323,8 @@ void Viewer::choose_pace() {
                     : xr::ways_of(choice_.renderer(), options_.scale);
     if (ways == pace_.ways())
         return;
-    pace_ = xr::DrawingPace(std::move(ways));
+    const std::size_t begin = options_.has_gpu ? 0 : xr::begin_without_gpu(ways);
+    pace_ = xr::DrawingPace(std::move(ways), begin, pace_limits_);
     scene_changed_ = true;
 }
 
@@ -341,13 +333,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     if (status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
     follow_host(now);
-    for (const CameraId camera : scene_.take(participant_)) {
-        updated_.insert(camera);
-        scene_changed_ = true;
-    }
-    choose_pace();  // for the cameras that there are now
-    fading_ = scene_.fade(participant_, now);
-    scene_changed_ = scene_changed_ || fading_;
+    take_pictures(now);
     // A host that came back may have fewer cameras than before.
     if (eye_.follow(cameras(), status.joins == 1, picture, now))
         scene_changed_ = true;
@@ -359,8 +345,11 @@ bool Viewer::step(Size picture, TimePoint now) {
     }
     forget_answered();
     while (const auto answer = participant_.take_managed())
-        if (answer->refusal != wire::ManageRefusal::none)
+        if (answer->refusal != wire::ManageRefusal::none) {
             note(wire::text_of(answer->refusal), now);
+            adjusting_.give_up();
+        }
+    follow_cameras(now);
     eye_.set_space(scene_.free_space());
     look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
@@ -388,17 +377,20 @@ std::optional<Pose> Viewer::meeting_place() const {
 void Viewer::send_pose(Size picture, TimePoint now) {
     if (!eye_.is_placed())
         return;
-    const Pose eye = eye_.view(picture).room_from_eye;
-    const bool is_same =
-        eye == sent_pose_ && is_calling(now) == sent_call_ && !pointer_ && !sent_pointing_;
+    const Pose eye = headset_ ? headset_->head().room_from_eye : eye_.view(picture).room_from_eye;
+    // With a headset hands move, too.
+    const bool is_same = !headset_ && eye == sent_pose_ && is_calling(now) == sent_call_ &&
+                         !pointer_ && !sent_pointing_;
     if (now - pose_sent_ < (is_same ? pose_repeated_after : pose_interval))
         return;
     pose_sent_ = now;
     sent_pose_ = eye;
     sent_call_ = is_calling(now);
-    wire::PersonPose pose = pose_of_eye(eye, participant_.session_time(now));
+    const TimePoint time = participant_.session_time(now);
+    wire::PersonPose pose = headset_ ? headset_->pose(time) : pose_of_eye(eye, time);
     pose.calls = sent_call_;
-    add_pointing(pose);
+    if (!headset_)
+        add_pointing(pose);
     participant_.send_pose(pose);
 }
 
@@ -412,11 +404,17 @@ std::string Viewer::camera_text(CameraId camera) const {
 }
 
 void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {
+    const render::CameraView view = eye_.view(picture);
+    draw_eyes(view, {{view, target}}, now);
+}
+
+void Viewer::draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
+                       TimePoint now) {
     scene_changed_ = false;
     const std::string wanted = way().renderer;
     scene_.set_depth_step(way().depth_step);
     try {
-        scene_.draw(eye_.view(picture), target, wanted);
+        scene_.draw(head, std::move(eyes), wanted);
         working_renderer_ = wanted;
     } catch (const Error& e) {
         if (working_renderer_.empty() || working_renderer_ == wanted)
@@ -466,27 +464,32 @@ Facts Viewer::facts(TimePoint now) {
     if (now < notice_until_)
         facts.notice = notice_;
     facts.help = help_;
+    facts.frozen = frozen_;
     RoomPanel panel = call_panel(callers());
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
-        panel = joined(
-            std::move(panel),
-            room_panel({scene_.meeting().room(), scene_.meeting().people(), places_of(cameras()),
-                        followed_, role == wire::Role::operator_, facts.visitors,
-                        session::may(role, session::Right::point), is_calling(now)}));
+        panel = joined(std::move(panel),
+                       room_panel({scene_.meeting().room(), scene_.meeting().people(),
+                                   places_of(cameras()), followed_, role == wire::Role::operator_,
+                                   facts.visitors, session::may(role, session::Right::point),
+                                   is_calling(now), voices_.speaking}));
     }
-    if (shows_case_) {
-        const CaseScene& scene = scene_.meeting().case_scene();
-        add_case_panel({participant_.cases(), scene.in_room() ? &*scene.in_room() : nullptr,
-                        scene.content(), scene.monitor().volume()},
-                       panel);
-    }
+    if (shows_case_)
+        add_case(panel);
+    if (adjusting_.is_shown())
+        adjusting_.add_panel(panel);
+    facts.rectangle = adjusting_.rectangle();
+    facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
     if (marking_.tool())
         add_mark_panel(marking_.tool(),
                        facts.received.status.standing.role == wire::Role::operator_, panel);
+    add_camera_pictures(facts, panel);
+    facts.pointed = pointed_text();
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);
     facts.line = line_;
+    facts.voices = voices_;
+    facts.trust = shows_panels_;
     return facts;
 }
 

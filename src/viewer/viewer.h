@@ -5,6 +5,7 @@
 // headset, a browser, a file) owns these and passes time in.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,12 +13,18 @@
 #include "base/statistics.h"
 #include "client/participant.h"
 #include "client/settings.h"
+#include "render/vignette.h"
+#include "session/permissions.h"
 #include "session/renderer_choice.h"
+#include "viewer/camera_adjusting.h"
+#include "viewer/camera_pictures.h"
 #include "viewer/eye.h"
 #include "viewer/facts.h"
 #include "viewer/handling.h"
+#include "viewer/headset.h"
 #include "viewer/live_scene.h"
 #include "viewer/marking.h"
+#include "viewer/playing.h"
 #include "viewer/renderer_text.h"
 #include "viewer/room_panel.h"
 #include "xr/drawing_pace.h"
@@ -34,7 +41,8 @@ public:
         std::vector<SeenPerson> people;
         std::string renderer = automatic;
         bool sits = false, shows_people = false, shows_facts = true;  // as in client::Settings
-        double scale = 0;  // of the target's pixels to draw; 0: chosen by drawing time
+        bool has_gpu = true;  // false: begins with what a processor draws
+        double scale = 0;     // of the target's pixels to draw; 0: chosen by drawing time
         std::string depth_codec, color_codec;  // that the participant requested
     };
 
@@ -47,11 +55,16 @@ public:
                   TimePoint now);
     // A button of the panels that facts() gave last.
     void press(int command, TimePoint now);
+    // A slider of these panels is held from press() on, and now has this value.
+    void slide(double value);
 
     // Takes over the session's changes. `picture` is the size of the target in pixels. True if the
     // scene must be drawn again. Throws Error if the host refused this participant, or if the
     // camera of the chosen view does not exist.
     bool step(Size picture, TimePoint now);
+
+    // With RoomChoice::in_steps: a step of the work on the room, some milliseconds.
+    void prepare() { scene_changed_ = scene_.prepare() || scene_changed_; }
 
     // Needs facts().has_picture. Draws into a cleared target that has way().scale of `picture` on
     // each side. If the driver cannot run a renderer, the previous one is used again; Error if
@@ -59,17 +72,47 @@ public:
     void draw(Size picture, const render::DrawTarget& target, TimePoint now);
     const xr::DrawingWay& way() const { return pace_.way(); }
 
+    // Until leave_headset() the person is in the room with a headset that shows `pictures_per_s`:
+    // VR, or with the real room around them. Needs facts().has_picture.
+    void enter_headset(bool real_room, double pictures_per_s, TimePoint now);
+    // The view goes on where the person stood.
+    void leave_headset();
+    bool has_headset() const { return headset_.has_value(); }
+    // The runtime has moved its tracking space.
+    void recentre_headset();
+    // For the menu.
+    void set_microphone_open(bool open) { microphone_open_ = open; }
+    // The choice of the person in the menu since the last call that the program carries out:
+    // microphone or leave.
+    std::optional<MenuAction> take_headset_wish() {
+        return std::exchange(headset_wish_, std::nullopt);
+    }
+    // In place of on_input(), before step() and draw_headset() of the same frame.
+    void on_headset(const xr::HeadsetFrame& frame, TimePoint now);
+    // In place of draw(): into the eyes' parts of a cleared framebuffer.
+    void draw_headset(const xr::HeadsetFrame& frame, unsigned framebuffer, TimePoint now);
+
+    // The view without texts and panels, at this size; needs facts().has_picture. Waits for
+    // the GPU.
+    ColorImage picture(Size size);
+    // As LiveScene::points().
+    std::vector<ColoredPoint> points() const { return scene_.points(); }
+
     // The picture that was drawn since `begin` is on screen at `end`.
     void on_presented(TimePoint begin, TimePoint end);
 
     // Facts for the user, at `now`.
     Facts facts(TimePoint now);
+    // The newest voices, for the panels and the names of people.
+    void set_voices(Voices voices);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
     // `before` with this person's newest choices.
     client::Settings settings(client::Settings before) const;
     // True while a fading camera or a moving person changes the picture by itself.
     bool is_animated() const { return fading_ || moving_; }
+    // The person's eye in the room (x right, y down, z forward) as the others know it.
+    const Pose& told_eye() const { return sent_pose_; }
     // The first moment that the scene could be drawn; TimePoint{} before.
     TimePoint first_picture_at() const { return first_picture_at_; }
 
@@ -79,15 +122,26 @@ public:
 
 private:
     void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
+    void go_home(const xr::KeyPress& key, Size picture, TimePoint now);
+    void view_from_above(TimePoint now);
+    void change_point_size(double factor, TimePoint now);
+    void freeze(TimePoint now);
+    void take_pictures(TimePoint now);
+    void add_camera_pictures(Facts& facts, RoomPanel& panel);
+    std::string pointed_text();
     void choose_next_renderer(TimePoint now);
     void choose_depth_codec();
     void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
     void choose_pace();
     void send_pose(Size picture, TimePoint now);
+    void follow_wish(const MenuRow& wish, TimePoint now);
+    void draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
+                   TimePoint now);
     void aim_teleport(const xr::WindowInput& input, Size picture);
     void look_through_followed(TimePoint now);
     void stop_following();
+    std::optional<Pose> place_beside(ParticipantId id) const;
     void go_to_person(ParticipantId id, TimePoint now);
     void call(bool begins, TimePoint now);
     void answer_call(ParticipantId person, bool comes, TimePoint now);
@@ -98,7 +152,15 @@ private:
     void mark(xr::WindowInput& input, Size picture);
     void point(const xr::WindowInput& input, Size picture);
     void add_pointing(wire::PersonPose& pose);
+    void on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now);
+    void adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now);
+    void follow_cameras(TimePoint now);
+    void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
+    void play(const PlayStep& play, TimePoint now);
+    bool may(session::Right right) const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
+    void add_case(RoomPanel& panel) const;
+    void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
@@ -107,14 +169,29 @@ private:
     client::Participant& participant_;
     LiveScene scene_;
     Eye eye_;
+    std::optional<Headset> headset_;  // while the person wears it
+    std::optional<MenuAction> headset_wish_;
+    std::unique_ptr<render::Vignette> vignette_;  // made when first needed
+    bool microphone_open_ = false;
     Handling handling_;
     Marking marking_;
-    std::optional<room::Pointer> pointer_;  // while this person points
+    CameraAdjusting adjusting_;
+    Playing playing_;
+    bool slides_playback_ = false;                   // the slider that was pressed last
+    std::optional<room::Pointer> pointer_;           // while this person points
+    std::optional<Vec2> mouse_;                      // over the scene
+    Size picture_;                                   // of the last input
+    std::optional<CameraPictures> camera_pictures_;  // while they are shown
+    std::optional<ShowLarge> large_;                 // one of them
+    double point_size_ = 1;
+    bool frozen_ = false;  // the clouds
+    TimePoint frozen_drawn_;
     TimePoint pose_sent_;
     Pose sent_pose_;
 
     session::RendererChoice choice_;
     std::string working_renderer_;
+    xr::PaceLimits pace_limits_;
     xr::DrawingPace pace_;
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
@@ -125,6 +202,7 @@ private:
     bool sent_call_ = false;
     bool sent_pointing_ = false;
     bool sits_ = false;
+    Voices voices_;
     bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;

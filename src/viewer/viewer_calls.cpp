@@ -1,22 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // Going to people, and calls of people to each other.
+#include <utility>
+
 #include "session/permissions.h"
 #include "viewer/viewer.h"
 
 namespace theatron::viewer {
 
-void Viewer::go_to_person(ParticipantId id, TimePoint now) {
+void Viewer::set_voices(Voices voices) {
+    scene_changed_ = scene_.meeting().set_speaking(voices.speaking) || scene_changed_;
+    voices_ = std::move(voices);
+}
+
+// Where one stands beside a person; nothing if the person has no place.
+std::optional<Pose> Viewer::place_beside(ParticipantId id) const {
     const room::RoomPerson* person = scene_.meeting().person(id);
-    if (!person || !eye_.is_placed())
-        return note("This person has left", now);
-    stop_following();
-    scene_changed_ = true;
+    if (!person)
+        return std::nullopt;
     std::vector<Vec3> heads;
     for (const room::RoomPerson& other : scene_.meeting().people())
         if (other.id != id && other.head)
             heads.push_back(other.head->translation);
-    eye_.go_to(beside(*person->head, heads));
-    note("Beside " + person->name, now);
+    return beside(*person->head, heads);
+}
+
+void Viewer::go_to_person(ParticipantId id, TimePoint now) {
+    const auto place = place_beside(id);
+    if (!place || !eye_.is_placed())
+        return note("This person has left", now);
+    stop_following();
+    scene_changed_ = true;
+    eye_.go_to(*place);
+    note("Beside " + scene_.meeting().name_of(id), now);
 }
 
 void Viewer::call(bool begins, TimePoint now) {
@@ -46,6 +61,18 @@ void Viewer::forget_answered() {
         const room::RoomPerson* person = scene_.meeting().person(id);
         return !person || !person->calls;
     });
+}
+
+void Viewer::look_through_followed(TimePoint now) {
+    if (!followed_ || !eye_.is_placed())
+        return;
+    const room::RoomPerson* person = scene_.meeting().person(*followed_);
+    if (!person) {
+        stop_following();
+        return note("The person through whose eyes you saw has left", now);
+    }
+    // The eye's frame has y down and z forward.
+    eye_.go_to(*person->head * Pose{Quat{0, 1, 0, 0}, {}});
 }
 
 }  // namespace theatron::viewer

@@ -40,7 +40,7 @@ void Viewer::point(const xr::WindowInput& input, Size picture) {
                                      std::nullopt};
     }
     if (pointed || pointer_) {
-        scene_.set_own_pointer(pointer_);
+        scene_.set_own_pointers(pointer_ ? std::vector{*pointer_} : std::vector<room::Pointer>{});
         scene_changed_ = true;
     }
 }

@@ -14,6 +14,9 @@ struct OpusDecoder;
 
 namespace theatron::voice {
 
+// Samples at 48 kHz of one Opus packet; 0 if it is damaged. Safe for untrusted input.
+std::size_t samples_in(ByteView opus);
+
 // Both allocate in their constructor only, which ends the program if memory is exhausted.
 class Encoder {
 public:

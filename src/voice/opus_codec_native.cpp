@@ -21,6 +21,20 @@ const unsigned char* bytes_of(ByteView view) {
 
 }  // namespace
 
+std::size_t samples_in(ByteView opus) {
+    constexpr int most_frames = 48;  // RFC 6716, 3.2.5
+    unsigned char table = 0;
+    const unsigned char* frames[most_frames];
+    opus_int16 sizes[most_frames];
+    if (opus.empty() || opus.size() > 48 * max_opus_size ||
+        opus_packet_parse(bytes_of(opus), opus_int32(opus.size()), &table, frames, sizes, nullptr) <
+            1)
+        return 0;
+    const int samples =
+        opus_packet_get_nb_samples(bytes_of(opus), opus_int32(opus.size()), sample_rate);
+    return samples > 0 ? std::size_t(samples) : 0;
+}
+
 void Encoder::Free::operator()(OpusEncoder* encoder) const {
     opus_encoder_destroy(encoder);
 }

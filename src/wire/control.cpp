@@ -164,6 +164,12 @@ bool is_sound(const Manage& decision) {
     return decision.action >= ManageAction::admit && decision.action <= ManageAction::end_session &&
            is_known(decision.role);
 }
+bool is_sound(const Play& play) {
+    return play.action >= PlayAction::pause && play.action <= PlayAction::seek;
+}
+bool is_sound(const Playback& playback) {
+    return playback.position >= Duration(0) && playback.length >= Duration(0);
+}
 bool is_sound(const Standing& standing) {
     return is_known(standing.role);
 }
@@ -180,7 +186,7 @@ bool is_sound(const Content& content) {
     return content.hash.size() == content_hash_size;
 }
 bool is_sound(const Managed& answer) {
-    return answer.refusal <= ManageRefusal::too_often;
+    return answer.refusal <= ManageRefusal::nothing_to_play;
 }
 
 // False if the table has a value that its kind does not allow.

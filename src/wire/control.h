@@ -45,15 +45,19 @@ inline constexpr std::size_t max_encodings = 64;
 // Numbers of optional parts of the protocol. A program skips numbers that it does
 // not know.
 enum class Feature : std::uint16_t {
-    publish = 1,     // sends cameras
-    sends_only = 2,  // is sent no cameras of others
-    room = 3,        // keeps the objects of the room (session/room_replica.h)
-    cases = 4,       // is told of the host's cases, and takes their content
+    publish = 1,        // sends cameras
+    sends_only = 2,     // is sent no cameras of others
+    room = 3,           // keeps the objects of the room (session/room_replica.h)
+    cases = 4,          // is told of the host's cases, and takes their content
+    voice_consent = 5,  // says with VoiceConsent if others may record its voice
+    adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
+    playback = 7,       // is told where the host's recording is, and may play it
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
 inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
 inline constexpr std::size_t max_offered_cases = 64;
+inline constexpr std::size_t max_adjustment_size = 64;           // bytes of one camera's
 inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
@@ -246,6 +250,39 @@ struct Manage {
     }
 };
 
+// An operator adjusts a camera. The host answers with CameraChanged to all, and with Managed.
+struct AdjustCamera {
+    std::uint32_t number = 0;  // counts on with those of Manage
+    CameraId camera{};
+    Bytes adjustment;  // session/camera_adjustment.h; empty: none any more
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.camera);
+        field(m.adjustment, max_adjustment_size);
+    }
+};
+
+enum class PlayAction : std::uint8_t {
+    pause = 1,
+    resume = 2,
+    seek = 3,  // to Play::position; goes on, or stays paused
+};
+
+// The participant plays the recording that the host shows to all. The host answers with Managed,
+// and with Playback to all.
+struct Play {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    PlayAction action{};
+    Duration position{};  // since the recording's first picture; kept within its length
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.action);
+        field(m.position);
+    }
+};
+
 // The participant asks for `count` bytes of this content from `offset` on. The host answers with
 // Content messages, in order.
 struct RequestContent {
@@ -260,6 +297,14 @@ struct RequestContent {
     }
 };
 
+// The participant agrees that others record its voice from now on, or no longer. Until it agrees
+// the host sends its voice to no recorder.
+struct VoiceConsent {
+    bool may_record = false;
+
+    static void fields(auto& m, auto&& field) { field(m.may_record); }
+};
+
 struct Camera {
     CameraId id{};
     std::string name;
@@ -272,6 +317,8 @@ struct Camera {
     SessionId session{};        // to which it belongs
     bool may_record = false;    // as in OfferedCamera; always for the host's own
     CameraFrame frame{};
+    // The changes by operators (session/camera_adjustment.h); the calibration contains it.
+    Bytes adjustment;
 
     static void fields(auto& m, auto&& field) {
         field(m.id);
@@ -285,6 +332,7 @@ struct Camera {
         field(m.session);
         field(m.may_record);
         field(m.frame);
+        field(m.adjustment, max_adjustment_size);
     }
 };
 
@@ -541,9 +589,14 @@ enum class ManageRefusal : std::uint8_t {
     still_waiting = 4,  // it must be admitted first
     yourself = 5,
     too_often = 6,
+    no_such_camera = 7,    // or one that cannot be adjusted
+    beyond_limits = 8,     // of a camera's adjustment
+    adjusting_role = 9,    // the sender may not adjust cameras
+    playing_role = 10,     // the sender may not play the recording
+    nothing_to_play = 11,  // the host plays no recording
 };
 
-// The host has decided on the operator's Manage of this number.
+// The host has decided on the sender's Manage, AdjustCamera or Play of this number.
 struct Managed {
     std::uint32_t number = 0;
     ManageRefusal refusal{};
@@ -597,13 +650,41 @@ struct Content {
     }
 };
 
+// A known camera is described anew: an operator has adjusted it. Its number and its streams are the
+// same.
+struct CameraChanged {
+    Camera camera;
+
+    static void fields(auto& m, auto&& field) { field(m.camera); }
+};
+
+// Where the recording is that the host plays, after Welcome and whenever it does not just go on.
+struct Playback {
+    Duration position{};  // since its first picture, at session time `at`
+    TimePoint at;
+    Duration length{};
+    bool paused = false;
+    std::string by;  // who changed it; empty: nobody
+    bool operator==(const Playback&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.position);
+        field(m.at);
+        field(m.length);
+        field(m.paused);
+        field(m.by, max_name);
+    }
+};
+
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
-                            Unpublish, CameraState, RoomRequest, Manage, RequestContent>;
-using ToParticipant = std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer,
-                                   Refused, Goodbye, CamerasAdded, CamerasRemoved, Published,
-                                   Encode, EncodeKey, RoomSnapshot, RoomChange, RoomDecision,
-                                   Waiting, Standing, Visitors, Managed, OfferedCases, Content>;
+                            Unpublish, CameraState, RoomRequest, Manage, RequestContent,
+                            VoiceConsent, AdjustCamera, Play>;
+using ToParticipant =
+    std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
+                 CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
+                 RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed, OfferedCases,
+                 Content, CameraChanged, Playback>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

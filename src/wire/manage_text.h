@@ -21,6 +21,11 @@ static_assert(code_of(ManageRefusal::not_waiting) == TextCode::person_is_in);
 static_assert(code_of(ManageRefusal::still_waiting) == TextCode::person_waits);
 static_assert(code_of(ManageRefusal::yourself) == TextCode::not_on_yourself);
 static_assert(code_of(ManageRefusal::too_often) == TextCode::decided_too_often);
+static_assert(code_of(ManageRefusal::no_such_camera) == TextCode::adjusted_camera_gone);
+static_assert(code_of(ManageRefusal::beyond_limits) == TextCode::beyond_adjustment);
+static_assert(code_of(ManageRefusal::adjusting_role) == TextCode::operators_adjust);
+static_assert(code_of(ManageRefusal::playing_role) == TextCode::role_plays_not);
+static_assert(code_of(ManageRefusal::nothing_to_play) == TextCode::nothing_to_play);
 
 // A sentence; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {

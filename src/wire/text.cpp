@@ -110,7 +110,7 @@ constexpr Row rows[] = {
     {TextCode::not_held, "You no longer hold this"},
     {TextCode::role_forbids, "Your role does not allow this"},
     {TextCode::person_gone, "That person has left"},
-    {TextCode::room_full, "The room holds no more objects"},
+    {TextCode::room_full, "The room holds no more objects, or no more of yours: remove some first"},
     {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
     {TextCode::room_too_often, "That was too much at once; try again"},
     {TextCode::part_of_recording, "Only the recording moves this"},
@@ -124,6 +124,13 @@ constexpr Row rows[] = {
     {TextCode::person_waits, "That person must be let in first."},
     {TextCode::not_on_yourself, "Another operator must do this for you."},
     {TextCode::decided_too_often, "Those were too many decisions at once; try again."},
+    {TextCode::adjusted_camera_gone, "That camera has left, or cannot be adjusted."},
+    {TextCode::beyond_adjustment,
+     "A camera can be moved by 0.3 m and turned by 15 degrees; beyond that, register it anew. Only "
+     "the host's own cameras have a region, and it lies in their picture."},
+    {TextCode::operators_adjust, "Only operators adjust cameras."},
+    {TextCode::role_plays_not, "Your role does not allow to play the recording."},
+    {TextCode::nothing_to_play, "This host plays no recording."},
 };
 
 constexpr bool is_in_order() {

@@ -101,6 +101,11 @@ enum class TextCode : std::uint16_t {
     person_waits = 603,
     not_on_yourself = 604,
     decided_too_often = 605,
+    adjusted_camera_gone = 606,
+    beyond_adjustment = 607,
+    operators_adjust = 608,
+    role_plays_not = 609,
+    nothing_to_play = 610,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;
@@ -126,7 +131,7 @@ bool is_known(TextCode code);
 Text as_written(std::string sentence);
 
 // The English text, from the table in text.cpp: most are sentences with a full stop; parts of a
-// step and its reasons are not, since several of them stand in one line. Of an unknown code: its
+// step and its reasons are not, since several of them stand in one line. An unknown code gives its
 // subject, its number and its arguments. Empty for TextCode::none.
 std::string english(const Text& text);
 

@@ -360,6 +360,24 @@ TEST(Control, EveryMessageRoundTrips) {
     const std::vector<Visitor> visitors{{ParticipantId{5}, "Ada", numbered(4), Role::expert}};
     EXPECT_EQ(round_trip(Visitors{visitors}).visitors, visitors);
     EXPECT_EQ(round_trip(Managed{9, ManageRefusal::yourself}).refusal, ManageRefusal::yourself);
+    EXPECT_EQ(round_trip(Managed{9, ManageRefusal::nothing_to_play}).refusal,
+              ManageRefusal::nothing_to_play);
+    const AdjustCamera adjusting = round_trip(AdjustCamera{4, CameraId{7}, Bytes(33)});
+    EXPECT_EQ(adjusting.camera, CameraId{7});
+    EXPECT_EQ(adjusting.adjustment, Bytes(33));
+    const Play seek = round_trip(Play{5, PlayAction::seek, 90s});
+    EXPECT_EQ(seek.action, PlayAction::seek);
+    EXPECT_EQ(seek.position, 90s);
+    const Playback playback{3s, from_us(12), 60s, true, "Anna"};
+    EXPECT_EQ(round_trip(playback), playback);
+    CameraChanged change;
+    change.camera.id = CameraId{3};
+    change.camera.adjustment = Bytes(33);
+    EXPECT_EQ(round_trip(change).camera.adjustment, Bytes(33));
+    for (const ToHost& wrong :
+         {ToHost(Play{1, PlayAction{0}, {}}), ToHost(Play{1, PlayAction{4}, {}}),
+          ToHost(AdjustCamera{1, {}, Bytes(max_adjustment_size + 1)})})
+        EXPECT_EQ(decode_to_host(encode(wrong)).error(), theatron::Status::malformed);
     for (const ToHost& wrong :
          {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{9}, {}, {}}),
           ToHost(Manage{1, ManageAction::mute, {}, Role{4}})})
@@ -379,7 +397,7 @@ TEST(Control, EveryMessageRoundTrips) {
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
     // The last kind there is.
-    const Bytes known = encode(Content{Bytes(content_hash_size), 0, 0, {}});
+    const Bytes known = encode(Playback{});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {
@@ -468,7 +486,7 @@ TEST(Control, RefusesMoreThanItsLimits) {
     EXPECT_TRUE(accepted(Welcome{1, {}, "", {camera}}));
     camera.calibration.push_back({});
     EXPECT_FALSE(accepted(Welcome{1, {}, "", {camera}}));
-    // Whatever is shared in a message: its largest form is within the stated memory.
+    // The largest form of a message is within the stated memory, also where its parts are shared.
     constexpr std::size_t bytes_a_character = 4;
     EXPECT_LE(max_cameras * (sizeof(Camera) + max_calibration_size + bytes_a_character * max_name),
               max_decoded_size);

@@ -67,6 +67,52 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::help};
         case SDLK_b:
             return KeyPress{Action::facts};
+        case SDLK_0:
+        case SDLK_KP_0:
+            return KeyPress{Action::from_above};
+        case SDLK_PLUS:
+        case SDLK_EQUALS:
+        case SDLK_KP_PLUS:
+            return KeyPress{Action::larger_points};
+        case SDLK_MINUS:
+        case SDLK_KP_MINUS:
+            return KeyPress{Action::smaller_points};
+        case SDLK_SPACE:
+            return KeyPress{Action::freeze};
+        case SDLK_F7:
+            return KeyPress{Action::push_to_talk};
+        case SDLK_F8:
+            return KeyPress{Action::voice_recording};
+        case SDLK_F9:
+            return KeyPress{Action::save_picture};
+        case SDLK_F10:
+            return KeyPress{Action::save_points};
+        case SDLK_F2:
+            return KeyPress{Action::camera_pictures};
+        case SDLK_F5:
+            return KeyPress{Action::pause_recording};
+        case SDLK_COMMA:
+            return KeyPress{Action::seek_back};
+        case SDLK_PERIOD:
+            return KeyPress{Action::seek_forward};
+        case SDLK_F6:
+            return KeyPress{Action::adjust_cameras};
+        case SDLK_LEFT:
+            return KeyPress{Action::nudge, 0, Nudge::left};
+        case SDLK_RIGHT:
+            return KeyPress{Action::nudge, 0, Nudge::right};
+        case SDLK_UP:
+            return KeyPress{Action::nudge, 0, Nudge::farther};
+        case SDLK_DOWN:
+            return KeyPress{Action::nudge, 0, Nudge::nearer};
+        case SDLK_PAGEUP:
+            return KeyPress{Action::nudge, 0, Nudge::up};
+        case SDLK_PAGEDOWN:
+            return KeyPress{Action::nudge, 0, Nudge::down};
+        case SDLK_LEFTBRACKET:
+            return KeyPress{Action::nudge, 0, Nudge::turn_left};
+        case SDLK_RIGHTBRACKET:
+            return KeyPress{Action::nudge, 0, Nudge::turn_right};
         case SDLK_F11:
             return KeyPress{Action::full_screen};
         case SDLK_TAB:
@@ -107,6 +153,54 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
         case SDLK_r:
         case SDLK_HOME:
             return KeyPress{Action::own_view};
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<FormKey> form_key(const SDL_Keysym& key) {
+    switch (key.sym) {
+        case SDLK_TAB:
+            return FormKey::tab;
+        case SDLK_LEFT:
+            return FormKey::left;
+        case SDLK_RIGHT:
+            return FormKey::right;
+        case SDLK_UP:
+            return FormKey::up;
+        case SDLK_DOWN:
+            return FormKey::down;
+        case SDLK_HOME:
+            return FormKey::home;
+        case SDLK_END:
+            return FormKey::end;
+        case SDLK_BACKSPACE:
+            return FormKey::backspace;
+        case SDLK_DELETE:
+            return FormKey::erase;
+        case SDLK_RETURN:
+        case SDLK_KP_ENTER:
+            return FormKey::enter;
+        case SDLK_SPACE:
+            return FormKey::space;
+        case SDLK_ESCAPE:
+            return FormKey::escape;
+        default:
+            break;
+    }
+    if (!(key.mod & KMOD_CTRL))
+        return std::nullopt;
+    switch (key.sym) {
+        case SDLK_a:
+            return FormKey::a;
+        case SDLK_c:
+            return FormKey::c;
+        case SDLK_v:
+            return FormKey::v;
+        case SDLK_x:
+            return FormKey::x;
+        case SDLK_z:
+            return FormKey::z;
         default:
             return std::nullopt;
     }
@@ -218,7 +312,53 @@ WindowInput DesktopWindow::poll() {
     const Uint8* held = SDL_GetKeyboardState(nullptr);
     input.aims_teleport = held[SDL_SCANCODE_T] != 0;
     input.points = held[SDL_SCANCODE_F] != 0;
+    input.talks = held[SDL_SCANCODE_RETURN] != 0 || held[SDL_SCANCODE_KP_ENTER] != 0;
     return input;
+}
+
+FormInput DesktopWindow::poll_form() {
+    FormInput input;
+    SDL_Event event;
+    while (SDL_PollEvent(&event)) {
+        if (event.type == parts_->wake_event) {
+            parts_->woken = false;
+        } else if (event.type == SDL_QUIT) {
+            input.close = true;
+        } else if (event.type == SDL_WINDOWEVENT) {
+            input.redraw = true;
+        } else if (event.type == SDL_TEXTINPUT) {
+            input.text += event.text.text;
+        } else if (event.type == SDL_KEYDOWN) {
+            const SDL_Keysym& pressed = event.key.keysym;
+            if (const auto key = form_key(pressed))
+                input.keys.push_back(
+                    {*key, (pressed.mod & KMOD_CTRL) != 0, (pressed.mod & KMOD_SHIFT) != 0});
+        } else if (event.type == SDL_MOUSEBUTTONDOWN) {
+            input.clicked = input.clicked || event.button.button == SDL_BUTTON_LEFT;
+        } else if (event.type == SDL_MOUSEMOTION || event.type == SDL_MOUSEBUTTONUP) {
+            input.redraw = true;
+        } else if (event.type == SDL_MOUSEWHEEL) {
+            input.wheel += event.wheel.preciseY;
+        }
+    }
+    int x = 0, y = 0;
+    const bool is_down = (SDL_GetMouseState(&x, &y) & SDL_BUTTON_LMASK) != 0;
+    if (SDL_GetMouseFocus() == parts_->window) {
+        input.pointer = parts_->shares_of(x, y);
+        input.is_down = is_down;
+    }
+    return input;
+}
+
+std::string DesktopWindow::clipboard() const {
+    char* const text = SDL_GetClipboardText();
+    const std::string copy = text ? text : "";
+    SDL_free(text);
+    return copy;
+}
+
+void DesktopWindow::set_clipboard(const std::string& text) {
+    SDL_SetClipboardText(text.c_str());
 }
 
 void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
@@ -234,9 +374,9 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
                 input.redraw = true;
             break;
         case SDL_KEYDOWN:
-            if (event.key.repeat == 0)
-                if (const auto key = pressed(event.key.keysym))
-                    input.keys.push_back(*key);
+            if (const auto key = pressed(event.key.keysym);
+                key && (event.key.repeat == 0 || key->action == Action::nudge))
+                input.keys.push_back(*key);
             break;
         case SDL_MOUSEMOTION: {
             const double height = window_height();
@@ -307,6 +447,17 @@ void DesktopWindow::set_title(const std::string& title) {
 
 void DesktopWindow::toggle_full_screen() {
     SDL_SetWindowFullscreen(parts_->window, is_full_screen() ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+}
+
+void DesktopWindow::fill_screen() {
+    SDL_ShowCursor(SDL_DISABLE);
+    SDL_Rect screen;
+    if (SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(parts_->window), &screen) == 0) {
+        SDL_SetWindowPosition(parts_->window, screen.x, screen.y);
+        SDL_SetWindowSize(parts_->window, screen.w, screen.h);
+    }
+    if (!is_full_screen())
+        toggle_full_screen();
 }
 
 bool DesktopWindow::is_full_screen() const {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "image/view.h"
+#include "xr/form_input.h"
 #include "xr/window_input.h"
 
 namespace theatron::xr {
@@ -30,6 +31,11 @@ public:
     void wake();
     // The input since the last call.
     WindowInput poll();
+    // The same as input into a form.
+    FormInput poll_form();
+    // The text of the desktop's clipboard; empty where there is none.
+    std::string clipboard() const;
+    void set_clipboard(const std::string& text);
 
     // False while the window cannot be seen, for example minimised.
     bool is_visible() const;
@@ -42,6 +48,9 @@ public:
     void set_title(const std::string& title);
     void toggle_full_screen();
     bool is_full_screen() const;
+    // For a screen that nobody handles: all of it, also where no window manager runs, and without
+    // a pointer.
+    void fill_screen();
 
     // Presents the drawn picture. Waits for the screen if the driver does so.
     void present();

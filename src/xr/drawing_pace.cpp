@@ -7,9 +7,6 @@
 namespace theatron::xr {
 namespace {
 
-constexpr Duration too_slow = 40ms;
-// A better mode is tried again if its expected time is below this, clearly less than too_slow.
-constexpr Duration has_room = 30ms;
 // When pictures take longer than `impatience` together, two of them decide instead of a full
 // window: the faster one, because the first picture of a new mode also compiles shaders.
 constexpr std::size_t least = 2;
@@ -18,6 +15,8 @@ constexpr Duration impatience = 600ms;
 constexpr double worthwhile = 0.85;
 // A failed return to a better mode is visible, so the next attempt waits twice as long.
 constexpr Duration first_patience = 2s, longest_patience = 256s;
+// The time of a mode that has not been tried, relative to the next cheaper one.
+constexpr double unknown_times_as_long = 2;
 // A return to a better mode counts as successful after this time.
 constexpr Duration held = 60s;
 
@@ -37,6 +36,12 @@ std::vector<DrawingWay> automatic_ways(std::size_t cameras, double scale) {
     return ways;
 }
 
+std::size_t begin_without_gpu(const std::vector<DrawingWay>& ways) {
+    const auto mesh = std::find_if(ways.begin(), ways.end(),
+                                   [](const DrawingWay& way) { return way.renderer == "mesh"; });
+    return mesh == ways.end() ? 0 : std::size_t(mesh - ways.begin());
+}
+
 std::vector<DrawingWay> ways_of(const std::string& renderer, double scale) {
     if (scale > 0)
         return {{renderer, 1, scale}};
@@ -46,9 +51,16 @@ std::vector<DrawingWay> ways_of(const std::string& renderer, double scale) {
     return ways;
 }
 
-DrawingPace::DrawingPace(std::vector<DrawingWay> ways)
-    : ways_(std::move(ways)), patience_(first_patience) {
-    assert(!ways_.empty());
+PaceLimits limits_of_display(double pictures_per_s) {
+    const Duration each(std::int64_t(1e6 / pictures_per_s));
+    return {each, each * 3 / 4};
+}
+
+DrawingPace::DrawingPace(std::vector<DrawingWay> ways, std::size_t begin, PaceLimits limits)
+    : ways_(std::move(ways)), limits_(limits), current_(begin), patience_(first_patience) {
+    assert(begin < ways_.size());
+    for (std::size_t better = 0; better < begin; ++better)
+        left_.push_back({better, unknown_times_as_long});
 }
 
 void DrawingPace::add(TimePoint now, Duration drawing) {
@@ -67,7 +79,7 @@ void DrawingPace::add(TimePoint now, Duration drawing) {
         came_up_ = false;
         patience_ = first_patience;
     }
-    if (median > too_slow)
+    if (median > limits_.too_slow)
         leave_slow_way(median, now);
     else if (better_way_fits(median, now)) {
         const std::size_t better = left_.back().way;
@@ -125,7 +137,7 @@ void DrawingPace::judge_trial(Duration median, TimePoint now) {
 
 bool DrawingPace::better_way_fits(Duration median, TimePoint now) const {
     return !left_.empty() && now - changed_at_ >= patience_ &&
-           double(median.count()) * left_.back().times_as_long < double(has_room.count());
+           double(median.count()) * left_.back().times_as_long < double(limits_.has_room.count());
 }
 
 }  // namespace theatron::xr

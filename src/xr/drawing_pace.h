@@ -31,13 +31,25 @@ struct DrawingWay {
 // points, so that "blend" with a quarter of the points shows more detail than "mesh" with all.
 // The driver decides which of these two is faster.
 std::vector<DrawingWay> automatic_ways(std::size_t cameras, double scale);
+// The place in automatic_ways() where a machine without a graphics card begins: the first "mesh".
+std::size_t begin_without_gpu(const std::vector<DrawingWay>& ways);
 // For a renderer that the viewer chose: fewer pixels, nothing else.
 std::vector<DrawingWay> ways_of(const std::string& renderer, double scale);
 
+// Drawing times above `too_slow` lead to a cheaper mode; a better one is tried again if its
+// expected time is below `has_room`, which is clearly less.
+struct PaceLimits {
+    Duration too_slow = 40ms, has_room = 30ms;
+};
+// For a display that shows `pictures_per_s` and has to get each of them in time.
+PaceLimits limits_of_display(double pictures_per_s);
+
 class DrawingPace {
 public:
-    // `ways` has at least one mode; the first one is the current one at the beginning.
-    explicit DrawingPace(std::vector<DrawingWay> ways);
+    // `ways` has at least one mode; the one at `begin` is the current one at the beginning. Better
+    // ones are tried when there seems to be time for them.
+    explicit DrawingPace(std::vector<DrawingWay> ways, std::size_t begin = 0,
+                         PaceLimits limits = {});
 
     const std::vector<DrawingWay>& ways() const { return ways_; }
     const DrawingWay& way() const { return ways_[current_]; }
@@ -58,6 +70,7 @@ private:
     bool better_way_fits(Duration median, TimePoint now) const;
 
     std::vector<DrawingWay> ways_;
+    PaceLimits limits_;
     std::size_t current_ = 0;
 
     std::array<Duration, window> times_{};

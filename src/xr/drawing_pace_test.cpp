@@ -58,6 +58,22 @@ TEST(DrawingPace, AFastMachineDrawsTheBestPicture) {
     EXPECT_EQ(viewer.changes, 0);
 }
 
+TEST(DrawingPace, AHeadsetsDisplayNeedsEachPictureInTime) {
+    const PaceLimits limits = limits_of_display(90);
+    DrawingPace pace(automatic_ways(1, 0), 0, limits);
+    const DrawingWay best = pace.way();
+    TimePoint now{};
+    const auto draw = [&](Duration time, int pictures) {
+        for (int i = 0; i < pictures; ++i)
+            pace.add(now += time, time);
+    };
+    draw(10ms, 100);
+    EXPECT_EQ(pace.way(), best);  // a ninetieth of a second is 11.1 ms
+    draw(14ms, 12);
+    EXPECT_FALSE(pace.way() == best);
+    EXPECT_EQ(DrawingPace(automatic_ways(1, 0)).way(), best);
+}
+
 TEST(DrawingPace, OneCameraIsDrawnAsAMesh) {
     for (const DrawingWay& way : automatic_ways(1, 0))
         EXPECT_EQ(way.renderer, "mesh");
@@ -140,6 +156,22 @@ TEST(DrawingPace, WhatFailsAgainAndAgainIsTriedEverLessOften) {
     };
     EXPECT_LE(changes_in_ten_minutes(), 30);
     EXPECT_LE(changes_in_ten_minutes(), 8);
+}
+
+TEST(DrawingPace, WithoutAGraphicsCardItBeginsSimplyAndGoesUpWhereThereIsTime) {
+    const auto ways = automatic_ways(2, 0);
+    Viewer viewer(ways);
+    viewer.pace = DrawingPace(ways, begin_without_gpu(ways));
+    EXPECT_EQ(viewer.pace.way(), (DrawingWay{"mesh", 1, 1}));
+    viewer.watch([](const DrawingWay&) { return Duration(5ms); }, 20s);
+    EXPECT_EQ(viewer.pace.way(), ways.front());
+
+    viewer.pace = DrawingPace(ways, begin_without_gpu(ways));
+    viewer.used.clear();
+    viewer.watch(
+        [](const DrawingWay& way) { return way.scale < 1 ? Duration(20ms) : Duration(80ms); }, 20s);
+    EXPECT_EQ(viewer.used, std::set<std::string>{"mesh"});
+    EXPECT_EQ(begin_without_gpu(ways_of("blend", 0)), 0u);
 }
 
 TEST(DrawingPace, OneSlowPictureChangesNothing) {

@@ -10,7 +10,7 @@
 
 #include "render/room_picture.h"
 #include "render/test_context.h"
-#include "xr/font.h"
+#include "xr/imgui_fonts_native.h"
 #include "xr/imgui_pass_native.h"
 
 namespace theatron::xr {
@@ -27,14 +27,8 @@ protected:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.DisplaySize = {64, 32};  // half of the panel's pixels: it is spread over all of them
-        const auto font = text_font();
-        ImFontConfig config;
-        config.FontDataOwnedByAtlas = false;
-        io.Fonts->AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), int(font.size()), 14,
-                                       &config);
-        io.Fonts->Build();
         pass.emplace();
-        pass->upload_fonts();
+        set_fonts(*pass, {14, 20, 28});
         texture.emplace(panel_size);
     }
     void TearDown() override {

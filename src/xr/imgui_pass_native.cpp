@@ -25,14 +25,18 @@ void main() {
 }
 )";
 
-// The texture holds how much of a pixel a letter covers; areas use one that is covered.
+// The texture holds how much of a pixel a letter covers; areas use one that is covered. A texture
+// with colours is a picture.
 constexpr const char* fragment_shader = R"(
 uniform sampler2D glyphs;
+uniform bool has_colors;
 in vec2 v_glyph;
 in vec4 v_color;
 out vec4 out_color;
 void main() {
-    out_color = vec4(v_color.rgb, v_color.a * texture(glyphs, v_glyph).r);
+    vec4 texel = texture(glyphs, v_glyph);
+    out_color = has_colors ? vec4(v_color.rgb * texel.rgb, v_color.a)
+                           : vec4(v_color.rgb, v_color.a * texel.r);
 }
 )";
 
@@ -60,6 +64,7 @@ ImGuiPass::ImGuiPass() {
         throw Error("The graphics driver does not accept the shaders of the texts.");
     window_uniform_ = glGetUniformLocation(program_.name(), "window");
     upwards_uniform_ = glGetUniformLocation(program_.name(), "upwards");
+    has_colors_uniform_ = glGetUniformLocation(program_.name(), "has_colors");
 
     glBindVertexArray(vertex_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -88,6 +93,10 @@ void ImGuiPass::draw(const ImDrawData& data) {
     draw(data, Picture{0, {int(data.DisplaySize.x), int(data.DisplaySize.y)}, false});
 }
 
+void ImGuiPass::draw(const ImDrawData& data, const render::DrawTarget& target) {
+    draw(data, Picture{target.framebuffer, target.size, false});
+}
+
 void ImGuiPass::draw(const ImDrawData& data, render::SceneTexture& panel, Rgb background) {
     const render::DrawTarget target = panel.target();
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
@@ -114,7 +123,6 @@ void ImGuiPass::draw(const ImDrawData& data, const Picture& picture) {
     const float scale_x = float(picture.size.width) / data.DisplaySize.x;
     const float scale_y = float(picture.size.height) / data.DisplaySize.y;
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, fonts_.name());
     glBindVertexArray(vertex_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
     for (int i = 0; i < data.CmdListsCount; ++i) {
@@ -124,6 +132,9 @@ void ImGuiPass::draw(const ImDrawData& data, const Picture& picture) {
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(list.IdxBuffer.size_in_bytes()),
                      list.IdxBuffer.Data, GL_STREAM_DRAW);
         for (const ImDrawCmd& command : list.CmdBuffer) {
+            const auto picture_name = GLuint(reinterpret_cast<std::uintptr_t>(command.GetTexID()));
+            glBindTexture(GL_TEXTURE_2D, picture_name != 0 ? picture_name : fonts_.name());
+            glUniform1i(has_colors_uniform_, picture_name != 0);
             const ImVec4 clip = command.ClipRect;  // left, top, right, bottom
             const float first_row = picture.first_row_on_top ? clip.y : data.DisplaySize.y - clip.w;
             glScissor(GLint(clip.x * scale_x), GLint(first_row * scale_y),

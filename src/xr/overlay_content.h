@@ -3,8 +3,14 @@
 // middle, notices, and the help.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "geometry/vec.h"
+#include "image/image.h"
 
 namespace theatron::xr {
 
@@ -23,9 +29,16 @@ struct PanelButton {
 
     bool operator==(const PanelButton&) const = default;
 };
+struct PanelSlider {
+    double value = 0, lowest = 0, highest = 1;
+    int command = 0;  // likewise, with the value
+
+    bool operator==(const PanelSlider&) const = default;
+};
 struct PanelRow {
-    std::string text, detail;  // the detail is smaller and below
+    std::string text, detail;  // the detail is smaller and below, in one or several lines
     std::vector<PanelButton> buttons;
+    std::optional<PanelSlider> slider = {};  // left of the buttons
 
     bool operator==(const PanelRow&) const = default;
 };
@@ -36,6 +49,18 @@ struct Panel {
     bool operator==(const Panel&) const = default;
 };
 
+// A plain picture at the right, with a legend of its colours below it if it needs one.
+struct OverlayPicture {
+    std::string title;
+    std::shared_ptr<const ColorImage> pixels;  // never null
+    std::vector<Rgb> legend;                   // its colours from left to right; empty: none
+    std::string legend_from, legend_to;        // the values of the first and the last colour
+    bool large = false;                        // alone in the middle
+    int command = 0;                           // of a click on it, as for buttons
+
+    bool operator==(const OverlayPicture&) const = default;
+};
+
 struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
@@ -43,7 +68,11 @@ struct OverlayContent {
     std::string warning;  // at the top, while its cause lasts
     std::string notice;   // below it, for a recent event
     bool help = false;
-    std::vector<Panel> panels;  // below each other
+    std::vector<Panel> panels;             // below each other
+    std::vector<OverlayPicture> pictures;  // in rows of three, or a large one
+    // That is being drawn with the mouse: two corners, in shares of the window's width and height.
+    std::optional<std::pair<Vec2, Vec2>> rectangle = {};
+    std::optional<PanelRow> bar = {};  // above the facts, as wide as the window
 
     bool operator==(const OverlayContent&) const = default;
 };

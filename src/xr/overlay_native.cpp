@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "xr/font.h"
-#include "xr/imgui_pass_native.h"
+#include "xr/imgui_fonts_native.h"
+#include "xr/overlay_pictures_native.h"
 #include "xr/window_input.h"
 
 namespace theatron::xr {
@@ -20,9 +20,6 @@ constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
 constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
 constexpr ImU32 button_color = IM_COL32(52, 66, 84, 255);
 constexpr ImU32 key_color = IM_COL32(140, 205, 255, 255);
-
-// Latin, Greek and Cyrillic letters, and the signs of our own texts.
-constexpr ImWchar glyphs[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x52f, 0x2010, 0x2027, 0};
 
 // Windows narrower than this, in half text heights, show one row of facts.
 constexpr float small_window_units = 80;
@@ -71,6 +68,10 @@ struct Overlay::Parts {
     std::vector<Area> panel_areas;
     std::vector<std::string> panel_titles;  // of each of them
     std::vector<std::pair<Area, int>> buttons;
+    std::vector<std::pair<Area, PanelSlider>> sliders;
+    void slider(const PanelSlider& slider, const Area& place);
+    float bar(const PanelRow& row, float bottom);
+    OverlayPictures pictures;
     ImVec2 pixel_at(Vec2 place) const {
         return {float(place.x) * window.x, float(place.y) * window.y};
     }
@@ -81,22 +82,8 @@ struct Overlay::Parts {
 };
 
 void Overlay::Parts::make_fonts(double pixels) {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    atlas.Clear();
-    const auto font = text_font();
-    const auto add = [&](double size) {
-        ImFontConfig config;
-        config.FontDataOwnedByAtlas = false;
-        config.OversampleH = 2;
-        // ImGui takes a writable pointer and leaves the data alone.
-        return atlas.AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), int(font.size()),
-                                          float(std::round(size)), &config, glyphs);
-    };
-    small = add(pixels * 0.8);
-    normal = add(pixels);
-    large = add(pixels * 1.9);
-    atlas.Build();
-    pass.upload_fonts();
+    const auto fonts = set_fonts(pass, {pixels * 0.8, pixels, pixels * 1.9});
+    small = fonts[0], normal = fonts[1], large = fonts[2];
     text_pixels = pixels;
 }
 
@@ -189,11 +176,54 @@ void Overlay::Parts::help(float bottom) const {
     }
 }
 
+void Overlay::Parts::slider(const PanelSlider& slider, const Area& place) {
+    const float y = (place.from.y + place.to.y) / 2;
+    const auto at = [&](double value) {
+        const double share = (value - slider.lowest) / (slider.highest - slider.lowest);
+        return place.from.x + float(std::clamp(share, 0.0, 1.0)) * (place.to.x - place.from.x);
+    };
+    const float thin = 0.2f * unit, knob = 0.65f * unit;
+    list->AddRectFilled({place.from.x, y - thin}, {place.to.x, y + thin}, button_color, thin);
+    if (slider.lowest < 0 && slider.highest > 0)
+        list->AddRectFilled({at(0) - thin / 2, y - knob}, {at(0) + thin / 2, y + knob},
+                            label_color);
+    list->AddCircleFilled({at(slider.value), y}, knob, key_color);
+    sliders.push_back({place, slider});
+}
+
+// Returns the height of all that is at the bottom.
+float Overlay::Parts::bar(const PanelRow& row, float bottom) {
+    const float gap = 0.7f * unit, height = normal->FontSize + 3 * gap;
+    const Area area{{0, window.y - bottom - height}, {window.x, window.y - bottom}};
+    list->AddRectFilled(area.from, area.to, bar_color);
+    panel_areas.push_back(area);
+    panel_titles.emplace_back();
+    const float top = area.from.y + gap, middle = area.from.y + height / 2;
+    float x = 1.2f * unit;
+    for (const PanelButton& button : row.buttons) {
+        const float wide = measure(small, button.label).x + 2 * gap;
+        const Area place{{x, top}, {x + wide, area.to.y - gap}};
+        list->AddRectFilled(place.from, place.to, button_color, 0.5f * unit);
+        text(small, {x + gap, middle - small->FontSize / 2}, key_color, button.label);
+        buttons.push_back({place, button.command});
+        x += wide + gap;
+    }
+    text(normal, {x + gap, middle - normal->FontSize / 2}, text_color, row.text);
+    x += measure(normal, row.text).x + 3 * gap;
+    const float right = measure(small, row.detail).x;
+    const float end = window.x - 1.2f * unit - (right > 0 ? right + 2 * gap : 0);
+    if (row.slider && end - x > 8 * unit)
+        slider(*row.slider, {{x + gap, top}, {end, area.to.y - gap}});
+    text(small, {window.x - 1.2f * unit - right, middle - small->FontSize / 2}, label_color,
+         row.detail);
+    return bottom + height;
+}
+
 // Rows that do not fit above `bottom` are left out, and a last line says how many. The mouse wheel
 // shows them.
 void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
     const float padding = 1.4f * unit, gap = 0.7f * unit, left = 1.5f * unit;
-    const float button_height = normal->FontSize + gap;
+    const float button_height = normal->FontSize + gap, slider_width = 22 * unit;
     float top = 1.5f * unit;
     const auto button_width = [&](const PanelButton& button) {
         return measure(small, button.label).x + 2 * gap;
@@ -204,12 +234,15 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
             float buttons_width = 0;
             for (const PanelButton& button : row.buttons)
                 buttons_width += button_width(button) + gap;
+            if (row.slider)
+                buttons_width += slider_width + 2 * gap;
             width = std::max({width, measure(normal, row.text).x + buttons_width + 2 * padding,
                               measure(small, row.detail).x});
         }
         width = std::min(width, window.x - 2 * (left + padding));
         const auto row_height = [&](const PanelRow& row) {
-            return button_height + (row.detail.empty() ? 0 : small->FontSize) + gap;
+            const auto lines = std::count(row.detail.begin(), row.detail.end(), '\n') + 1;
+            return button_height + (row.detail.empty() ? 0 : float(lines) * small->FontSize) + gap;
         };
         const float room = window.y - bottom - top - 2 * padding - normal->FontSize - gap;
         const auto fits = [&](float height) { return height + small->FontSize <= room; };
@@ -251,6 +284,11 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
                 buttons.push_back({place, button->command});
                 x -= wide + gap;
             }
+            if (row.slider) {
+                x -= gap;
+                slider(*row.slider, {{x - slider_width, y}, {x, y + button_height}});
+                x -= slider_width + gap;
+            }
             list->PushClipRect({left + padding, y}, {x, y + row_height(row)}, true);
             text(normal, {left + padding, y + gap / 2}, text_color, row.text);
             list->PopClipRect();
@@ -269,7 +307,8 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
 bool Overlay::covers(Vec2 place) const {
     const ImVec2 pixel = parts_->pixel_at(place);
     return std::any_of(parts_->panel_areas.begin(), parts_->panel_areas.end(),
-                       [&](const Parts::Area& area) { return area.has(pixel); });
+                       [&](const Parts::Area& area) { return area.has(pixel); }) ||
+           parts_->pictures.command_at(pixel);
 }
 
 void Overlay::scroll(Vec2 place, double rows) {
@@ -284,6 +323,15 @@ std::optional<int> Overlay::command_at(Vec2 place) const {
     for (const auto& [area, command] : parts_->buttons)
         if (area.has(pixel))
             return command;
+    return parts_->pictures.command_at(pixel);
+}
+
+std::optional<Overlay::Slider> Overlay::slider_at(Vec2 place) const {
+    const ImVec2 pixel = parts_->pixel_at(place);
+    for (const auto& [area, slider] : parts_->sliders)
+        if (area.has(pixel))
+            return Slider{slider.command, area.from.x / parts_->window.x,
+                          area.to.x / parts_->window.x, slider.lowest, slider.highest};
     return std::nullopt;
 }
 
@@ -302,11 +350,20 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     ImGui::NewFrame();
     p.list = ImGui::GetForegroundDrawList();
 
-    const float bottom = p.facts(content.facts);
+    float bottom = p.facts(content.facts);
     p.panel_areas.clear();
     p.panel_titles.clear();
-    p.panel_titles.clear();
     p.buttons.clear();
+    p.sliders.clear();
+    if (content.rectangle) {
+        const auto [from, to] = *content.rectangle;
+        p.list->AddRect(p.pixel_at({std::min(from.x, to.x), std::min(from.y, to.y)}),
+                        p.pixel_at({std::max(from.x, to.x), std::max(from.y, to.y)}), warning_color,
+                        0, 0, 0.2f * p.unit);
+    }
+    if (content.bar)
+        bottom = p.bar(*content.bar, bottom);
+    p.pictures.draw(*p.list, *p.small, p.unit, {p.window.x, p.window.y - bottom}, content.pictures);
     p.panels(content.panels, bottom);
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);

@@ -2,6 +2,7 @@
 // Draws the texts over the picture.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -22,8 +23,21 @@ public:
     void draw(const OverlayContent& content, Size window, double text_pixels);
 
     // The last picture at this place, in shares of the window's width and height.
-    bool covers(Vec2 place) const;                    // a panel
-    std::optional<int> command_at(Vec2 place) const;  // of a panel's button
+    bool covers(Vec2 place) const;                    // a panel or a plain picture
+    std::optional<int> command_at(Vec2 place) const;  // of a panel's button or a plain picture
+
+    // A slider of a panel in the last picture: its command, and what the mouse chooses with it.
+    struct Slider {
+        int command = 0;
+        double from = 0, to = 1;  // its ends, in shares of the window's width
+        double lowest = 0, highest = 1;
+
+        double value_at(Vec2 place) const {
+            const double share = std::clamp((place.x - from) / (to - from), 0.0, 1.0);
+            return lowest + share * (highest - lowest);
+        }
+    };
+    std::optional<Slider> slider_at(Vec2 place) const;
 
     // Moves the rows of the panel at this place, which may have more of them than fit. `rows` > 0:
     // later ones come into sight. The next picture shows it.

@@ -23,23 +23,41 @@ enum class Action {
     give,       // gives the held object to the nearest person
     remove,     // removes the held object
     sit_or_stand,
-    microphone,   // closes or opens it
-    people,       // shows or hides the panel of people and places
-    show_case,    // shows or hides the panel of the case
-    marks,        // begins or ends marking, and shows or hides its panel
-    undo_mark,    // removes this person's newest mark
-    slice_here,   // moves the slice to the place of an organ under the mouse
-    admit,        // for operators: lets in the person who has waited longest
-    turn_away,    // the opposite
-    call,         // asks the others to come, or no longer does
-    come,         // goes to the person who asks for that
-    own_view,     // back to the camera's own view
-    view_camera,  // `camera` of the key press
+    microphone,       // closes or opens it
+    push_to_talk,     // speak only while a key is held, or with an open microphone
+    voice_recording,  // agrees that others record this person's voice, or no longer
+    people,           // shows or hides the panel of people and places
+    show_case,        // shows or hides the panel of the case
+    marks,            // begins or ends marking, and shows or hides its panel
+    undo_mark,        // removes this person's newest mark
+    slice_here,       // moves the slice to the place of an organ under the mouse
+    admit,            // for operators: lets in the person who has waited longest
+    turn_away,        // the opposite
+    call,             // asks the others to come, or no longer does
+    come,             // goes to the person who asks for that
+    camera_pictures,  // shows or hides the plain pictures of the cameras
+    from_above,       // to a place high above
+    larger_points,
+    smaller_points,
+    pause_recording,  // that the host plays, for all; or goes on
+    seek_back,        // in that
+    seek_forward,
+    adjust_cameras,  // shows or hides the panel of cameras, for operators
+    nudge,           // `nudge` of the key press: the chosen camera, while that panel is shown
+    freeze,          // keeps the picture of the cameras, or no longer does
+    save_picture,    // of what is seen, into a file
+    save_points,     // of what the cameras see, into a file
+    own_view,        // back to the camera's own view
+    view_camera,     // `camera` of the key press
 };
+
+// A small step of a camera, in the room as the person sees it.
+enum class Nudge { left, right, up, down, nearer, farther, turn_left, turn_right };
 
 struct KeyPress {
     Action action{};
     int camera = 0;  // counted from 0
+    Nudge nudge{};
 };
 
 struct WindowInput {
@@ -54,8 +72,10 @@ struct WindowInput {
     // The mouse, in the same shares, if it is in the window; and whether the key for teleports is
     // down.
     std::optional<Vec2> pointer;
+    bool pointer_covered = false;  // by a panel
     bool aims_teleport = false;
     bool points = false;  // the key for pointing is down
+    bool talks = false;   // the key of push to talk is down
     Steering steering;
 };
 

@@ -16,18 +16,21 @@ CHROMIUM = shutil.which("chromium")
 
 
 class Browser:
-    """One Chromium with a fresh profile. Certificates are not checked: hosts in tests make their own."""
+    """One Chromium with a fresh profile. Certificates are not checked: hosts in tests make their own.
+    `prefix`: words of a command that starts it."""
 
-    def __init__(self, *options):
+    def __init__(self, *options, prefix=()):
         self.profile = tempfile.TemporaryDirectory(prefix="theatron_browser_", ignore_cleanup_errors=True)
         child_reads, self.commands = os.pipe()
         self.answers, child_writes = os.pipe()
         # The protocol's pipes are the descriptors 3 and 4 of the browser.
         self.process = subprocess.Popen(
-            ["bash", "-c", f'exec "$@" 3<&{child_reads} 4>&{child_writes}', "bash", CHROMIUM,
+            ["bash", "-c", f'exec "$@" 3<&{child_reads} 4>&{child_writes}', "bash", *prefix, CHROMIUM,
              "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
              "--use-angle=gles-egl", "--ignore-gpu-blocklist", "--ignore-certificate-errors",
-             "--no-first-run", "--disable-background-networking", "--lang=en-US",
+             "--no-first-run", "--disable-background-networking",
+             # A test's clicks by script are no gestures of a person.
+             "--autoplay-policy=no-user-gesture-required", "--lang=en-US",
              "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", *options, "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=(child_reads, child_writes),
             start_new_session=True)
@@ -140,9 +143,11 @@ class Page:
                   buttons=0 if kind == "mouseReleased" else held, clickCount=int(kind in ("mousePressed", "mouseReleased")),
                   **more)
 
-    def press(self, key, code):
+    def press(self, key, code, number=0, text=""):
+        """`number` and `text` are needed where the browser itself acts on the key."""
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code, windowsVirtualKeyCode=number,
+                      **({"text": text} if text and kind == "keyDown" else {}))
 
     def reload(self):
         self.call("Page.reload")

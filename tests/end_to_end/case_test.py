@@ -8,7 +8,7 @@ import struct
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, wait_until
+from theatron_process import Process, host, make_recording, read_png, run, wait_until, write_png
 
 
 def sphere(radius, middle, rings=24):
@@ -45,8 +45,13 @@ def images(columns=64, rows=64, slices=32, step=(3.0, 3.0, 5.0)):
     return header + struct.pack(f"<{len(samples)}h", *samples)
 
 
-def write_case(folder, name="Made liver", tumour=True, more_parts=0):
-    """A shell, a vessel, and a tumour inside; a matching series."""
+def picture(color, width=40, height=30):
+    """The bytes of a picture (docs/formats/case_picture.md) in one colour."""
+    return b"THPI" + struct.pack("<BB2xII", 1, 3, width, height) + bytes(color) * (width * height)
+
+
+def write_case(folder, name="Made liver", tumour=True, more_parts=0, pictures=()):
+    """A shell, a vessel, and a tumour inside; a matching series; pictures of these colours."""
     folder.mkdir(parents=True)
     parts = [("liver", "shell", "#b25c4a", 0.35, sphere(80, (0, 0, 0))),
              ("portal vein", "portal_vein", "#466ed2", 1, sphere(12, (20, 0, 0)))]
@@ -59,6 +64,10 @@ def write_case(folder, name="Made liver", tumour=True, more_parts=0):
     for number, (part, role, color, opacity, mesh) in enumerate(parts):
         (folder / f"part_{number}.thmesh").write_bytes(mesh)
         manifest["parts"].append({"name": part, "role": role, "file": f"part_{number}.thmesh", "color": color, "opacity": opacity})
+    if pictures:
+        manifest.update({"theatron_case": 2, "pictures": [{"name": f"picture {i}", "file": f"{i}.thpicture"} for i in range(len(pictures))]})
+    for i, color in enumerate(pictures):
+        (folder / f"{i}.thpicture").write_bytes(picture(color))
     (folder / "ct.thvolume").write_bytes(images())
     (folder / "identifiers.json").write_text('{"name": "Doe^Jane"}')
     (folder / "identifiers.json").chmod(0o600)
@@ -151,7 +160,7 @@ class Case(unittest.TestCase):
         cut = write_case(self.cases / "cut", "Cut")
         (cut / "ct.thvolume").write_bytes((cut / "ct.thvolume").read_bytes()[:5000])
         newer = write_case(self.cases / "newer", "Newer")
-        (newer / "case.json").write_text((newer / "case.json").read_text().replace('"theatron_case": 1', '"theatron_case": 2'))
+        (newer / "case.json").write_text((newer / "case.json").read_text().replace('"theatron_case": 1', '"theatron_case": 3'))
         write_case(self.cases / "whole", "Whole")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
@@ -220,6 +229,54 @@ class Case(unittest.TestCase):
             anna.say("case cut")
             anna.wait_for(lambda f: f["cases"]["open"]["cut"], 10)
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
+
+    def test_pictures_are_imported_stepped_through_and_seen_by_all(self):
+        source = self.folder / "source"
+        source.mkdir()
+        for name, color in (("a red", (200, 20, 20)), ("b green", (20, 190, 30))):
+            write_png(source / f"{name}.png", 300, 200, 8, 3, [bytes(color) * 300] * 200)
+        code, out, errors = run("case", "import", source, self.cases / "pictures", "--name", "Pictures")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("picture: a red\npicture: b green\n", out)
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.say("case open Pictures")
+            for person in (anna, ben):
+                person.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] == 1, 20)
+
+            def count(name, is_it):
+                with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240", "--quality", "low",
+                             "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                width, height, channels, rows = read_png(self.folder / name)
+                return sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
+
+            self.assertGreater(count("red.png", lambda r, g, b: r > 150 and g < 60 and b < 60), 500)
+            for line, problem in (("case picture 3", "The number is a number from 1 to 2"), ("case series 1", "no images")):
+                ben.say(line)
+                self.wait_for_error(ben, problem)
+            ben.say("case picture 2")
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 2, 10)
+            self.assertGreater(count("green.png", lambda r, g, b: g > 140 and r < 60 and b < 70), 500)
+            # A case with both: slices first, pictures by a line, slices again.
+            write_case(self.cases / "liver", pictures=[(200, 100, 90)])
+            anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"], 10)
+            anna.say("case open Made liver")
+            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] is None, 20)
+            ben.say("case picture 1")
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 1, 10)
+            anna.say("case slice coronal")
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] is None and f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            # One presents; then it is everybody's again.
+            anna.say("case present")
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == anna.newest_json()["room"]["self"], 10)
+            ben.say("case slice sagittal")
+            self.wait_for_error(ben, "Somebody else holds this")
+            anna.say("case slice axial")
+            anna.say("case present off")
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == 0 and f["cases"]["open"]["screen"]["orientation"] == 0, 10)
+            ben.say("case slice sagittal")
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 2, 10)
 
     def test_a_recording_replays_the_case(self):
         write_case(self.cases / "liver")

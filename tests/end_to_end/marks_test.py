@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Marks in the shared room: all see the same, they survive the host and replay, and nobody marks in another's name."""
 import json
+import os
 import pathlib
 import shutil
 import struct
@@ -49,7 +50,12 @@ class Marks(unittest.TestCase):
         return anna.newest_json()["cases"]["open"]
 
     def test_two_see_the_same_marks_which_survive_a_restart_of_the_host(self):
-        with self.start() as h, member(h.greeting["link"], "Anna Lind") as anna, member(h.greeting["links"]["operator"], "Ben") as ben:
+        def own(name):
+            """A person's own id, which the person's program keeps."""
+            return {"env": {**os.environ, "XDG_STATE_HOME": str(self.folder / name)}}
+
+        with self.start() as h, member(h.greeting["link"], "Anna Lind", **own("anna")) as anna, \
+                member(h.greeting["links"]["operator"], "Ben", **own("ben")) as ben:
             case = self.open_case(anna, ben)
             screen, part = case["screen"]["object"], parts_of(anna.newest_json())["liver"]["object"]
             anna.say("mark stroke 0 1 0 0.1 1 0 0.1 1.1 0")
@@ -73,11 +79,19 @@ class Marks(unittest.TestCase):
             kept = marks(ben.wait_for(lambda f: len(marks(f)) == 3, 10))
             h.process.terminate()
             self.assertEqual(h.end(), 0)
-        with self.start() as h, member(h.greeting["link"], "Anna Lind") as anna, member(h.greeting["links"]["operator"], "Ben") as ben:
-            self.assertEqual(marks(anna.wait_for(lambda f: len(marks(f)) == 3, 20)), kept)
-            self.assertEqual(marks(ben.wait_for(lambda f: len(marks(f)) == 3, 20)), kept)
+        with self.start() as h, member(h.greeting["link"], "Cleo", **own("cleo")) as cleo, \
+                member(h.greeting["link"], "Anna Lind", **own("anna")) as anna, \
+                member(h.greeting["links"]["operator"], "Ben", **own("ben")) as ben:
+            for person in (cleo, anna, ben):
+                self.assertEqual(marks(person.wait_for(lambda f: len(marks(f)) == 3 and len(people(f)) == 3, 20)), kept)
+            # Nobody takes over the marks of others, their authors remove their own.
+            cleo.say("mark undo")
+            self.wait_for_error(cleo, "There is no such mark")
+            anna.say("mark pin 0 1 0")
+            anna.wait_for(lambda f: len(marks(f)) == 4, 10)
             anna.say("mark undo")
-            self.wait_for_error(anna, "There is no such mark")
+            anna.say("mark undo")
+            anna.wait_for(lambda f: sorted(mark["kind"] for mark in marks(f)) == ["distance", "stroke"], 10)
             # With the case go the marks on it; an operator removes those of others.
             anna.say("case close")
             ben.wait_for(lambda f: [mark["kind"] for mark in marks(f)] == ["stroke"], 10)
@@ -131,7 +145,7 @@ class Marks(unittest.TestCase):
                 for _ in range(60):
                     seen.add(refusal(create(stroke_bytes(color, "E", 200))))
                 self.assertEqual(seen - {0}, {TOO_MANY}, "bytes of one author")
-                for _ in range(400):
+                for _ in range(900):
                     ask(create(stroke_bytes(color, "E", 2)))
                 while True:
                     fields = stranger.receive_control("RoomDecision")[1]
@@ -143,6 +157,50 @@ class Marks(unittest.TestCase):
             self.assertLess(len(marks(anna.newest_json())), 140)
             anna.say("mark pin 0 1.5 0")
             cleo.wait_for(lambda f: sum(mark["initials"] == "A" for mark in marks(f)) == 2, 10)
+
+    def marked(self, link, name, left=0):
+        """Count and middle of the pixels of Anna's colour, right of a column; nothing else there has it."""
+        with Process("join", link, "--offscreen", self.folder / name, "--size", "640x480", "--quality", "low",
+                     "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+            self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+        width, height, channels, rows = read_png(self.folder / name)
+        places = [(x, y) for y in range(height) for x in range(left, width) for r, g, b in [rows[y][channels * x:channels * x + 3]]
+                  if b > r + 60 and g > r + 30]
+        return len(places), *(sum(p[axis] for p in places) / max(len(places), 1) for axis in (0, 1))
+
+    def assert_at_same_place(self, found, before):
+        self.assertGreater(found[0], before[0] / 2)
+        for axis in (1, 2):
+            self.assertAlmostEqual(found[axis], before[axis], delta=3, msg=f"{found} instead of {before}")
+
+    def test_a_replay_draws_marks_on_an_organ_where_they_were(self):
+        recording = self.folder / "session.mkv"
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            case = self.open_case(anna)
+            part = parts_of(anna.newest_json())["liver"]["object"]
+            anna.say("case hide portal vein")  # blue, too
+            anna.say("case scale 3")
+            # Neither the organ nor the part are in their usual places.
+            anna.say(f"grab {case['object']}")
+            anna.say("move 0.12 1.35 -0.1 35")
+            anna.say("release")
+            anna.say(f"grab {part}")
+            anna.say("move 0.2 1.4 0.05 20")
+            anna.say("release")
+            line = " ".join(f"{0.004 * i - 0.06:.3f} 0 {(0.08 ** 2 - (0.004 * i - 0.06) ** 2) ** 0.5:.4f}" for i in range(31))
+            anna.say(f"mark stroke on {part} {line}")
+            anna.wait_for(lambda f: len(marks(f)) == 1, 10)
+            # The recorded picture of the box, on the left, has blue pixels at its edges.
+            before = self.marked(h.greeting["link"], "live.png", left=330)
+            self.assertGreater(before[0], 40)
+            with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
+                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+        # Also where the host of the replay does not have the case, so that no organ is seen.
+        for name, options in (("replay", ("--cases", self.cases)), ("alone", ())):
+            with host(self.folder / name, f"recording:{recording},loop=1", options=options) as h, \
+                    member(h.greeting["link"], "Ben") as ben:
+                ben.wait_for(lambda f: len(marks(f, recorded=True)) == 1 and (not options or has_all(f)), 20)
+                self.assert_at_same_place(self.marked(h.greeting["link"], f"{name}.png", left=330), before)
 
     def test_a_recording_replays_and_exports_the_marks(self):
         recording = self.folder / "session.mkv"
@@ -170,13 +228,7 @@ class Marks(unittest.TestCase):
             case = self.open_case(anna)
 
             def marked(name):
-                """Pixels of Anna's colour, which nothing else in the picture has."""
-                with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "640x480", "--quality", "low",
-                             "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
-                width, height, channels, rows = read_png(self.folder / name)
-                pixels = [rows[y][channels * x:channels * x + 3] for y in range(height) for x in range(width)]
-                return sum(b > r + 60 and g > r + 30 for r, g, b in pixels)
+                return self.marked(h.greeting["link"], name)[0]
 
             self.assertEqual(anna.newest_json()["room"]["self"] % 7, 1, "sky blue")
             part = parts_of(anna.newest_json())["liver"]["object"]

@@ -25,7 +25,7 @@ class MarksWindow(unittest.TestCase):
         lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
         pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
         (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
-        write_case(self.folder / "cases" / "liver")
+        write_case(self.folder / "cases" / "liver", pictures=[(90, 40, 40), (40, 90, 40), (40, 40, 90)])
         self.camera = f"folder:{recording},loop=1,preload=1"
         self.screen = VirtualScreen(WIDTH, HEIGHT)
         self.addCleanup(self.screen.__exit__)
@@ -97,6 +97,20 @@ class MarksWindow(unittest.TestCase):
                 self.assertEqual((on_slice["surface"], on_slice["object"]), ("slice", screen))
                 # The picture of 192 mm is 0.5 m large: 50 pixels at 0.6 m are 77 mm, and so 29.5 mm of the patient.
                 self.assertAlmostEqual(on_slice["length_m"], 0.0295, delta=0.003)
+            with self.subTest("I over a slice shows the next plane through that place, and the wheel shows other pictures"):
+                on_screen = lambda f: f["cases"]["open"]["screen"]
+                do("mousemove", 390, 150, "sleep", 0.3, "key", "i")
+                anna.wait_for(lambda f: on_screen(f)["orientation"] == 1, 10)
+                anna.say("case picture 2")
+                anna.wait_for(lambda f: on_screen(f)["picture"] == 2, 10)
+                seen = []
+                for button in (4, 5, 5):
+                    before = on_screen(anna.newest_json())["picture"]
+                    do("sleep", 0.3, "mousemove", 390, 150, "click", button)
+                    seen.append(on_screen(anna.wait_for(lambda f: on_screen(f)["picture"] != before, 10))["picture"])
+                self.assertIn(seen, ([1, 2, 3], [3, 2, 1]))
+                anna.say("case slice axial")
+                anna.wait_for(lambda f: on_screen(f)["picture"] is None, 10)
             with self.subTest("Backspace takes the newest back, and the mouse turns the view again"):
                 do("key", "BackSpace")
                 anna.wait_for(lambda f: len(marks(f)) == 2, 10)

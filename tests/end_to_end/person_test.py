@@ -120,7 +120,7 @@ class Person(unittest.TestCase):
                 return screen.pixels(10, 20, 60, 60)
 
             def shown(*options):
-                with Process("join", h.greeting["link"], "--size", "480x360", "--renderer", "mesh", "--room", "off",
+                with Process("join", h.greeting["link"], "--name", "Wim", "--size", "480x360", "--renderer", "mesh", "--room", "off",
                              *options, env=screen.environment):
                     wait_until(body_is_seen)
                     # The screen is read while the window is drawn: twice the same is a whole picture.

@@ -11,7 +11,7 @@ import time
 import unittest
 
 from raw_peer import RawPeer, calibration, media_message
-from theatron_process import Process, host, make_recording, run
+from theatron_process import Process, host, make_recording, run, wait_until
 
 PUBLISH = 1  # wire::Feature
 
@@ -81,8 +81,14 @@ class Publishing(unittest.TestCase):
                 stale = seen.wait_for(lambda f: camera(f, 1)["state"] == "stale", 10)
                 self.assertEqual(camera(stale, 1)["problem"], "Its pictures do not arrive any more.")
                 self.assertEqual(camera(stale, 0)["state"], "live")
+
+                def told():
+                    return json.loads(run("status", h.greeting["link"], "--json")[1])["published"][0]["state"]
+
+                wait_until(lambda: told() == "stale", 10)
                 cart.send(signal.SIGCONT)
                 seen.wait_for(lambda f: camera(f, 1)["state"] == "live", 10)
+                wait_until(lambda: told() == "live", 10)
                 cart.send(signal.SIGTERM)
                 self.assertEqual(cart.end(), 0)
             seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from room_test import FACE, WALL, brick, count, make_face, member, people
-from theatron_process import Process, host, make_recording, read_png, run, wait_until
+from theatron_process import Process, host, make_recording, read_png, run, stand, wait_until
 
 
 class RoomRecording(unittest.TestCase):
@@ -16,11 +16,7 @@ class RoomRecording(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_room_recording_"))
         self.addCleanup(shutil.rmtree, self.folder)
         self.camera = make_recording(self.folder / "box")
-        # The camera stands 1.6 m above the floor and looks level along -z.
-        lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
-        pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.6, 0]}
-        (self.camera / "calibration.json").write_text(
-            json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
+        stand(self.camera)
 
     def host(self, camera, name):
         return host(self.folder / name, camera)

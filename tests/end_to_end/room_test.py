@@ -15,8 +15,8 @@ ROOM = 3         # wire::Feature
 OBJECT_POSE = 2  # wire::StateTopic
 
 
-def member(link, name, *options):
-    return Process("join", link, "--name", name, "--every", "0.1", *options)
+def member(link, name, *options, **settings):
+    return Process("join", link, "--name", name, "--every", "0.1", *options, **settings)
 
 
 def people(figures):

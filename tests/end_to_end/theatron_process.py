@@ -104,10 +104,10 @@ def host(state, *cameras, listen="127.0.0.1:0", options=(), prefix=()):
     return process
 
 
-def run(*arguments, timeout=60):
+def run(*arguments, timeout=60, env=None):
     """Runs to the end; returns exit code, output and errors."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
-                          text=True, timeout=timeout)
+                          text=True, timeout=timeout, env=env)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -202,3 +202,10 @@ def make_recording(folder, width=160, height=120, frames=20, color=True):
         if color:
             write_png(folder / "color" / f"{n:05}.png", width, height, 8, 3, pixels)
     return folder
+
+
+def stand(recording):
+    """The camera of make_recording() stands 1.6 m above the floor and looks level along -z."""
+    lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
+    pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.6, 0]}
+    (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))

@@ -2,6 +2,7 @@
 """Voice through real processes: what a listener's loudspeaker plays is what the speaker said, a muted person
 is silent at once, and nobody speaks as somebody else."""
 import array
+import json
 import math
 import os
 import pathlib
@@ -12,7 +13,7 @@ import unittest
 import wave
 
 from raw_peer import VOICE, RawPeer
-from theatron_process import Process, host, make_recording, wait_until
+from theatron_process import Process, host, make_recording, run, wait_until
 
 RATE = 48000
 
@@ -128,6 +129,65 @@ class Voice(unittest.TestCase):
             begin = next(i for i, v in enumerate(heard) if v > 300)
             # 4 s of what was heard, compared with all that was said.
             self.assertGreater(best_correlation(heard[begin + 20:begin + 420], said), 0.9, name)
+
+    def test_with_push_to_talk_only_what_is_said_meanwhile_is_heard(self):
+        with self.start() as a_host:
+            link = a_host.greeting["links"]["expert"]
+            with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
+                    self.member(link, "Ben", "--microphone", self.folder / "said.wav", "--push-to-talk") as ben:
+                begun = ben.wait_for(lambda f: f["phase"] == "joined" and f["voice"]["microphone"] == "push", 20)
+                later = ada.wait_for(lambda f: f["session_us"] > begun["session_us"] + 1.5e6, 10)
+                self.assertEqual((later["voice"]["voices"], ben.newest_json()["voice"]["talks"]), ([], False))
+                ben.say("talk on")
+                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                ben.wait_for(lambda f: f["voice"]["talks"], 10)
+                ben.say("talk off")
+                ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
+                ben.wait_for(lambda f: not f["voice"]["talks"], 10)
+                ben.say("microphone on")
+                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                self.assertEqual(ben.wait_for(lambda f: f["voice"]["talks"], 10)["voice"]["microphone"], "open")
+
+    def test_devices_are_listed_and_exchanged_while_they_run(self):
+        code, out, errors = run("join", "--list-devices", "--json",
+                                env={**os.environ, "SDL_AUDIODRIVER": "dummy"})
+        self.assertEqual(code, 0, errors)
+        listed = json.loads(out)
+        self.assertEqual(listed["problem"], "")
+        self.assertTrue(listed["microphones"] and listed["loudspeakers"], listed)
+        code, out, _ = run("join", "--list-devices", "--json", env={**os.environ, "SDL_AUDIODRIVER": "nothing"})
+        self.assertIn("has no sound", json.loads(out)["problem"])
+        with self.start() as a_host:
+            link = a_host.greeting["links"]["expert"]
+            write_wav(self.folder / "silence.wav", array.array("h", [0] * RATE))
+            with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
+                    self.member(link, "Ben", "--microphone", self.folder / "silence.wav") as ben:
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "open", 20)
+                self.assertEqual(ada.wait_for(lambda f: f["phase"] == "joined", 20)["voice"]["speaking"], [])
+                ben.say(f"use microphone {self.folder / 'said.wav'}")
+                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                self.assertTrue(ben.newest_json()["voice"]["microphone_name"].endswith("said.wav"))
+                ada.say(f"use speaker {self.folder / 'other.wav'}")
+                wait_until(lambda: (self.folder / "other.wav").exists(), 10)
+                self.assertFalse(ben.newest_json()["voice"]["echo_cancellation"], "a file is sent as it is")
+                ben.say("use microphone missing.wav")
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "none", 10)
+                wait_until(lambda: any("missing.wav' does not exist" in line for line in ben.errors), 5)
+
+    def test_a_microphone_behind_the_echo_canceller_is_heard(self):
+        with self.start() as a_host:
+            link = a_host.greeting["links"]["expert"]
+            with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
+                    self.member(link, "Ben", "--microphone", self.folder / "said.wav", "--speaker", self.folder / "ben.wav",
+                                "--echo-cancellation", "on") as ben:
+                ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 3, 20)
+                self.assertTrue(ben.newest_json()["voice"]["echo_cancellation"])
+                for member in (ada, ben):
+                    member.say("quit")
+                    self.assertEqual(member.end(), 0, member.errors)
+        heard = loudness(read_wav(self.folder / "ada.wav"))
+        begin = next(i for i, v in enumerate(heard) if v > 300)
+        self.assertGreater(best_correlation(heard[begin + 100:begin + 300], loudness(self.said)), 0.7)
 
     def test_nobody_speaks_as_somebody_else_and_an_observer_does_not_speak(self):
         with self.start() as a_host:

@@ -58,6 +58,10 @@ class Web(unittest.TestCase):
         page.evaluate(f"document.getElementById('name').value = '{name}'; document.getElementById('enter').click()")
         return page
 
+    def leave(self, page):
+        page.evaluate("document.getElementById('leave').click()")
+        page.wait_for("theatron.state.phase === 'left'")
+
     def test_the_page_has_strict_headers_and_is_compressed_and_kept_by_its_hash(self):
         answer, plain = get(self.link, "/")
         self.assertEqual(answer.status, 200)
@@ -92,6 +96,7 @@ class Web(unittest.TestCase):
             self.assertEqual({person["name"]: person["self"] for person in state["people"]},
                              {"Ada": True, "Ben": False})
             self.assertEqual([camera["state"] for camera in state["cameras"]], ["live", "live"])
+            self.assertGreater(state["decoders"], 0)
             width, height, channels, rows = self.picture(page, "room")
             # Right of the panels there are the cameras' surfaces, not one background.
             colors = {bytes(rows[y][channels * x:channels * x + 3])
@@ -99,7 +104,11 @@ class Web(unittest.TestCase):
             self.assertGreater(len(colors), 300)
 
             # A brick before the eye, seen and then dragged.
-            page.evaluate("document.getElementById('view').focus()")
+            # Behind a click on a button the keys still act in the room.
+            x, y = page.evaluate("(b => [b.x + b.width / 2, b.y + b.height / 2])"
+                                 "(document.querySelector('[data-key=r]').getBoundingClientRect())")
+            page.mouse("mousePressed", x, y)
+            page.mouse("mouseReleased", x, y)
             page.press("n", "KeyN")
             bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
             before = bricks(ben.wait_for(bricks, 20))[0]["position"]
@@ -126,6 +135,42 @@ class Web(unittest.TestCase):
             page.evaluate("document.getElementById('leave').click()")
             ben.wait_for(lambda f: [person["name"] for person in f["room"]["people"]] == ["Ben"], 20)
 
+    def test_a_page_without_workers_decodes_by_itself_and_says_so(self):
+        page = self.enter(self.link + "&decoding=page", "Ada")
+        page.wait_for("theatron.complete_ms !== null")
+        self.assertEqual(page.evaluate("theatron.state.decoders"), 0)
+        self.assertIn("Decoding: in the page", page.evaluate("document.getElementById('facts').textContent"))
+        self.leave(page)
+
+    def test_after_a_fault_of_a_worker_one_enters_again_and_the_page_decodes(self):
+        page = self.enter(self.link, "Ada")
+        page.wait_for("theatron.complete_ms !== null")
+        page.evaluate("theatron.workers[0].dispatchEvent(new ErrorEvent('error'))")
+        page.wait_for("theatron.state.phase === 'left'")
+        self.assertIn("Decoding ended", page.evaluate("document.getElementById('problem').textContent"))
+        page.evaluate("document.getElementById('enter').click()")
+        page.wait_for("theatron.state.phase === 'joined' && theatron.state.cameras.every(c => c.depth_frames > 0)")
+        self.assertEqual(page.evaluate("theatron.state.decoders"), 0)
+        self.leave(page)
+
+    def test_a_german_browser_shows_german_also_in_the_panels(self):
+        page = self.browser.open(self.link.replace("role=expert", "role=nobody+you+know"), SIZE)
+        page.call("Emulation.setUserAgentOverride", userAgent="test", acceptLanguage="de-DE")
+        # A strict browser keeps nothing for the site.
+        page.call("Page.addScriptToEvaluateOnNewDocument", source="Object.defineProperty(window, 'localStorage', "
+                  "{ get() { throw new DOMException('no', 'SecurityError'); } })")
+        page.reload()
+        page.wait_for("document.documentElement?.lang === 'de' && !!document.getElementById('invitation')?.textContent")
+        self.assertNotIn("nobody", page.evaluate("document.getElementById('invitation').textContent"))
+        page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
+        page.wait_for("theatron.state.phase === 'joined' && theatron.state.people.length > 0")
+        page.wait_for("document.getElementById('room_panels').innerText.includes('Niemand sonst ist hier')")
+        facts = page.wait_for("document.getElementById('facts').innerText")
+        for word in ("Gastgeber", "Kameras", "Daten"):
+            self.assertIn(word, facts)
+        page.evaluate("document.getElementById('leave').click()")
+        page.wait_for("theatron.state.phase === 'left'")
+
     def test_a_link_without_a_token_or_with_a_wrong_one_is_explained(self):
         page = self.browser.open(self.link.split("#")[0], SIZE)
         page.wait_for("document.getElementById('enter')?.disabled")
@@ -138,12 +183,14 @@ class Web(unittest.TestCase):
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             listen = f"127.0.0.1:{probe.getsockname()[1]}"
-        with host(self.folder / "other", listen=listen) as first:
+        with host(self.folder / "other", CAMERAS[0], listen=listen) as first:
             page = self.enter(first.greeting["link"], "Ada")
-            page.wait_for("theatron.state.phase === 'joined'")
+            page.wait_for("theatron.state.phase === 'joined' && theatron.state.cameras.length === 1")
             first.send(signal.SIGKILL)
             first.end()
             page.wait_for("theatron.state.phase === 'lost'")
+            # Nothing that the page shows calls a camera live.
+            page.wait_for("document.getElementById('camera_list').innerText.includes('no connection')")
             with host(self.folder / "other", listen=listen):
                 page.wait_for("theatron.state.phase === 'joined' && theatron.state.joins === 2")
 

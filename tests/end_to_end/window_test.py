@@ -34,8 +34,11 @@ class Window(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def window(self, link, *options, home=None):
+        # A person whose name is known goes straight to the room.
+        if home is None:
+            home = tempfile.mkdtemp(dir=self.folder)
+            options = options if "--name" in options else (*options, "--name", "Wim")
         # All pixels always: the machine's load must not change the picture.
-        home = home or tempfile.mkdtemp(dir=self.folder)
         return Process("join", link, "--size", f"{WIDTH}x{HEIGHT}", "--render-scale", "1", *options,
                        env={**self.screen.environment, "XDG_STATE_HOME": str(home)})
 
@@ -56,7 +59,7 @@ class Window(unittest.TestCase):
 
     def test_keys_and_mouse_do_what_the_help_says(self):
         do = self.screen.do
-        with host(self.state, self.camera) as h, self.window(h.greeting["link"], "--renderer", "splat") as viewer:
+        with host(self.state, self.camera) as h, self.window(h.greeting["link"], "--renderer", "splat", "--save-to", self.folder) as viewer:
             own = self.wait_for_scene()
             with self.subTest("dragging turns the scene, and R brings the camera's view back"):
                 do("mousemove", 240, 180, "mousedown", 1, "mousemove", 290, 180, "mousemove", 340, 200, "mouseup", 1)
@@ -83,6 +86,33 @@ class Window(unittest.TestCase):
                 self.wait_for_change(own, 0.3)
                 do("key", "h")
                 self.wait_for_return(own)
+            with self.subTest("the cameras' plain pictures come, one becomes large, and they go"):
+                corner = lambda: self.screen.pixels(250, 10, 220, 60)
+                before = corner()
+                do("mousemove", 200, 340, "key", "F2")
+                wait_until(lambda: difference(before, corner()) > 0.3)
+                self.assertLess(difference(own, self.picture()), 0.1)
+                do("mousemove", 345, 40, "click", 1)
+                self.wait_for_change(own, 0.5)
+                do("key", "F2")
+                self.wait_for_return(own)
+            with self.subTest("from above, and with other points"):
+                do("key", "0")
+                self.wait_for_change(own, 0.2)
+                do("key", "r")
+                self.wait_for_return(own)
+                do("key", "minus", "key", "minus", "key", "minus", "key", "minus", "key", "minus")
+                self.wait_for_change(own, 0.05)
+                do("key", "plus", "key", "plus", "key", "plus", "key", "plus", "key", "plus")
+                self.wait_for_return(own)
+            with self.subTest("what is seen is saved, each time into a new file"):
+                do("key", "F9")
+                wait_until(lambda: len(list(self.folder.glob("theatron-*.png"))) == 1)
+                do("key", "F9", "key", "F10")
+                wait_until(lambda: len(list(self.folder.glob("theatron-*.png"))) == 2)
+                points, = wait_until(lambda: list(self.folder.glob("theatron-*.ply")))
+                wait_until(lambda: points.stat().st_size > 10_000)
+                self.assertIn(b"element vertex", points.read_bytes()[:100])
             with self.subTest("renderers and codecs are changed"):
                 do("key", "Tab")
                 wait_until(lambda: " disc " in self.screen.title())
@@ -241,10 +271,48 @@ class Window(unittest.TestCase):
                 viewer.send(signal.SIGTERM)
                 viewer.end()
             settings.write_text("people perhaps\n")
-            with self.window(h.greeting["link"], home=home) as viewer:
+            with self.window(h.greeting["link"], "--name", "Ben", home=home) as viewer:
                 self.wait_for_scene()
                 self.assertIn("'people perhaps'", "".join(viewer.errors))
                 self.assertFalse(self.buttons())
+
+    def test_a_form_asks_for_link_and_name_and_comes_back_after_the_session(self):
+        home = self.folder / "home of Eva"
+        type_in, title = self.screen.do, self.screen.title
+        with host(self.state, self.camera) as h, \
+                Process("join", "--size", f"{WIDTH}x{HEIGHT}", "--renderer", "splat",
+                        env={**self.screen.environment, "XDG_STATE_HOME": str(home)}) as viewer:
+            wait_until(lambda: title().startswith("Enter a session"))
+            type_in("type", "--delay", "2", h.greeting["link"].replace("join=", "join=x"))
+            type_in("key", "Tab", "type", "--delay", "2", "eva")
+            # The form says that this token is wrong, and Enter does nothing.
+            wait_until(self.has_warning)
+            type_in("key", "Return")
+            type_in("key", "shift+Tab", "key", "ctrl+a")
+            type_in("type", "--delay", "2", h.greeting["link"])
+            wait_until(lambda: not self.has_warning() and self.has_main_button())
+            self.assertTrue(title().startswith("Enter a session"))
+            type_in("key", "Return")
+            self.wait_for_scene()
+            settings = (home / "theatron" / "settings").read_text()
+            self.assertIn("name eva", settings.splitlines())
+            self.assertNotIn("https", settings)
+            type_in("key", "Escape", "key", "Escape")
+            wait_until(lambda: title().startswith("Enter a session") and self.has_main_button())
+            type_in("key", "Escape")
+            self.assertEqual(viewer.end(), 0, viewer.errors)
+
+    def has_color(self, color, least):
+        blue_green_red = bytes(reversed(color))
+        return sum(row[x:x + 3] == blue_green_red for row in self.screen.pixels(0, 0, WIDTH, HEIGHT)
+                   for x in range(0, len(row), 4)) >= least
+
+    def has_warning(self):
+        return self.has_color((255, 190, 70), 20)
+
+    def has_main_button(self):
+        """The button that enters the room can be pressed."""
+        return self.has_color((36, 104, 176), 1000)
 
     def test_a_lost_host_is_told_and_found_again(self):
         with socket.socket() as probe:

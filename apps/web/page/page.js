@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: the join form, the loop of pictures, and the panels beside them.
 import make_client from "./client.mjs";
+import { join_workers, start_workers } from "./decoding.js";
+import { FlatView, Patience, find_graphics } from "./graphics.js";
+import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
-import { fill_texts, show } from "./panels.js";
+import { fill_texts, show, show_voices } from "./panels.js";
+import { put_bytes, with_program } from "./program.js";
+import { session_text } from "./session_texts.js";
+import { store, stored } from "./storage.js";
 import { language, text } from "./texts.js";
+import { Voice } from "./voice.js";
 
 const $ = id => document.getElementById(id);
 const texts_every_ms = 250;
+const poll_every_ms = 1;
+const longest_wait_ms = 500;
 
 // The link's part behind '#', which no request contains.
 const link = new URLSearchParams(location.hash.slice(1));
@@ -14,22 +23,34 @@ const host = location.hostname.replace(/^\[|\]$/g, "");
 const port = Number(location.port || 443);
 
 function person_id() {
-    let id = localStorage.getItem("person");
+    let id = stored("person");
     if (!/^[0-9a-f]{32}$/.test(id ?? "")) {
         id = [...crypto.getRandomValues(new Uint8Array(16))].map(b => b.toString(16).padStart(2, "0")).join("");
-        localStorage.setItem("person", id);
+        store("person", id);
     }
     return id;
 }
 
 // The client's functions (apps/web/main.cpp), by the names that follow theatron_.
 async function load_client() {
-    const module = await make_client({ print: line => console.log(line), printErr: line => console.warn(line) });
+    const compiling = WebAssembly.compileStreaming(fetch("client.wasm"));
+    const starting = link.get("decoding") === "page" ? [] : start_workers(compiling);
+    const program = await compiling;
+    const module = await make_client({
+        ...with_program(program), print: line => console.log(line), printErr: line => console.warn(line),
+    });
     const numbers = count => Array(count).fill("number");
     const functions = {
         join: [null, ["string", "number", "string", "string", "string"]],
+        join_flat: [null, ["string", "number", "string", "string", "string"]],
+        flat_picture: ["number", []],
+        flat_width: ["number", []],
+        flat_height: ["number", []],
+        flat_next: [null, []],
         leave: [null, []],
         draw: ["number", numbers(2)],
+        finish_drawing: ["number", []],
+        prepare: [null, []],
         state: ["string", []],
         command: [null, numbers(1)],
         key: [null, ["string", "string"]],
@@ -40,20 +61,45 @@ async function load_client() {
         drag: [null, numbers(3)],
         wheel: [null, numbers(1)],
         redraw: [null, []],
+        enter_headset: [null, numbers(2)],
+        draw_headset: [null, numbers(1)],
+        leave_headset: [null, []],
+        headset_scale: ["number", []],
+        recentre: [null, []],
+        headset_wish: ["number", numbers(1)],
+        reset_figures: [null, []],
+        speak: [null, [...numbers(4), "array", "number"]],
     };
-    return Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
+    const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
+    const voice = new Voice((number, age_us, pauses, level_db, opus) =>
+        client.speak(number, age_us, pauses, level_db, opus, opus.length), () => show_voices(voice, page.state));
+    module.on_voice = (speaker, packet) => voice.hear(speaker, packet);
+    page.reset_figures = client.reset_figures;
+    page.time_strata = (hex, passes) => {
+        put_bytes(module, Uint8Array.from(hex.match(/../g), digits => parseInt(digits, 16)).buffer);
+        return module._theatron_time_strata(passes);
+    };
+    page.memory = () => module.HEAPU8.length;
+    page.workers = await starting;
+    join_workers(module, page.workers, () => {
+        client.leave();
+        leave(voice, text("decoder_ended"));
+    });
+    return { client, voice, module, flat: new FlatView($("flat"), module, client) };
 }
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
-const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null };
+const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null, workers: [],
+    graphics: "card", way: "room", headset_kinds: {}, Patience };
 
 function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
 }
 
-function run(client) {
+function run({ client, voice, module, flat }) {
     const canvas = $("view");
+    let patience = new Patience();
     let next_texts = 0;
     const help = () => $("help").open || $("help").showModal();
     listen(canvas, client, help);
@@ -69,13 +115,120 @@ function run(client) {
             client.key(key, "");
         next_texts = 0;
     });
+    $("microphone").addEventListener("click", () => voice.toggle_microphone());
+    // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
+    $("side").addEventListener("click", event => event.detail > 0 && canvas.focus({ preventScroll: true }));
+    canvas.addEventListener("keydown", event => {
+        if (event.key === "Escape" && page.state.phase !== "joined")
+            client.leave();
+        if (event.key.toLowerCase() === "l" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey)
+            voice.toggle_microphone();
+    });
     $("full_screen").addEventListener("click", () =>
         document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
     $("show_help").addEventListener("click", help);
+    // Only narrow pages have this button, and begin with the room alone.
+    const fold = is_folded => {
+        $("side").classList.toggle("folded", is_folded);
+        $("menu").setAttribute("aria-expanded", String(!is_folded));
+    };
+    $("menu").addEventListener("click", () => fold(!$("side").classList.contains("folded")));
+    fold($("menu").checkVisibility());
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => location.reload());
 
+    const show_state = () => {
+        page.state = JSON.parse(client.state());
+        if (page.state.phase === "left")
+            return leave(voice, page.state.problem);
+        show(page.state);
+        show_way(page.state);
+        place_voices(voice, page.state);
+        show_voices(voice, page.state);
+        document.title = `${page.state.host || host} - Theatron`;
+    };
+    // Asks soon, because the time that drawing takes decides on the quality.
+    const await_picture = () => {
+        const is_left = page.state.phase === "left";
+        if (!is_left && !client.finish_drawing())
+            return setTimeout(await_picture, poll_every_ms);
+        is_drawing = false;
+        if (!is_left)
+            note_picture();
+    };
+    const note_picture = () => {
+        if (page.complete_ms !== null)
+            return;
+        show_state();
+        page.first_picture_ms ??= performance.now();
+        if (is_complete(page.state))
+            page.complete_ms = performance.now();
+    };
+    // The same person enters again, in the other way of seeing.
+    const change_way = (way, why) => {
+        page.way = way;
+        page.why = why;
+        patience = new Patience();
+        enter(client);
+    };
+    $("other_way").addEventListener("click", () => change_way(page.way === "flat" ? "room" : "flat", ""));
+    $("next_camera").addEventListener("click", () => client.flat_next());
+    let is_drawing = false;
+    const wait_for_picture = () => {
+        if (!is_drawing) {
+            is_drawing = true;
+            await_picture();
+        }
+    };
+    const show_texts = now => {
+        if (now >= next_texts) {
+            next_texts = now + texts_every_ms;
+            show_state();
+            // With a headset one chose the room.
+            if (page.way === "room" && !headset.is_on && $("way").value === "auto" && page.why !== "" && patience.is_over(now, page.state))
+                change_way("flat", "too_slow");
+        }
+    };
+    // The room follows the cameras' pictures, but waits for none that is late.
+    const prepare_room = now => {
+        if (page.complete_ms !== null || now > (page.first_picture_ms ?? Infinity) + longest_wait_ms)
+            client.prepare();
+    };
+    const headset = page.headset = new Headset({
+        canvas, module, client,
+        after_frame: now => {
+            show_texts(now);
+            prepare_room(now);
+            wait_for_picture();
+            const wish = client.headset_wish(voice.microphone === "open" ? 1 : 0);
+            if (wish === 1)
+                voice.toggle_microphone();
+            if (wish === 2 || page.state.phase === "left")
+                headset.leave();
+        },
+        ended: () => {
+            client.redraw();
+            if (page.state.phase !== "left")
+                requestAnimationFrame(draw);
+        },
+    });
+    headset_kinds().then(kinds => page.headset_kinds = kinds);
+    for (const kind of ["vr", "ar"])
+        $(`enter_${kind}`).addEventListener("click", () => headset.enter(kind).catch(error => {
+            $("headset_hint").textContent = text("no_headset", { why: error.message });
+            $("headset_hint").hidden = false;
+        }));
     const draw = now => {
+        if (headset.is_on)
+            return;  // it has a rhythm of its own
+        show_texts(now);
+        if (page.state.phase === "left")
+            return;
+        if (page.way === "flat") {
+            if (flat.draw(now))
+                note_picture();
+            return void requestAnimationFrame(draw);
+        }
         const ratio = Math.min(devicePixelRatio, 2);
         const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
         const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
@@ -84,40 +237,66 @@ function run(client) {
             canvas.height = height;
             client.redraw();
         }
-        const drawn = client.draw(width, height);
-        const is_new = drawn && page.complete_ms === null;
-        if (now >= next_texts || is_new) {
-            next_texts = now + texts_every_ms;
-            page.state = JSON.parse(client.state());
-            if (page.state.phase === "left")
-                return leave(page.state.problem);
-            show(page.state);
-            document.title = `${page.state.host || host} - Theatron`;
-            if (is_new) {
-                page.first_picture_ms ??= performance.now();
-                if (is_complete(page.state))
-                    page.complete_ms = performance.now();
-            }
-        }
+        prepare_room(now);
+        if (!is_drawing && client.draw(width, height))
+            wait_for_picture();
         requestAnimationFrame(draw);
     };
-    return () => requestAnimationFrame(draw);
+    return () => {
+        next_texts = 0;
+        requestAnimationFrame(draw);
+    };
 }
 
-function leave(problem) {
-    $("view").hidden = $("panels").hidden = true;
+// In the 2D view nobody has a place: all are heard from ahead.
+function place_voices(voice, { ear, people }) {
+    const others = people.filter(({ self }) => !self);
+    voice.place(ear, new Map(ear ? others.filter(({ head }) => head).map(({ id, head }) => [id, head])
+                                 : others.map(({ id }) => [id, [0, 0, -1]])));
+}
+
+function show_way({ has_picture, flat_camera }) {
+    const is_flat = page.way === "flat";
+    $("drawing").hidden = !is_flat && page.graphics === "card";
+    const sentence = !is_flat ? text("drawn_by_processor")
+        : !has_picture ? text("flat_waits")
+        : (page.why ? text(page.why) + " " : "") + text("flat_is_shown", { camera: flat_camera });
+    if ($("drawing_text").textContent !== sentence)
+        $("drawing_text").textContent = sentence;
+    $("other_way").textContent = text(is_flat ? "to_room" : "to_flat");
+    $("other_way").hidden = page.graphics === "none";
+    $("next_camera").hidden = !is_flat;
+    for (const kind of ["vr", "ar"])
+        $(`enter_${kind}`).hidden = is_flat || !has_picture || !page.headset_kinds[kind];
+}
+
+// Into the session, in the way of seeing that was chosen.
+function enter(client) {
+    const is_flat = page.way === "flat";
+    $("view").hidden = is_flat;
+    $("flat").hidden = !is_flat;
+    $(is_flat ? "flat" : "view").focus();
+    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id());
+}
+
+function leave(voice, problem) {
+    voice.leave();
+    $("view").hidden = $("flat").hidden = $("panels").hidden = true;
     $("lobby").hidden = false;
-    $("problem").textContent = problem;
+    if (problem)
+        $("problem").textContent = session_text(problem);
     $("name").focus();
 }
 
 async function main() {
     document.documentElement.lang = language;
     fill_texts();
-    $("invitation").textContent = link.get("role")
-        ? text("invited_as", { host: location.host, role: link.get("role") })
+    // Anybody can write into a link; only roles are shown.
+    const role = link.get("role");
+    $("invitation").textContent = ["operator", "expert", "observer", "publisher"].includes(role)
+        ? text("invited_as", { host: location.host, role: session_text(role) })
         : text("invited", { host: location.host });
-    $("name").value = localStorage.getItem("name") ?? "";
+    $("name").value = stored("name") ?? "";
     if (/^[0-9a-f]{64}$/.test(link.get("cert") ?? "")) {
         $("fingerprint").textContent = link.get("cert").toUpperCase().match(/../g).join(":");
         $("certificate").hidden = false;
@@ -130,6 +309,13 @@ async function main() {
     }
 
     const loading = load_client();
+    page.graphics = find_graphics();
+    if (page.graphics !== "card") {
+        $("graphics_hint").textContent = text(page.graphics === "none" ? "no_webgl" : "no_card");
+        $("graphics_hint").hidden = false;
+    }
+    $("way").value = ["room", "flat"].includes(stored("way")) ? stored("way") : "auto";
+    $("speaks").checked = stored("speaks") === "yes";
     let begin;
     $("join").addEventListener("submit", async event => {
         event.preventDefault();
@@ -137,14 +323,22 @@ async function main() {
         $("enter").disabled = true;
         $("problem").textContent = text("loading");
         try {
-            const client = await loading;
-            localStorage.setItem("name", name);
+            const program = await loading, { client, voice } = program;
+            store("name", name);
+            store("speaks", $("speaks").checked ? "yes" : "no");
+            page.voice = voice;
             $("problem").textContent = "";
             $("lobby").hidden = true;
-            $("view").hidden = $("panels").hidden = false;
-            $("view").focus();
-            client.join(host, port, link.get("join"), name, person_id());
-            begin ??= run(client);
+            store("way", $("way").value);
+            page.why = page.graphics === "none" ? "no_webgl" : undefined;
+            page.way = page.graphics === "none" || $("way").value === "flat" ? "flat" : "room";
+            $("panels").hidden = false;
+            enter(client);
+            // Without sound the rest goes on; the panels say what is missing.
+            voice.begin().catch(error => console.warn(`no sound: ${error.message}`));
+            if ($("speaks").checked)
+                voice.open_microphone();
+            begin ??= run(program);
             begin();
         } catch (error) {
             $("problem").textContent = text("no_program", { why: error.message });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels around the picture, from the client's state. Texts of others are only ever text.
+import { session_text } from "./session_texts.js";
 import { text, texts } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -15,6 +16,8 @@ function element(tag, content = "", name = "") {
 export function fill_texts() {
     for (const place of document.querySelectorAll("[data-text]"))
         place.textContent = text(place.dataset.text);
+    for (const place of document.querySelectorAll("[data-name]"))
+        place.setAttribute("aria-label", text(place.dataset.name));
     for (const [keys, meaning] of texts.keys)
         $("help_list").append(element("dt", keys), element("dd", meaning));
 }
@@ -57,23 +60,23 @@ function fill_panels(place, panels) {
         const section = element("section", "", "panel");
         const list = element("ul");
         for (const row of panel.rows) {
-            const item = element("li", row.text);
+            const item = element("li", session_text(row.text));
             if (row.detail)
-                item.append(element("div", row.detail, "detail"));
+                item.append(element("div", session_text(row.detail), "detail"));
             const buttons = element("div", "", "buttons");
             for (const { label, command } of row.buttons) {
-                const button = element("button", label);
+                const button = element("button", session_text(label));
                 button.dataset.command = command;
                 button.dataset.label = `${panel.title}/${row.text}/${label}`;
                 if (row.text)
-                    button.setAttribute("aria-label", `${label}: ${row.text}`);
+                    button.setAttribute("aria-label", `${session_text(label)}: ${row.text}`);
                 buttons.append(button);
             }
             if (row.buttons.length)
                 item.append(buttons);
             list.append(item);
         }
-        section.append(element("h2", panel.title), list);
+        section.append(element("h2", session_text(panel.title)), list);
         place.append(section);
     }
 }
@@ -81,20 +84,39 @@ function fill_panels(place, panels) {
 function fill_facts(place, facts) {
     for (const { label, value, warning } of facts) {
         const fact = element("span");
-        fact.append(element("span", `${label}: `, "label"), element("span", value, warning ? "warning" : ""));
+        fact.append(element("span", `${session_text(label)}: `, "label"), element("span", session_text(value), warning ? "warning" : ""));
         place.append(fact);
     }
 }
 
+// The microphone's button and state, and who speaks at present.
+export function show_voices(voice, { people = [], is_heard, is_muted }) {
+    const button = $("microphone");
+    const is_open = voice.microphone === "open";
+    set_text(button, text(is_open ? "microphone_close" : "microphone_open"));
+    button.setAttribute("aria-pressed", String(is_open));
+    const hint = !voice.constructor.is_supported() ? "no_voice"
+        : voice.microphone === "denied" ? "microphone_denied"
+        : voice.microphone === "missing" ? "microphone_missing"
+        : voice.microphone === "asking" ? "microphone_asking"
+        : is_open && is_muted ? "muted"
+        : is_open && !is_heard ? "not_heard" : "";
+    set_text($("voice_hint"), hint ? text(hint) : "");
+    const names = people.filter(({ id, self }) => !self && voice.is_speaking(id)).map(({ name }) => name);
+    set_text($("speaking"), names.length ? text("speaking", { names: names.join(", ") }) : "");
+}
+
 export function show(state) {
     const { overlay } = state;
-    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
-    set_text($("notice"), [overlay.warning, overlay.notice].filter(Boolean).join("\n"));
+    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).map(session_text).join("\n"));
+    set_text($("notice"), [overlay.warning, overlay.notice].filter(Boolean).map(session_text).join("\n"));
     update($("facts"), overlay.facts, fill_facts);
     $("cameras").hidden = state.cameras.length === 0;
+    // Without a connection no camera is live, whatever the host said last.
+    const is_connected = state.phase === "joined";
     update($("camera_list"), state.cameras.map(({ name, state, depth_frames, fps, age_ms }) => ({
-        name, state,
-        line: depth_frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
+        name, state: is_connected || state !== "live" ? state : "stale",
+        line: !is_connected ? text("no_connection") : depth_frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
     })), fill_cameras);
     update($("room_panels"), overlay.panels, fill_panels);
 }

@@ -3,6 +3,8 @@
 // surface at each of their pixels. Where splats overlap, this depth decides which one is
 // seen, not the order in which they are drawn.
 
+uniform float point_size;  // 1: without gaps
+
 flat out float v_share;
 flat out vec3 v_place;    // colour pixel, diameter
 flat out vec3 v_ellipse;  // a, b, c of a x^2 + b x y + c y^2 <= 1, in picture pixels
@@ -26,7 +28,7 @@ void main() {
 
     // The image of a circle in the grid of pixels, widened so that it always meets a
     // pixel's centre.
-    const float radius = 0.75;
+    float radius = 0.75 * point_size;
     const float widening = 0.3;
     mat2 q = radius * radius * (j * transpose(j)) + mat2(widening);
     float determinant_q = determinant(q);

@@ -14,7 +14,6 @@ uniform float light, surroundings;
 uniform float shadow_texel;
 #ifdef TEXTURED
 uniform sampler2D surface_texture;  // sRGB; white where the surface has none
-uniform bool unlit;
 #endif
 
 #ifdef CUT
@@ -32,7 +31,7 @@ in vec3 v_normal;
 #ifdef TEXTURED
 in vec2 v_uv;
 #endif
-#ifdef LOW_QUALITY
+#if defined(LOW_QUALITY) && !defined(UNLIT)
 in vec3 v_around;
 in float v_lamp;
 #endif
@@ -161,11 +160,12 @@ void main() {
     float distance_m = tells_distance ? 1.0 / gl_FragCoord.w : 0.0;
 #ifdef TEXTURED
     vec4 texel = texture(surface_texture, v_uv);
-    if (unlit) {
-        write_surface(texel.rgb * base_color, distance_m);
-        out_color.a = look.z < 1.0 ? look.z * texel.a : 1.0;
-        return;
-    }
+#endif
+#ifdef UNLIT
+    write_surface(texel.rgb * base_color, distance_m);
+    out_color.a = look.z < 1.0 ? look.z * texel.a : 1.0;
+#else
+#ifdef TEXTURED
     vec3 material = base_color * pow(texel.rgb, vec3(2.2));
 #else
     vec3 material = base_color;
@@ -188,5 +188,6 @@ void main() {
 #ifdef TEXTURED
     if (look.z < 1.0)
         out_color.a *= texel.a;
+#endif
 #endif
 }

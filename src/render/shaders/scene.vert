@@ -3,7 +3,7 @@
 
 uniform mat4 clip_from_room;
 uniform mat4 room_from_object;
-#ifdef LOW_QUALITY
+#if defined(LOW_QUALITY) && !defined(UNLIT)
 uniform samplerCube environment;
 uniform vec3 to_light;
 uniform float light, surroundings;
@@ -20,7 +20,7 @@ out vec3 v_normal;
 #ifdef TEXTURED
 out vec2 v_uv;  // place in the texture
 #endif
-#ifdef LOW_QUALITY
+#if defined(LOW_QUALITY) && !defined(UNLIT)
 out vec3 v_around;  // light from all around
 out float v_lamp;   // light from the lamp, where no shadow falls
 #endif
@@ -32,7 +32,7 @@ void main() {
     v_uv = uv;
 #endif
     v_normal = mat3(room_from_object) * normal;
-#ifdef LOW_QUALITY
+#if defined(LOW_QUALITY) && !defined(UNLIT)
     v_around = surroundings * textureLod(environment, v_normal, 4.0).rgb;
     v_lamp = max(dot(normalize(v_normal), to_light), 0.0) * light / 3.14159;
 #endif

@@ -3,6 +3,7 @@
 // neighbours: that follows from its distance and the density of points there.
 
 uniform float pixels_per_tan;  // of the picture, at its centre
+uniform float point_size;      // 1: without gaps
 
 flat out vec3 v_place;  // colour pixel, diameter
 flat out float v_share;
@@ -27,6 +28,6 @@ void main() {
     float gap = min(max(length(steps[0]), length(steps[1])), 3.0 * upright);
     vec3 color = color_place(point);
     gl_Position = set_back(clip, color.z);
-    gl_PointSize = clamp(gap * overlap, 1.0, 64.0);
+    gl_PointSize = clamp(gap * overlap * point_size, 1.0, 64.0);
     v_place = vec3(color.xy, gl_PointSize);
 }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "entry.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/steady_clock.h"
+#include "cli/stop_signal.h"
+#include "link_argument.h"
+#include "lobby_fields.h"
+#include "lobby_watch.h"
+
+namespace theatron::app {
+namespace {
+
+constexpr const char* ask_for_link =
+    "Paste the link that the host printed or that somebody sent to you.";
+
+// "3 cameras: table (live), lamp (live), and 1 more", from a list of the lobby.
+std::string list_text(const nlohmann::json& session, const char* list, const char* field,
+                      const char* one, const char* many) {
+    constexpr std::size_t named = 6;
+    if (!session.contains(list) || !session[list].is_array() || session[list].empty())
+        return {};
+    const std::size_t count = session[list].size();
+    std::string line = std::to_string(count) + " " + (count == 1 ? one : many) + ": ";
+    for (std::size_t i = 0; i < std::min(count, named); ++i)
+        line += (i > 0 ? ", " : "") + text(session[list][i], "name") + " (" +
+                text(session[list][i], field) + ")";
+    return count > named ? line + ", and " + std::to_string(count - named) + " more" : line;
+}
+
+// A parsed link, or the reason why the typed text is none; neither where nothing was typed.
+struct ReadLink {
+    std::optional<net::Link> link;
+    std::string problem;
+};
+ReadLink read_link(const std::string& typed) {
+    const auto begin = typed.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos)
+        return {};
+    const auto end = typed.find_last_not_of(" \t\r\n");
+    try {
+        return {parse_link_argument(typed.substr(begin, end - begin + 1)), {}};
+    } catch (const Error& error) {
+        return {std::nullopt, error.what()};
+    }
+}
+
+xr::EntryFacts problem_facts(const std::string& problem) {
+    xr::EntryFacts facts;
+    facts.hint = problem;
+    facts.is_problem = true;
+    return facts;
+}
+
+xr::EntryFacts facts_without_answer(const ReadLink& read) {
+    if (!read.problem.empty())
+        return problem_facts(read.problem);
+    xr::EntryFacts facts;
+    facts.hint = read.link ? "Asking the host at " + read.link->host + "..." : ask_for_link;
+    return facts;
+}
+
+}  // namespace
+
+xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
+    if (!lobby.contains("sessions") || !lobby["sessions"].is_array() || lobby["sessions"].empty())
+        return problem_facts("The host has no session for this link.");
+    const nlohmann::json& session = lobby["sessions"][0];
+    if (is_set(session, "ended"))
+        return problem_facts("This session has ended. Ask for a new link.");
+    xr::EntryFacts facts;
+    facts.title = text(session, "name");
+    facts.can_enter = true;
+    const std::string role = text(lobby, "role");
+    facts.lines.push_back("You come as " +
+                          std::string(role == "expert" || role == "operator" ? "an " : "a ") +
+                          (role.empty() ? "guest" : role) + ".");
+    if (role == "observer")
+        facts.lines.back() = "You come as an observer: you see and hear, and are not heard.";
+    const std::string people = list_text(session, "people", "role", "person", "people");
+    if (!people.empty())
+        facts.lines.push_back(people);
+    else if (session.contains("people"))
+        facts.lines.push_back("Nobody else is there yet.");
+    if (const std::string cameras = list_text(session, "cameras", "state", "camera", "cameras");
+        !cameras.empty())
+        facts.lines.push_back(cameras);
+    facts.hint = is_set(session, "asks") ? "An operator lets you in after you have knocked."
+                                         : "The session is open.";
+    return facts;
+}
+
+std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
+                                 const std::string& problem) {
+    window.set_title("Enter a session - Theatron");
+    xr::EntryForm form(fields, {[&] { return window.clipboard(); },
+                                [&](const std::string& text) { window.set_clipboard(text); }});
+    LobbyWatch watch([&] { window.wake(); });
+    ReadLink read = read_link(fields.link);
+    watch.set_link(read.link);
+    xr::EntryFacts facts = problem.empty() ? facts_without_answer(read) : problem_facts(problem);
+    bool must_draw = true;
+    while (!cli::stop_requested()) {
+        window.wait(form.is_animated() ? window.picture_time() : Duration(500ms));
+        const xr::FormInput input = window.poll_form();
+        if (input.close)
+            break;
+        if (auto answer = watch.take()) {
+            const xr::EntryFacts newest = answer->problem.empty() ? entry_facts(answer->lobby)
+                                                                  : problem_facts(answer->problem);
+            form.set_picture(newest.can_enter ? answer->picture.view() : ColorView{});
+            must_draw = must_draw || newest != facts;
+            facts = newest;
+        }
+        if (!must_draw && input.is_empty() && !form.is_animated())
+            continue;
+        const xr::EntryAnswer pressed =
+            form.draw(facts, input, window.pixels(), window.text_pixels());
+        must_draw = false;
+        if (pressed == xr::EntryAnswer::leave)
+            break;
+        if (form.fields().link != fields.link) {
+            read = read_link(form.fields().link);
+            watch.set_link(read.link);
+            facts = facts_without_answer(read);
+            form.set_picture({});
+            must_draw = true;
+        }
+        fields = form.fields();
+        if (pressed == xr::EntryAnswer::enter && read.link)
+            return Entered{*read.link, fields};
+        window.present();
+    }
+    return std::nullopt;
+}
+
+}  // namespace theatron::app

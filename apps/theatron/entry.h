@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The form before a session, for a person who has no link on the command line, or no name yet.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "net/link.h"
+#include "xr/desktop_window_native.h"
+#include "xr/entry_form_native.h"
+
+namespace theatron::app {
+
+// A person who wants to enter a session.
+struct Entered {
+    net::Link link;
+    xr::EntryFields fields;
+};
+
+// Shows the form until the person enters or leaves (nullopt). `problem`: why the last session
+// ended, shown until the link changes; may be empty.
+std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
+                                 const std::string& problem);
+
+// Turns the answer of a host's lobby into the texts of the form.
+xr::EntryFacts entry_facts(const nlohmann::json& lobby);
+
+}  // namespace theatron::app

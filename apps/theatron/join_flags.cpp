@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "join_flags.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "client/person_id.h"
+#include "files/state_folder.h"
+#include "published_cameras.h"
+#include "video/color_codec.h"
+#include "video/depth_codecs.h"
+#include "viewer_window.h"
+
+namespace theatron::app {
+
+std::string best_color() {
+    const auto h264 = video::parse_color_setting("h264").setting;
+    return video::missing_color_decoder(h264).empty() ? std::string(video::auto_color)
+                                                      : video::ColorSetting().text;
+}
+
+namespace {
+
+// A codec setting in one spelling. Throws Error with one sentence if this build does not have it.
+std::string checked_color(const std::string& text) {
+    const bool automatic = text == video::auto_color;
+    const auto parsed = video::parse_color_setting(automatic ? "h264" : text);
+    for (const std::string& problem :
+         {parsed.problem, video::missing_color_decoder(parsed.setting)})
+        if (!problem.empty())
+            throw Error(problem);
+    return automatic ? text : parsed.setting.text;
+}
+
+}  // namespace
+
+viewer::RoomChoice parse_room(const JoinFlags& flags) {
+    viewer::RoomChoice choice;
+    choice.shown = flags.room == "on";
+    choice.quality = parse_quality(flags.quality.value_or("auto"));
+    return choice;
+}
+
+double parse_render_scale(const std::string& text) {
+    if (text == "auto")
+        return 0;
+    char* end = nullptr;
+    const double scale = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(scale >= 0.1 && scale <= 1))
+        throw Error("The render scale '" + text + "' is neither auto nor between 0.1 and 1.");
+    return scale;
+}
+
+std::uint32_t to_kbit(double mbit) {
+    return std::uint32_t(std::clamp(mbit * 1000, 0.0, 4e9));
+}
+
+client::Participant::Options participant_options(const JoinFlags& flags) {
+    client::Participant::Options options;
+    const auto depth = video::parse_depth_setting(flags.depth_codec);
+    for (const std::string& problem : {depth.problem, video::missing_depth_decoder(depth.setting)})
+        if (!problem.empty())
+            throw Error(problem);
+    options.depth_codec = depth.setting.text;
+    options.color_codec = checked_color(flags.color_codec);
+    options.delivery = {flags.target_latency_ms, to_kbit(flags.max_mbit)};
+    options.person = client::load_or_make_person_id(files::state_folder());
+    options.remark = [](const std::string& text) { log::say(text); };
+    options.keeps_room = true;
+    options.keeps_cases = true;
+    options.voice_may_record = flags.voice_may_record;
+    return options;
+}
+
+std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flags,
+                                                           client::Participant::Options& options) {
+    const std::vector<std::string> cameras = with_shared(flags.cameras, flags.shared);
+    if (cameras.empty() && flags.may_record)
+        throw Error("--may-record is about what you send: it needs --publish or --share.");
+    if (cameras.empty())
+        return nullptr;
+    auto publisher = open_published(cameras, {}, "", {flags.may_record, wire::CameraFrame::person});
+    options.publishing = publisher->events();
+    return publisher;
+}
+
+VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {
+    using Cleaning = VoiceLine::Options::Cleaning;
+    return text == "on" ? Cleaning::on : text == "off" ? Cleaning::off : Cleaning::automatic;
+}
+
+}  // namespace theatron::app

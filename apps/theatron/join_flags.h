@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The flags of theatron join, and what follows from them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/participant.h"
+#include "or_screen_window.h"
+#include "publish/camera_publisher.h"
+#include "viewer/live_scene.h"
+#include "voice_line.h"
+
+namespace theatron::app {
+
+// The host chooses where H.264 can be decoded here.
+std::string best_color();
+
+struct JoinFlags {
+    std::string link;
+    std::optional<std::string> name;  // none: the kept one in a window, else "guest"
+    std::string depth_codec = "strata";
+    std::string color_codec = best_color();
+    std::string offscreen, depth_file;
+    std::string save_to = ".";
+    std::optional<std::string> renderer;  // likewise, else viewer::automatic
+    std::string size = "1280x720";
+    std::string view = "camera:0";
+    std::string room = "on";
+    std::optional<std::string> quality;  // if given, else auto, in a window that of the last one
+    std::vector<std::string> people, myself;
+    std::vector<std::string> cameras, shared;  // that are sent
+    bool stereo = false;
+    double seconds = 0;
+    double warmup = 0;
+    double every = 0;
+    unsigned target_latency_ms = 150;
+    double max_mbit = 0;
+    bool json = false;
+    bool no_window = false;
+    bool may_record = false;
+    bool voice_may_record = false;
+    bool push_to_talk = false;
+    std::string echo_cancellation = "auto";
+    bool list_devices = false;
+    bool or_screen = false;
+    std::string render_scale = "auto";
+    std::string microphone, speaker;
+    int voice_frame_ms = 20;
+
+    // Files and figures are made without a window.
+    bool window() const {
+        return offscreen.empty() && depth_file.empty() && every <= 0 && !json && !no_window;
+    }
+};
+
+viewer::RoomChoice parse_room(const JoinFlags& flags);
+// "auto" is 0. Throws Error with one sentence.
+double parse_render_scale(const std::string& text);
+std::uint32_t to_kbit(double mbit);
+
+// All but the link, the name and the voice. Throws Error for codecs that this build does not have.
+client::Participant::Options participant_options(const JoinFlags& flags);
+// Adds the publisher's events to `options`; null without own cameras.
+std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flags,
+                                                           client::Participant::Options& options);
+VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
+
+}  // namespace theatron::app

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "join_pictures.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/error.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "viewer/renderer_text.h"
+
+namespace theatron::app {
+namespace {
+
+// Mean distance of an adult's eyes.
+constexpr double eye_distance_m = 0.063;
+
+}  // namespace
+
+Size parse_size(const std::string& text) {
+    Size size;
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 ||
+        !is_valid(size))
+        throw Error("The size '" + text + "' is not WIDTHxHEIGHT, for example 1280x720.");
+    return size;
+}
+
+void check_picture_file(const std::string& file) {
+    if (file.empty())
+        return;
+    std::string ending = std::filesystem::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* other : {".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".ppm"})
+        if (ending == other)
+            throw Error("Pictures are written as PNG; name '" + file + "' with the ending .png.");
+    files::require_writable(file);
+    files::require_own_kind(file, files::png_beginning, "a PNG picture");
+}
+
+OffscreenPicture::OffscreenPicture(ViewPicture wanted)
+    : wanted_(std::move(wanted)),
+      renderer_(wanted_.renderer),
+      scene_(wanted_.room, wanted_.people) {
+    viewer::check_renderer_choice(renderer_.renderer());
+}
+
+void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
+    scene_.take(participant);
+    if (scene_.can_draw() && !stands_) {
+        room.stand(scene_.view(wanted_.view, wanted_.size).room_from_eye *
+                   Pose{Quat{0, 1, 0, 0}, {}});
+        stands_ = true;
+    }
+    if (const auto word = participant.take_renderer_word())
+        if (const std::string problem = viewer::follow_host(renderer_, *word); !problem.empty())
+            std::fprintf(stderr, "%s\n", problem.c_str());
+    participant.tell_renderer(drawn_with());
+}
+
+std::string OffscreenPicture::drawn_with() const {
+    return viewer::renderer_for(renderer_.renderer(), scene_.cameras());
+}
+
+void OffscreenPicture::write() {
+    if (!scene_.can_draw())
+        throw Error("No picture came from the host, so none was written.");
+    viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}};
+    if (wanted_.stereo)
+        wish.eye_distance_m = eye_distance_m;
+    if (!wanted_.color_file.empty())
+        files::write_png(wanted_.color_file, scene_.picture(wish).view());
+    if (!wanted_.depth_file.empty())
+        files::write_png(wanted_.depth_file, scene_.distances(wish).view());
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "join_window.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "cli/stop_signal.h"
+#include "entry.h"
+#include "link_argument.h"
+#include "viewer/head_text.h"
+#include "viewer_window.h"
+
+namespace theatron::app {
+
+void join_in_window(const JoinFlags& flags) {
+    ViewerWindow shown{.join = participant_options(flags)};
+    shown.seconds = flags.seconds;
+    shown.save_to = flags.save_to;
+    shown.viewer.view = viewer::parse_view(flags.view);
+    shown.viewer.room = parse_room(flags);
+    shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
+    use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
+    shown.viewer.scale = parse_render_scale(flags.render_scale);
+    const bool is_named = flags.name || shown.settings.name != client::Settings().name;
+    const bool asks = flags.link.empty() || !is_named;
+    if (!flags.link.empty())
+        shown.join.link = parse_link_argument(flags.link);
+    xr::EntryFields fields{flags.link, is_named ? shown.settings.name : "",
+                           is_named ? shown.settings.hears : true, shown.settings.speaks,
+                           flags.voice_may_record || shown.settings.voice_may_record};
+    cli::catch_stop_signals();
+    xr::DesktopWindow window("Theatron", parse_size(flags.size));
+    for (std::string problem;;) {
+        if (asks) {
+            const auto entered = ask_entry(window, fields, problem);
+            if (!entered)
+                return;
+            fields = entered->fields;
+            shown.join.link = entered->link;
+            shown.join.name = shown.settings.name = fields.name;
+            shown.settings.hears = fields.hears;
+            shown.settings.speaks = fields.speaks;
+            shown.settings.voice_may_record = fields.voice_may_record;
+            shown.keep(shown.settings);
+        }
+        const auto device = [](const std::string& given, bool wanted) {
+            return given.empty() && wanted ? std::string("default") : given;
+        };
+        VoiceLine voice({device(flags.microphone, shown.settings.speaks),
+                         device(flags.speaker, shown.settings.hears), flags.voice_frame_ms,
+                         flags.push_to_talk || shown.settings.push_to_talk,
+                         parse_cleaning(flags.echo_cancellation)});
+        ViewerWindow now = shown;
+        now.join.voice_may_record = flags.voice_may_record || shown.settings.voice_may_record;
+        now.keep = [&shown](const client::Settings& settings) {
+            shown.keep(shown.settings = settings);
+        };
+        voice.hear_by(now.join);
+        now.voice = &voice;
+        const auto publisher = open_own_cameras(flags, now.join);
+        now.publisher = publisher.get();
+        try {
+            problem.clear();
+            if (show(window, std::move(now)) == WindowEnd::closed || !asks)
+                return;
+        } catch (const Error& error) {
+            if (!asks)
+                throw;
+            problem = error.what();
+        }
+    }
+}
+
+void join_as_or_screen(const JoinFlags& flags) {
+    client::Participant::Options options = participant_options(flags);
+    // It waits for the file of its link.
+    const bool waits = is_link_file(flags.link);
+    if (!waits)
+        options.link = parse_link_argument(flags.link);
+    options.name = flags.name.value_or(or_screen_name);
+    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
+                     parse_cleaning(flags.echo_cancellation)});
+    voice.hear_by(options);
+    cli::catch_stop_signals();
+    xr::DesktopWindow window("Theatron", parse_size(flags.size));
+    show_or_screen(window, {waits ? flags.link : "", std::move(options), voice, flags.seconds});
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks a host's lobby again and again, on a thread of its own.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "base/time.h"
+#include "image/image.h"
+#include "net/link.h"
+
+namespace theatron::app {
+
+class LobbyWatch {
+public:
+    static constexpr Duration interval = std::chrono::seconds(2);
+    static constexpr Duration patience = std::chrono::seconds(3);  // for one answer
+
+    struct Answer {
+        nlohmann::json lobby;  // null with a problem
+        std::string problem;   // one sentence
+        ColorImage picture;    // empty: there is none
+    };
+
+    // `news` is called from the thread after each answer.
+    explicit LobbyWatch(std::function<void()> news);
+    // Waits for the answer that is under way, at most twice as long as `patience`.
+    ~LobbyWatch();
+
+    // Asks this host from now on, at once; none: no host. Forgets the answer of another one.
+    void set_link(const std::optional<net::Link>& link);
+    // The answer since the last call, if there is a new one.
+    std::optional<Answer> take();
+
+private:
+    void run();
+    static Answer ask(const net::Link& link);
+
+    const std::function<void()> news_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<net::Link> link_;
+    std::uint64_t version_ = 0;  // of link_
+    std::optional<Answer> answer_;
+    bool ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace theatron::app

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playback_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "viewer/playing.h"
+#include "wire/manage_text.h"
+
+namespace theatron::app {
+namespace {
+
+// Longer than any recording; a larger number would not fit into the message.
+constexpr double most_seconds = 1e9;
+
+template <class Target, class Carry>
+bool obey(const std::string& line, const Target& target, TimePoint now, const Carry& carry_out) {
+    try {
+        const auto playback = target.playback();
+        const auto wish =
+            parse_playback_line(line, playback ? viewer::position_at(*playback, now) : Duration(0));
+        if (wish && !playback)
+            throw Error(wire::text_of(wire::ManageRefusal::nothing_to_play));
+        if (wish)
+            carry_out(*wish);
+        return wish.has_value();
+    } catch (const Error& error) {
+        log::say(error.what());
+        return true;
+    }
+}
+
+}  // namespace
+
+const char* playback_lines_help() {
+    return "'pause', 'play', 'seek SECONDS', 'seek +SECONDS', 'seek -SECONDS'";
+}
+
+std::optional<PlaybackLine> parse_playback_line(const std::string& line, Duration here) {
+    std::istringstream words(line);
+    std::string what, value, more;
+    words >> what >> value >> more;
+    if (what == "pause" || what == "play") {
+        if (!value.empty())
+            throw Error("Say '" + what + "' alone.");
+        return PlaybackLine{what == "pause" ? wire::PlayAction::pause : wire::PlayAction::resume,
+                            {}};
+    }
+    if (what != "seek")
+        return std::nullopt;
+    double seconds = 0;
+    std::size_t used = 0;
+    try {
+        seconds = std::stod(value, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used == 0 || used != value.size() || !more.empty() || !(std::abs(seconds) <= most_seconds))
+        throw Error("Say 'seek SECONDS', or 'seek +5' and 'seek -5' from here on.");
+    const bool is_relative = value[0] == '+' || value[0] == '-';
+    const Duration to = seconds_to_duration(seconds) + (is_relative ? here : Duration(0));
+    return PlaybackLine{wire::PlayAction::seek, std::max(to, Duration(0))};
+}
+
+bool obey_playback_line(client::Participant& participant, const std::string& line) {
+    return obey(line, participant, participant.now(), [&](const PlaybackLine& wish) {
+        if (participant.play(wish.action, wish.position) == 0)
+            throw Error("You have not joined yet.");
+    });
+}
+
+bool obey_playback_line(host::Host& host, const std::string& line) {
+    return obey(line, host, TimePoint{},
+                [&](const PlaybackLine& wish) { host.play(wish.action, wish.position); });
+}
+
+}  // namespace theatron::app

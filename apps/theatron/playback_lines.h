@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of standard input that play the recording which a host shows to all: of `theatron join`
+// and of `theatron host`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "client/participant.h"
+#include "host/host.h"
+
+namespace theatron::app {
+
+const char* playback_lines_help();
+
+struct PlaybackLine {
+    wire::PlayAction action{};
+    Duration position{};
+};
+// Reads "pause", "play", "seek SECONDS", or "seek +SECONDS" and "seek -SECONDS" from `here` on.
+// nullopt if it is none of these. Throws Error with one sentence if it is wrong.
+std::optional<PlaybackLine> parse_playback_line(const std::string& line, Duration here);
+
+// Carries out such a line; false if it is none. A sentence on a wrong line is printed.
+bool obey_playback_line(client::Participant& participant, const std::string& line);
+bool obey_playback_line(host::Host& host, const std::string& line);
+
+}  // namespace theatron::app

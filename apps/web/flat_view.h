@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The 2D view: one camera's colour as it is, for a computer that cannot draw the room. It needs no
+// GL. People are heard and seen in the panels; one's own place in the room is told to nobody.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "client/participant.h"
+
+namespace theatron::web {
+
+// For the page's one thread.
+class FlatView {
+public:
+    // More pixels are left out: the canvas shows them anyway, and the computer is slow.
+    static constexpr int most_flat_width = 640;
+
+    // `participant` must outlive the view.
+    explicit FlatView(client::Participant& participant) : participant_(participant) {}
+
+    // The camera after the present one; the first one with colour after the last.
+    void next_camera();
+    // Takes over new frames. True if the camera's picture is another one: see pixels(). Throws
+    // Error if the host refused this participant.
+    bool take();
+    // Red, green, blue and 255, row by row from above.
+    const Bytes& pixels() const { return pixels_; }
+    Size size() const { return size_; }
+
+    // As page_state(), without what only the room shows.
+    nlohmann::json state(const std::string& address, TimePoint now) const;
+    void note(const std::string& text, TimePoint now);
+
+private:
+    std::string camera_name() const;
+
+    client::Participant& participant_;
+    std::map<CameraId, std::shared_ptr<const ColorImage>> newest_;
+    std::optional<CameraId> camera_;
+    bool changed_ = false;
+    Bytes pixels_;
+    Size size_;
+    std::uint64_t pictures_ = 0;
+    std::string notice_;
+    TimePoint notice_until_;
+};
+
+}  // namespace theatron::web

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compiled program (apps/web/main.cpp), which the page and its decoding workers share.
+
+// Options of make_client() for a program that is compiled already.
+export function with_program(program) {
+    return {
+        instantiateWasm(imports, use) {
+            WebAssembly.instantiate(program, imports).then(use);
+            return {};
+        },
+    };
+}
+
+// For the program's next function.
+export function put_bytes(module, buffer) {
+    // The memory may grow, and then its views are others.
+    const address = module._theatron_memory(buffer.byteLength);
+    module.HEAPU8.set(new Uint8Array(buffer), address);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The client's own texts in other languages than English; names of people, cameras and cases stay as they are.
+import { language } from "./texts.js";
+
+const german = {
+    exact: {
+        "Host": "Gastgeber", "Cameras": "Kameras", "Age of picture": "Alter des Bildes", "Received": "Empfangen",
+        "Drawn": "Gezeichnet", "Data": "Daten", "Dropped": "Ausgelassen", "Depth": "Tiefe", "Colour": "Farbe",
+        "Filter": "Filter", "Drawing": "Darstellung", "Decoding": "Dekodierung", "Help": "Hilfe", "You": "Sie",
+        "Recording": "Aufnahme", "Connection": "Verbindung", "Sent": "Gesendet", "At the door": "An der Tür",
+        "Microphone": "Mikrofon", "Under the mouse": "Unter der Maus",
+        "none": "keine", "unknown": "unbekannt", "connecting": "wird aufgebaut", "waiting": "wartet", "default": "üblich",
+        "several": "mehrere", "in the page": "in der Seite", "no surface": "keine Oberfläche",
+        "People": "Personen", "Places": "Orte", "Case": "Fall", "Marks": "Marken", "Parts": "Teile", "Images": "Bilder",
+        "Nobody else is here": "Niemand sonst ist hier", "There are no cameras": "Es gibt keine Kameras",
+        "Calls you (J: go there)": "Ruft Sie (J: hingehen)",
+        "Go": "Hingehen", "Go to": "Hingehen", "Go there": "Hingehen", "Stay here": "Hierbleiben", "See through": "Mitsehen",
+        "Let in": "Einlassen", "Refuse": "Abweisen", "Mute": "Stummschalten", "Unmute": "Sprechen lassen",
+        "Remove": "Entfernen", "Make expert": "Zum Experten machen", "Make observer": "Zum Beobachter machen",
+        "Call all to me": "Alle zu mir rufen", "Stop calling": "Nicht mehr rufen",
+        "Open": "Öffnen", "Close": "Schließen", "Show": "Zeigen", "Hide": "Verbergen", "Apart": "Auseinander",
+        "Together": "Zusammen", "Life size": "Lebensgröße", "Cut": "Schneiden", "Whole": "Ganz", "Window": "Fenster",
+        "Axial": "Axial", "Coronal": "Koronal", "Sagittal": "Sagittal", "Closer": "Näher",
+        "Draw": "Zeichnen", "Pin": "Nadel", "Arrow": "Pfeil", "Distance": "Abstand", "Stroke": "Strich", "Undo": "Zurück",
+        "Clear mine": "Meine löschen", "Clear all": "Alle löschen",
+        "The host offers no case": "Der Gastgeber bietet keinen Fall an",
+        "Waiting for the first picture…": "Das erste Bild wird erwartet…",
+        "Connecting…": "Die Verbindung wird aufgebaut…",
+        "Connection lost, trying again…": "Die Verbindung ist unterbrochen und wird neu aufgebaut…",
+        "No connection yet, trying again…": "Noch keine Verbindung, neuer Versuch…",
+        "Waiting to be let in…": "Bitte warten, bis Sie eingelassen werden…",
+        "The operating room decides. Esc: leave.": "Der Operationssaal entscheidet. Esc: verlassen.",
+        "The host does not let you in": "Der Gastgeber lässt Sie nicht ein",
+        "The session is over": "Die Sitzung ist beendet",
+        "This computer draws too slowly; the connection is not the cause":
+            "Dieser Rechner zeichnet zu langsam; an der Verbindung liegt es nicht",
+        "You are muted; nobody hears you.": "Sie sind stummgeschaltet; niemand hört Sie.",
+        "The others hear you again.": "Die anderen hören Sie wieder.",
+        "Nobody calls you.": "Niemand ruft Sie.", "Nobody waits to be let in.": "Niemand wartet darauf, eingelassen zu werden.",
+        "You ask the others to come to you; they decide.": "Sie bitten die anderen, zu Ihnen zu kommen; diese entscheiden.",
+        "You no longer call.": "Sie rufen nicht mehr.", "This person has left": "Diese Person ist gegangen",
+        "This is not in the room any more": "Das ist nicht mehr im Raum", "From above": "Von oben", "Live again": "Wieder live",
+        "Your role does not allow to call others.": "Ihre Rolle erlaubt nicht, andere zu rufen.",
+        "There is no such mark": "Diese Marke gibt es nicht", "You have made no mark": "Sie haben keine Marke gemacht",
+        "Point at a part of an organ with images": "Zeigen Sie auf den Teil eines Organs, das Bilder hat",
+        "Hold an object with the left mouse button first": "Halten Sie zuerst ein Objekt mit der linken Maustaste",
+        "Nobody is near who could take this": "Niemand ist nahe genug, um das zu nehmen",
+        "Sitting": "Sitzend", "Standing": "Stehend", "Beside the table": "Neben dem Tisch",
+        "operator": "Operator", "expert": "Experte", "observer": "Beobachter", "muted": "stumm", "records": "nimmt auf",
+        "not in the room": "nicht im Raum", "view is old": "Ansicht ist alt", "asks all to come": "ruft alle",
+        "holds an object": "hält ein Objekt", "you see through their eyes": "Sie sehen mit ihren Augen",
+    },
+    patterns: [
+        [/^This picture is (.+) old$/, "Dieses Bild ist $1 alt"],
+        [/^This picture is (.+) old\. /, "Dieses Bild ist $1 alt. "],
+        [/^Frozen by you: this picture is (.+) old\. Space: live again$/, "Von Ihnen angehalten: dieses Bild ist $1 alt. Leertaste: wieder live"],
+        [/^(\d+) live$/, "$1 laufen"],
+        [/^(\d+) workers?$/, "$1 Helfer"],
+        [/^holds (\d+) objects$/, "hält $1 Objekte"],
+        [/^(\d+) fps$/, "$1 Bilder/s"],
+        [/^(.+) \(auto\), coarser$/, "$1 (automatisch), gröber"],
+        [/^(.+) \(auto\)$/, "$1 (automatisch)"],
+        [/^(.+), coarser$/, "$1, gröber"],
+        [/^Given to (.+)$/, "An $1 gegeben"],
+        [/^You have let in (.+)$/, "Sie haben $1 eingelassen"],
+        [/^You have not let in (.+)$/, "Sie haben $1 nicht eingelassen"],
+        [/^You see through the eyes of (.+)$/, "Sie sehen mit den Augen von $1"],
+        [/^Camera (.+)$/, "Kamera $1"],
+        [/^View of (.+)$/, "Ansicht von $1"],
+    ],
+};
+
+// A text of the client in the page's language; English where there is no translation. Lists with commas are
+// translated part by part.
+export function session_text(english) {
+    if (language !== "de" || !english)
+        return english;
+    const part = one => {
+        if (one in german.exact)
+            return german.exact[one];
+        for (const [pattern, text] of german.patterns)
+            if (pattern.test(one))
+                return one.replace(pattern, text);
+        return null;
+    };
+    return part(english) ?? english.split(", ").map(one => part(one) ?? one).join(", ");
+}

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Voice: the others from where they stand, and one's own microphone. Opus by the browser's codecs; the packets
+// are those of docs/formats/voice.md.
+
+const sample_rate = 48000;
+const header_size = 16, version = 1;
+const speech_db = -50;              // a frame of this level counts as speech
+const hang_over_ms = 400;           // speech goes on for so long behind the last such frame
+const most_speakers = 32;           // the one that was silent for longest makes room for another
+const longest_silence_ms = 60_000;  // of a speaker that is kept
+
+// The header of a packet, and its Opus frame; null if it is none.
+export function parse_packet(bytes) {
+    if (bytes.length <= header_size)
+        return null;
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+    const frame_ms = view.getUint8(2);
+    if (view.getUint8(0) !== version || view.getUint8(1) > 1 || (frame_ms !== 10 && frame_ms !== 20))
+        return null;
+    return { pauses: view.getUint8(1), frame_ms, level_db: -view.getUint8(3), number: view.getUint32(4, true),
+             opus: bytes.subarray(header_size) };
+}
+
+function level_of(samples) {
+    let sum = 0;
+    for (const v of samples)
+        sum += v * v;
+    return Math.round(Math.min(0, Math.max(-127, 10 * Math.log10(Math.max(sum / samples.length, 1e-13)))));
+}
+
+// One of the others: decoder, jitter buffer on the audio thread, and a place in the room.
+class Speaker {
+    figures = { level_db: -127, delay_ms: 0, seconds: 0, concealed_ms: 0 };
+    newest_ms = 0;
+    waiting = [];  // headers of the frames in the decoder, in order
+
+    constructor(context, program) {
+        this.node = new AudioWorkletNode(context, "speaker", {
+            numberOfInputs: 0, outputChannelCount: [1], processorOptions: { program } });
+        this.node.port.onmessage = ({ data }) => this.figures = data;
+        // Voices stay understandable across the room.
+        this.panner = new PannerNode(context, {
+            panningModel: "HRTF", distanceModel: "inverse", refDistance: 1.5, rolloffFactor: 0.5 });
+        this.node.connect(this.panner).connect(context.destination);
+        this.begin_decoder();
+    }
+
+    begin_decoder() {
+        this.waiting = [];
+        this.decoder = new AudioDecoder({
+            output: data => {
+                const header = this.waiting.shift();
+                const samples = new Float32Array(data.numberOfFrames);
+                data.copyTo(samples, { planeIndex: 0, format: "f32-planar" });
+                data.close();
+                if (header && samples.length === header.frame_ms * sample_rate / 1000)
+                    this.node.port.postMessage({ ...header, samples }, [samples.buffer]);
+            },
+            error: () => this.begin_decoder(),
+        });
+        this.decoder.configure({ codec: "opus", sampleRate: sample_rate, numberOfChannels: 1 });
+    }
+
+    put({ opus, ...header }) {
+        this.newest_ms = performance.now();
+        this.waiting.push(header);
+        this.decoder.decode(new EncodedAudioChunk({
+            type: "key", timestamp: header.number * header.frame_ms * 1000, data: opus }));
+    }
+
+    move(context, [x, y, z]) {
+        const soon = context.currentTime + 0.05;
+        for (const [axis, value] of [["positionX", x], ["positionY", y], ["positionZ", z]])
+            this.panner[axis].linearRampToValueAtTime(value, soon);
+    }
+
+    end() {
+        this.node.port.postMessage("end");
+        this.node.disconnect();
+        this.panner.disconnect();
+        if (this.decoder.state !== "closed")
+            this.decoder.close();
+    }
+}
+
+export class Voice {
+    // "off", "asking", "open", "denied" or "missing": of the microphone. `unreadable` packets were skipped.
+    microphone = "off";
+    unreadable = 0;
+    speakers = new Map();  // participant -> Speaker
+
+    // `send(number, age_us, pauses, level_db, opus)` sends a frame whose first sample is so old; `changed()` follows a
+    // change of the microphone.
+    constructor(send, changed) {
+        this.send = send;
+        this.changed = changed;
+    }
+
+    static is_supported() {
+        return !!(globalThis.AudioContext && globalThis.AudioWorkletNode && globalThis.AudioDecoder && globalThis.AudioEncoder);
+    }
+
+    // Call it in an event of the user: before one, browsers play nothing.
+    async begin() {
+        if (!Voice.is_supported())
+            return;
+        this.context ??= new AudioContext({ sampleRate: sample_rate, latencyHint: "interactive" });
+        const resumed = this.context.resume();
+        this.loaded ??= Promise.all([
+            this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url)),
+            fetch(new URL("./voice.wasm", import.meta.url)).then(answer => WebAssembly.compileStreaming(answer)),
+        ]).then(([, program]) => this.program = program);
+        await Promise.all([resumed, this.loaded]);
+    }
+
+    hear(id, bytes) {
+        if (!this.program)
+            return;
+        const packet = parse_packet(bytes);
+        if (!packet) {
+            ++this.unreadable;
+            return;
+        }
+        let speaker = this.speakers.get(id);
+        if (!speaker) {
+            this.forget_one(most_speakers - 1);
+            this.speakers.set(id, speaker = new Speaker(this.context, this.program));
+        }
+        speaker.put(packet);
+    }
+
+    // Keeps at most so many, those that spoke last.
+    forget_one(most) {
+        const by_age = [...this.speakers].sort(([, a], [, b]) => a.newest_ms - b.newest_ms);
+        for (const [id, speaker] of by_age.slice(0, Math.max(0, by_age.length - most)))
+            this.forget(id, speaker);
+    }
+    forget(id, speaker) {
+        speaker.end();
+        this.speakers.delete(id);
+    }
+
+    // The listener's place (`eye`: position, ahead and up, each x y z) and those of the speakers by participant.
+    place(eye, places) {
+        if (!this.context)
+            return;
+        const { listener, currentTime } = this.context;
+        const soon = currentTime + 0.05;
+        const turn = (names, values) => names.forEach((name, i) => listener[name]?.linearRampToValueAtTime(values[i], soon));
+        if (eye) {
+            turn(["positionX", "positionY", "positionZ"], eye.position);
+            turn(["forwardX", "forwardY", "forwardZ"], eye.ahead);
+            turn(["upX", "upY", "upZ"], eye.up);
+        }
+        const now = performance.now();
+        for (const [id, speaker] of this.speakers) {
+            if (places.has(id))
+                speaker.move(this.context, places.get(id));
+            else if (now - speaker.newest_ms > longest_silence_ms)
+                this.forget(id, speaker);
+        }
+    }
+
+    is_speaking(id) {
+        return (this.speakers.get(id)?.figures.level_db ?? -127) > speech_db;
+    }
+
+    async open_microphone() {
+        if (this.microphone === "open" || this.microphone === "asking")
+            return;
+        this.set_microphone("asking");
+        try {
+            await this.begin();
+            this.stream = await navigator.mediaDevices.getUserMedia({
+                audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true } });
+            if (this.microphone !== "asking")  // closed while the browser asked
+                return this.stop_stream();
+            this.stream.getAudioTracks()[0].addEventListener("ended", () => this.close_microphone("missing"));
+            this.source = new MediaStreamAudioSourceNode(this.context, { mediaStream: this.stream });
+            this.frames = new AudioWorkletNode(this.context, "microphone", { numberOfOutputs: 0, channelCount: 1,
+                channelCountMode: "explicit" });
+            this.begin_encoder();
+            this.frames.port.onmessage = ({ data }) => this.encode(data);
+            this.source.connect(this.frames);
+            this.set_microphone("open");
+        } catch (error) {
+            this.close_microphone(error.name === "NotAllowedError" ? "denied" : "missing");
+        }
+    }
+
+    close_microphone(why = "off") {
+        this.source?.disconnect();
+        this.frames?.disconnect();
+        if (this.frames)
+            this.frames.port.onmessage = null;
+        if (this.encoder?.state === "configured")
+            this.encoder.close();
+        this.source = this.frames = this.encoder = null;
+        this.stop_stream();
+        this.set_microphone(why);
+    }
+
+    toggle_microphone() {
+        return this.microphone === "open" || this.microphone === "asking" ? this.close_microphone() : this.open_microphone();
+    }
+
+    stop_stream() {
+        this.stream?.getTracks().forEach(track => track.stop());
+        this.stream = null;
+    }
+
+    set_microphone(state) {
+        this.microphone = state;
+        this.changed();
+    }
+
+    begin_encoder() {
+        this.encoding = [];  // facts of the frames in the encoder, in order
+        this.number ??= 0;
+        this.spoke_ms = -Infinity;
+        this.is_sending = false;
+        this.encoder = new AudioEncoder({
+            output: chunk => {
+                const facts = this.encoding.shift();
+                if (!facts)
+                    return;
+                const opus = new Uint8Array(chunk.byteLength);
+                chunk.copyTo(opus);
+                const age_us = (performance.now() - facts.taken_ms) * 1000 + chunk.duration;
+                this.send(facts.number, age_us, facts.pauses, facts.level_db, opus);
+            },
+            error: () => this.close_microphone("missing"),
+        });
+        this.encoder.configure({ codec: "opus", sampleRate: sample_rate, numberOfChannels: 1, bitrate: 32000,
+            opus: { application: "voip", frameDuration: 20000, useinbandfec: true, packetlossperc: 5 } });
+    }
+
+    // Silence is not sent; its frames are counted on, and the first one says that a pause begins.
+    encode(samples) {
+        const now = performance.now(), number = this.number++;
+        const level_db = level_of(samples);
+        if (level_db > speech_db)
+            this.spoke_ms = now;
+        const is_voice = now - this.spoke_ms < hang_over_ms;
+        if (!is_voice && !this.is_sending)
+            return;
+        this.is_sending = is_voice;
+        this.encoding.push({ number: number >>> 0, taken_ms: now, pauses: is_voice ? 0 : 1, level_db });
+        this.encoder.encode(new AudioData({ format: "f32-planar", sampleRate: sample_rate, numberOfChannels: 1,
+            numberOfFrames: samples.length, timestamp: number * 20000, data: samples }));
+    }
+
+    leave() {
+        this.close_microphone();
+        for (const [id, speaker] of [...this.speakers])
+            this.forget(id, speaker);
+        this.context?.suspend();
+    }
+}

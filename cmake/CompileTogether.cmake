@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sanitizer builds compile eight sources of a target at once, in about half the processor time.
+
+# A source whose file-local names another source of its target also has is compiled alone. The compiler
+# says "redefinition" or "ambiguous" then: rename one of the two, or add a source here.
+set(THEATRON_COMPILED_ALONE
+  apps/theatron/demo_command.cpp
+  apps/theatron/export_command.cpp
+  apps/theatron/host_command.cpp
+  apps/theatron/join_command.cpp
+  apps/theatron/link_command.cpp
+  apps/theatron/lobby_command.cpp
+  apps/theatron/mark_lines.cpp
+  apps/theatron/publish_command.cpp
+  apps/theatron/record_command.cpp
+  apps/theatron/recover_command.cpp
+  apps/theatron/register_command.cpp
+  apps/theatron/scripted_people.cpp
+  apps/theatron/target_command.cpp
+  bench/theatron_bench/bench_filter.cpp
+  bench/theatron_bench/bench_pipeline.cpp
+  bench/theatron_bench/bench_render.cpp
+  bench/theatron_bench/bench_slices.cpp
+  bench/theatron_bench/bench_video.cpp
+  bench/theatron_bench/bench_view_scene.cpp
+  bench/theatron_bench/bench_web.cpp
+  bench/theatron_bench/browser_page.cpp
+  src/capture/camera.cpp
+  src/capture/mkv_answer.cpp
+  src/capture/mkv_answer_test.cpp
+  src/capture/mkv_camera.cpp
+  src/capture/mkv_camera_test.cpp
+  src/capture/mkv_file.cpp
+  src/capture/mkv_reader.cpp
+  src/capture/readable_file.cpp
+  src/capture/recording_damage_test.cpp
+  src/capture/transport_test.cpp
+  src/capture/video_camera.cpp
+  src/capture/video_reader.cpp
+  src/capture/watched_camera_test.cpp
+  src/cases/foreign_files.cpp
+  src/cases/manifest.cpp
+  src/cases/nrrd.cpp
+  src/cases/real_case_test.cpp
+  src/cases/share_case.cpp
+  src/cases/synth_test.cpp
+  src/client/settings.cpp
+  src/codec/depth_stream_test.cpp
+  src/codec/strata.cpp
+  src/filter/chain_settings_test.cpp
+  src/filter/cuda_chain_test.cpp
+  src/filter/promises_test.cpp
+  src/furniture/cabinets.cpp
+  src/furniture/furnish.cpp
+  src/furniture/lamps.cpp
+  src/furniture/machines.cpp
+  src/furniture/table.cpp
+  src/furniture/wall.cpp
+  src/host/filter_choice.cpp
+  src/host/host.cpp
+  src/host/place_watch.cpp
+  src/host/thumbnail.cpp
+  src/medical/mesh_shaping.cpp
+  src/medical/shared_case.cpp
+  src/medical/volume.cpp
+  src/net/link_test.cpp
+  src/net/sha256.cpp
+  src/record/intake_test.cpp
+  src/record/remarks.cpp
+  src/record/segment_info.cpp
+  src/record/stream_gate.cpp
+  src/registration/lattice_fit.cpp
+  src/registration/registration_report.cpp
+  src/registration/rig_watch.cpp
+  src/registration/rig_watch_test.cpp
+  src/registration/surface_refinement.cpp
+  src/registration/surface_refinement_test.cpp
+  src/registration/touched_corners.cpp
+  src/render/cloud_set_test.cpp
+  src/render/depth_offsets.cpp
+  src/render/golden_test.cpp
+  src/render/picture_quality_test.cpp
+  src/render/room_picture.cpp
+  src/render/room_picture_test.cpp
+  src/room/pointers.cpp
+  src/room/teleport_marks.cpp
+  src/room/virtual_room.cpp
+  src/room/virtual_room_test.cpp
+  src/send/camera_lane_test.cpp
+  src/send/lane_encoders_test.cpp
+  src/send/lane_memory_test.cpp
+  src/session/mark_room_test.cpp
+  src/session/pose_board_test.cpp
+  src/session/request_budget_test.cpp
+  src/session/room_messages_test.cpp
+  src/session/room_test.cpp
+  src/session/session_of_many_test.cpp
+  src/session/setting_table_test.cpp
+  src/synthetic/sensor_color.cpp
+  src/synthetic/tray.cpp
+  src/video/h264_test.cpp
+  src/video/jpeg_decoder_test.cpp
+  src/video/jpeg_encoder_native.cpp
+  src/video/x264_native.cpp
+  src/viewer/meeting.cpp
+  src/viewer/monitor.cpp
+  src/wire/control.cpp
+  src/xr/overlay_native.cpp
+)
+
+# theatron_compile_together(TARGET SOURCE...): the sources of TARGET, but for those of the list above.
+function(theatron_compile_together target)
+  if(NOT THEATRON_SANITIZE OR NOT ARGN)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  foreach(source ${ARGN})
+    file(RELATIVE_PATH path ${CMAKE_SOURCE_DIR} ${source})
+    if(path IN_LIST THEATRON_COMPILED_ALONE)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()

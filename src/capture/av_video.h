@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes the video track of an open libavformat source into rows of red, green, blue bytes. Only
+// for code that runs in a sandbox.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "capture/video_answer.h"
+
+namespace theatron::capture {
+
+// Writes pictures of any format and size into one picture of a fixed size: scaled in their own
+// shape, with black beside them.
+class PictureWriter {
+public:
+    // `area` holds video_bytes() of every size that begin() gets.
+    explicit PictureWriter(std::span<std::byte> area) : area_(area) {}
+    ~PictureWriter() { sws_freeContext(scaler_); }
+    PictureWriter(const PictureWriter&) = delete;
+
+    // False if pictures of this size do not fit into the area.
+    bool begin(Size size);
+    Size size() const { return size_; }
+
+    struct Source {
+        AVPixelFormat format = AV_PIX_FMT_NONE;
+        Size size;
+        const std::uint8_t* const* rows = nullptr;  // four, as in AVFrame
+        const int* strides = nullptr;
+        AVColorSpace colors = AVCOL_SPC_UNSPECIFIED;
+        AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
+    };
+    // Throws std::bad_alloc.
+    void write(const Source& source);
+
+private:
+    std::span<std::byte> area_;
+    Size size_;
+    SwsContext* scaler_ = nullptr;
+};
+
+PictureWriter::Source source_of(const AVFrame& frame);
+
+class AvVideo {
+public:
+    // Throws std::bad_alloc, as all functions.
+    explicit AvVideo(std::span<std::byte> area);
+    ~AvVideo();
+    AvVideo(const AvVideo&) = delete;
+
+    // Chooses the track of `file`, which is open and outlives this. Pictures get the size `wanted`;
+    // without one, their own.
+    VideoAnswer open(AVFormatContext& file, Size wanted = {});
+
+    // Called after each packet of the track was read; its result is in stamp() of the picture.
+    void set_stamps(std::function<std::int64_t()> stamps) { stamps_ = std::move(stamps); }
+
+    // The next picture; false at the end. Damaged parts are left out.
+    bool decode();
+    std::int64_t stamp() const { return frame_->reordered_opaque; }
+    // The time of the picture in the file.
+    Duration time();
+    // Writes the picture into the area.
+    void write();
+
+private:
+    AVFormatContext* file_ = nullptr;
+    AVCodecContext* decoder_ = nullptr;
+    AVPacket* packet_ = av_packet_alloc();
+    AVFrame* frame_ = av_frame_alloc();
+    PictureWriter writer_;
+    int track_ = -1;
+    bool draining_ = false;
+    double frames_per_second_ = 30;
+    std::optional<Duration> last_;
+    std::function<std::int64_t()> stamps_;
+};
+
+}  // namespace theatron::capture

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/video_reader.h"
+
+extern "C" {
+#include <libavutil/log.h>
+}
+
+#include <memory>
+#include <new>
+#include <optional>
+
+#include "capture/av_input.h"
+#include "capture/av_video.h"
+
+namespace theatron::capture {
+namespace {
+
+using Kind = VideoAnswer::Kind;
+
+// Playlists and other containers that name files get none.
+int refuse_io(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
+    return AVERROR(EACCES);
+}
+
+class Video {
+public:
+    Video(int descriptor, std::span<std::byte> area) : input_(descriptor), video_(area) {}
+    ~Video() { avformat_close_input(&file_); }
+    Video(const Video&) = delete;
+
+    VideoAnswer open();
+    // Writes the picture into the area. Nullopt at the end.
+    std::optional<VideoAnswer> next();
+
+private:
+    AvInput input_;
+    AVFormatContext* file_ = nullptr;
+    AvVideo video_;
+};
+
+VideoAnswer Video::open() {
+    av_log_set_level(AV_LOG_QUIET);
+    file_ = avformat_alloc_context();
+    if (!file_)
+        throw std::bad_alloc();
+    file_->pb = input_.context();
+    file_->io_open = refuse_io;
+    const int failed = avformat_open_input(&file_, "", nullptr, nullptr);
+    check_av_memory(failed);
+    return failed ? VideoAnswer{.kind = Kind::unreadable} : video_.open(*file_);
+}
+
+std::optional<VideoAnswer> Video::next() {
+    if (!video_.decode())
+        return std::nullopt;
+    video_.write();
+    return VideoAnswer{.kind = Kind::picture, .time = video_.time(), .size = {}};
+}
+
+}  // namespace
+
+void serve_video(sandbox::Inside& inside) {
+    std::unique_ptr<Video> video;
+    while (const std::optional<Bytes> request = inside.receive()) {
+        if (request->size() == 1 && (*request)[0] == std::byte(VideoRequest::open)) {
+            video.reset();
+            video = std::make_unique<Video>(inside.input(), inside.area());
+            inside.send(encode(video->open()));
+        } else {
+            const auto answer = video ? video->next() : std::nullopt;
+            inside.send(encode(answer.value_or(VideoAnswer{.kind = Kind::end, .size = {}})));
+        }
+    }
+}
+
+}  // namespace theatron::capture

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/decoder_worker_web.h"
+
+#include <map>
+#include <optional>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/steady_clock.h"
+#include "client/decoder_messages.h"
+
+namespace theatron::client {
+namespace {
+
+class DecoderWorker {
+public:
+    DecoderWorker(Duration clock_difference, std::function<void(ByteView)> reply)
+        : clock_difference_(clock_difference), reply_(std::move(reply)), receiver_(events()) {}
+
+    void on(const WorkerCameras& m) {
+        generation_ = m.generation;
+        if (m.anew) {
+            receiver_.set_cameras({});
+            colors_.clear();
+        }
+        receiver_.set_cameras(m.cameras);
+    }
+
+    void on(const WorkerSettings& m) {
+        try {
+            receiver_.set_settings(m.settings);
+        } catch (const Error& e) {
+            reply(WorkerProblem{generation_, e.what()});
+        }
+    }
+
+    void on(const WorkerMedia& m) {
+        session_offset_ = m.session_offset;
+        // The receiver counts damage and requests a key frame.
+        if (!contain("decode", [&] { (void)receiver_.on_media(m.message, now()); }))
+            // The picture is lost, and the state of its decoder is undefined.
+            if (const auto header = wire::parse_media_header(m.message))
+                reply(WorkerNeedsKey{generation_, header->stream, header->setting});
+        reply(WorkerDone{m.number});
+    }
+
+    void on(const WorkerFiguresWanted& m) {
+        session_offset_ = m.session_offset;
+        if (m.reset)
+            receiver_.reset_figures();
+        reply(WorkerFigures{generation_, receiver_.figures(now())});
+    }
+
+private:
+    receive::Receiver::Events events() {
+        receive::Receiver::Events events;
+        events.frame = [this](const receive::CameraFramePtr& frame) { send(*frame); };
+        events.needs_key = [this](StreamId stream, SettingId setting) {
+            reply(WorkerNeedsKey{generation_, stream, setting});
+        };
+        events.now = [this] { return now(); };
+        return events;
+    }
+
+    void send(const receive::CameraFrame& frame) {
+        WorkerFrame m;
+        m.generation = generation_;
+        m.camera = frame.camera;
+        m.number = frame.number;
+        m.moment = frame.moment;
+        m.times = frame.times;
+        m.depth_size = frame.depth.size;
+        m.depth = std::as_bytes(std::span(frame.depth.pixels));
+        if (frame.color) {
+            // Keeping it keeps its memory from being used for the next.
+            auto& before = colors_[frame.camera];
+            m.same_color = before == frame.color;
+            before = frame.color;
+            m.color_size = frame.color->size;
+            if (!m.same_color)
+                m.color = std::as_bytes(std::span(frame.color->pixels));
+        }
+        reply(m);
+    }
+
+    TimePoint now() const { return steady_now() - clock_difference_ + session_offset_; }
+    void reply(const FromWorker& message) { reply_(encode(message)); }
+
+    Duration clock_difference_, session_offset_{};
+    std::function<void(ByteView)> reply_;
+    std::uint64_t generation_ = 0;
+    receive::Receiver receiver_;
+    std::map<CameraId, std::shared_ptr<const ColorImage>> colors_;  // last sent
+};
+
+std::optional<DecoderWorker>& worker() {
+    static std::optional<DecoderWorker> only;
+    return only;
+}
+
+}  // namespace
+
+void begin_decoder_worker(Duration clock_difference, std::function<void(ByteView)> reply) {
+    worker().emplace(clock_difference, std::move(reply));
+}
+
+void on_decoder_work(ByteView message) {
+    if (const auto work = decode_to_worker(message))
+        std::visit([](const auto& m) { worker()->on(m); }, *work);
+}
+
+}  // namespace theatron::client

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of the participants and their cameras.
+#include <algorithm>
+
+#include "base/steady_clock.h"
+#include "host/host_impl.h"
+
+namespace theatron::host {
+namespace {
+
+// A participant reports ten times a second. One that was not heard for so long has stopped, or its
+// link is cut, although its connection is open.
+constexpr Duration silent_publisher = std::chrono::seconds(2);
+
+wire::CameraCondition condition_here(const std::optional<wire::CameraState>& said, bool is_silent) {
+    const auto condition = said ? said->condition : wire::CameraCondition::live;
+    return condition == wire::CameraCondition::live && is_silent ? wire::CameraCondition::stale
+                                                                 : condition;
+}
+
+}  // namespace
+
+void Host::Impl::note_participants() {
+    std::vector<HostFigures::Participant> list;
+    for (const auto& [id, participant] : session->participants())
+        if (participant.joined)
+            list.push_back({id, participant.name, session->step_of(id), participant.report,
+                            participant.renderer, participant.budget.refused(), participant.denied,
+                            participant.role, participant.muted});
+    participants = list.size();
+    const auto& all = session->participants();
+    media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
+        return entry.second.joined && entry.second.records;
+    }));
+    const TimePoint now = steady_now();
+    const auto is_silent = [&](ParticipantId publisher) {
+        const auto last = heard.find(net::PeerId(std::uint32_t(publisher)));
+        return last != heard.end() && now - last->second > silent_publisher;
+    };
+    const session::Streams& streams = session->streams();
+    std::erase_if(dropped_slow, [&](const auto& entry) { return !streams.find(entry.first); });
+    std::map<CameraId, session::CameraAdjustment> adjusted;
+    for (const wire::Camera& camera : streams.cameras())
+        if (!camera.adjustment.empty())
+            adjusted[camera.id] = streams.find(camera.id)->adjustment();
+    std::vector<HostFigures::Published> published;
+    for (const wire::Camera& camera : streams.cameras())
+        if (camera.publisher != session::host_publisher) {
+            const auto& state = streams.find(camera.id)->state;
+            published.push_back({camera.id, camera.name, camera.publisher,
+                                 condition_here(state, is_silent(camera.publisher)),
+                                 dropped_slow[camera.id]});
+        }
+    const std::lock_guard lock(figures_mutex);
+    participant_figures = std::move(list);
+    visitor_figures = session->visitors();
+    ended_figure = session->has_ended();
+    published_figures = std::move(published);
+    adjusted_figures = std::move(adjusted);
+    dropped_slow_figures = dropped_slow;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that the OR screen tells, in plain values, and how it is put into words. Pure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client/participant_figures.h"
+#include "image/view.h"
+#include "or_screen/picture_place.h"
+#include "session/mark.h"
+
+namespace theatron::or_screen {
+
+// Another person as known at this moment.
+struct PersonNow {
+    ParticipantId id{};
+    std::string name;
+    wire::Role role{};
+    bool muted = false, speaks = false;
+    std::optional<double> pose_age_ms;  // none: no pose has come, as from people without a window
+    bool points = false;
+    bool points_at_images = false;  // at the slice on the monitor
+    std::optional<Sight> pointed;   // the end of the pointer in the shown picture, if it has one
+};
+
+// A person's entry at the lower edge.
+struct PersonCard {
+    ParticipantId id{};
+    std::string name, initials, state;
+    Rgb color;
+    bool speaks = false;
+    bool warns = false;  // the state is one to notice
+    bool operator==(const PersonCard&) const = default;
+};
+
+// The cards of at most `most` people, in the order of their numbers, so that cards stay where they
+// are. Where there are more people, those who speak or point have a card before others.
+std::vector<PersonCard> cards_of(const std::vector<PersonNow>& people, std::size_t most);
+
+// The end of a person's pointer in the shown picture; never outside.
+struct PointerMark {
+    ParticipantId id{};
+    std::string initials;
+    Rgb color;
+    PicturePlace place;
+    bool operator==(const PointerMark&) const = default;
+};
+
+// The head of a person in the picture of the room, in shares of its width and height.
+struct HeadMark {
+    ParticipantId id{};
+    std::string initials;
+    Rgb color;
+    bool speaks = false;
+    Vec2 place;
+};
+
+// A mark of the room in the shown picture.
+struct PictureMark {
+    session::MarkKind kind{};
+    std::string label;
+    Rgb color;
+    std::vector<PicturePlace> points;
+};
+
+struct Content {
+    // Large over everything while there is no session; else empty.
+    std::string message, detail;
+
+    Size picture;  // of the shown camera; empty: none has sent colour
+    std::string camera;
+    std::string age;  // of the picture; empty: none
+    bool age_warns = false;
+    std::string warning;   // over the picture: it is not what happens now
+    std::string recorded;  // "recorded by Anna, 12 s"; empty: by nobody
+    std::vector<PersonCard> people;
+    std::size_t people_left_out = 0;
+    bool is_alone = false;
+    std::vector<PointerMark> pointers;
+    std::vector<PictureMark> marks;
+    std::vector<HeadMark> heads;
+    std::string slice;  // text below the monitor's slice; empty: there is no slice
+    std::vector<PointerMark> slice_pointers;  // pixels of the slice
+};
+
+// The message while there is no session: first in large letters, then an explanation. Both empty
+// while joined.
+struct ScreenMessage {
+    std::string text, detail;
+};
+ScreenMessage message_of(const client::Participant::Status& status);
+
+// Sets `camera`, `age`, `age_warns` and `warning` for the shown picture, which is so old.
+void describe_picture(const client::CameraFigures& camera, double age_ms, Content& content);
+
+}  // namespace theatron::or_screen

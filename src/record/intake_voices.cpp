@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The voices of a recording: see intake.h.
+#include <algorithm>
+
+#include "record/intake.h"
+#include "record/recording_layout.h"
+#include "record/speaker_note.h"
+
+namespace theatron::record {
+namespace {
+
+bool names(const std::vector<RecordedVoice>& voices, ParticipantId person) {
+    return std::any_of(voices.begin(), voices.end(),
+                       [&](const RecordedVoice& voice) { return voice.person == person; });
+}
+
+}  // namespace
+
+void Intake::describe_voices(std::vector<RecordedVoice> voices) {
+    const std::lock_guard lock(mutex_);
+    agreed_ = std::move(voices);
+    if (agreed_.size() > max_voice_tracks - spare_voices)
+        agreed_.resize(max_voice_tracks - spare_voices);
+    if (!recorder_ || !problem_.empty() || wants_segment_)
+        return;
+    const auto has_lane = [&](const RecordedVoice& voice) { return voice_lane_of(voice.person); };
+    if (std::all_of(agreed_.begin(), agreed_.end(), has_lane))
+        return;
+    wants_segment_ = true;
+    for (auto& [id, entry] : entries_)
+        entry.gate.want_key();
+}
+
+std::vector<VoiceTrack> Intake::voice_tracks() const {
+    std::vector<VoiceTrack> tracks;
+    if (!options_.has_room)
+        return tracks;  // no session, nobody speaks
+    for (std::size_t i = 0; i < agreed_.size() + spare_voices; ++i)
+        tracks.push_back({track_number(voice_stream(i)),
+                          i < agreed_.size() ? agreed_[i].name : "voice " + std::to_string(i + 1)});
+    return tracks;
+}
+
+// The figures of the segment that ends.
+void Intake::keep_voice_figures() {
+    for (const VoiceLane& lane : voices_) {
+        const VoiceSequence::Figures& figures = lane.sequence.figures();
+        if (!lane.person || figures.packets + figures.left_out == 0)
+            continue;
+        Voice& voice = spoken_[*lane.person];
+        voice.who = {*lane.person, name_in(lane.note)};
+        voice.figures.packets += figures.packets;
+        voice.figures.missing += figures.missing;
+        voice.figures.left_out += figures.left_out;
+    }
+}
+
+void Intake::begin_voices(TimePoint begin) {
+    keep_voice_figures();
+    voices_.clear();
+    newest_picture_ = begin;
+    for (std::size_t i = 0; i < voice_tracks().size(); ++i) {
+        voices_.push_back({std::nullopt, "", VoiceSequence(begin)});
+        if (i < agreed_.size()) {
+            voices_[i].person = agreed_[i].person;
+            voices_[i].note = speaker_note(agreed_[i]);
+        }
+    }
+}
+
+// The lane of a person who agreed, a spare one if there is none yet; null if all are given out.
+Intake::VoiceLane* Intake::voice_lane_of(ParticipantId person) {
+    for (VoiceLane& lane : voices_)
+        if (lane.person == person)
+            return &lane;
+    const auto who = std::find_if(agreed_.begin(), agreed_.end(),
+                                  [&](const RecordedVoice& v) { return v.person == person; });
+    const auto free = std::find_if(voices_.begin(), voices_.end(),
+                                   [](const VoiceLane& lane) { return !lane.person; });
+    if (who == agreed_.end() || free == voices_.end())
+        return nullptr;
+    free->person = person;
+    free->note = speaker_note(*who);
+    return &*free;
+}
+
+void Intake::take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    // Until the segment of a new connection begins, times are of another clock.
+    const bool is_between = pending_ && pending_->new_connection;
+    if (!problem_.empty() || !recorder_ || is_between || !names(agreed_, person))
+        return;
+    VoiceLane* const lane = voice_lane_of(person);
+    if (!lane)
+        return;
+    const auto index = std::size_t(lane - voices_.data());
+    lane->sequence.put(packet,
+                       [&](const VoiceSequence::Block& block) { add_voice(index, block, now); });
+}
+
+void Intake::fill_voices(TimePoint captured, TimePoint now) {
+    // A camera may claim any time.
+    captured = std::min(captured, now);
+    if (captured <= newest_picture_)
+        return;
+    newest_picture_ = captured;
+    for (std::size_t i = 0; i < voices_.size(); ++i)
+        voices_[i].sequence.fill(captured - voice_patience, [&](const VoiceSequence::Block& block) {
+            add_voice(i, block, now);
+        });
+}
+
+void Intake::add_voice(std::size_t index, const VoiceSequence::Block& block, TimePoint now) {
+    VoiceLane& lane = voices_[index];
+    wire::MediaHeader header;
+    header.codec = block.is_silence ? silence_codec : voice_codec;
+    header.key = true;
+    header.stream = voice_stream(index);
+    header.setting = SettingId(-block.level_db);
+    header.frame = header.reference = lane.blocks++;
+    header.payload_size = std::uint32_t(block.opus.size());
+    header.moment = header.captured = lane.sequence.begin() + block.at;
+    auto message = std::make_shared<Bytes>(wire::media_header_size);
+    wire::write_media_header(header, message->data());
+    message->insert(message->end(), block.opus.begin(), block.opus.end());
+    if (recorder_->add(header, std::move(message), now, lane.note) == Recorder::Added::dropped &&
+        !block.is_silence && lane.person)
+        ++spoken_[*lane.person].dropped;
+}
+
+std::vector<Intake::Voice> Intake::voices() const {
+    const std::lock_guard lock(mutex_);
+    std::map<ParticipantId, Voice> all = spoken_;
+    for (const VoiceLane& lane : voices_) {
+        if (!lane.person)
+            continue;
+        const VoiceSequence::Figures& figures = lane.sequence.figures();
+        Voice& voice = all[*lane.person];
+        voice.who = {*lane.person, name_in(lane.note)};
+        voice.figures.packets += figures.packets;
+        voice.figures.missing += figures.missing;
+        voice.figures.left_out += figures.left_out;
+    }
+    std::vector<Voice> result;
+    for (auto& [person, voice] : all)
+        result.push_back(std::move(voice));
+    return result;
+}
+
+}  // namespace theatron::record

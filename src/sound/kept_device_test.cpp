@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sound/kept_device.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <vector>
+
+#include "base/error.h"
+
+namespace theatron::sound {
+namespace {
+
+// Sockets into which devices are plugged.
+struct Machine {
+    std::mutex mutex;
+    std::set<std::string> plugged;
+    std::vector<std::string> sentences;
+    int opened = 0, open = 0;
+
+    void plug(const std::string& name, bool is_plugged) {
+        const std::lock_guard lock(mutex);
+        if (is_plugged)
+            plugged.insert(name);
+        else
+            plugged.erase(name);
+    }
+    bool has(const std::string& name) {
+        const std::lock_guard lock(mutex);
+        return plugged.contains(name);
+    }
+    std::string said() {
+        const std::lock_guard lock(mutex);
+        std::string text;
+        for (const std::string& sentence : sentences)
+            text += sentence + "|";
+        return text;
+    }
+};
+
+struct Plugged : SoundDevice {
+    Plugged(Machine& the_machine, std::string the_name)
+        : machine(the_machine), name(std::move(the_name)) {
+        const std::lock_guard lock(machine.mutex);
+        if (!machine.plugged.contains(name))
+            throw Error("There is no '" + name + "'.");
+        ++machine.opened;
+        EXPECT_EQ(++machine.open, 1) << "the old one ends first";
+    }
+    ~Plugged() override {
+        const std::lock_guard lock(machine.mutex);
+        --machine.open;
+    }
+    bool works() const override { return machine.has(name); }
+    Machine& machine;
+    const std::string name;
+};
+
+class Kept : public ::testing::Test {
+protected:
+    std::unique_ptr<KeptDevice> keep(const std::string& name) {
+        return std::make_unique<KeptDevice>(
+            "microphone", name,
+            [this](const std::string& wanted) {
+                return std::make_unique<Plugged>(machine_, wanted);
+            },
+            [this](const std::string& text) {
+                const std::lock_guard lock(machine_.mutex);
+                machine_.sentences.push_back(text);
+            },
+            Duration(1ms));
+    }
+    template <class Condition>
+    static bool wait_for(Condition condition) {
+        for (int i = 0; i < 20'000 && !condition(); ++i)
+            std::this_thread::sleep_for(1ms);
+        return condition();
+    }
+
+    Machine machine_;
+};
+
+TEST_F(Kept, ComesBackWhenItIsPluggedInAgain) {
+    machine_.plug("headset", true);
+    const auto device = keep("headset");
+    EXPECT_TRUE(device->works());
+    machine_.plug("headset", false);
+    EXPECT_TRUE(wait_for([&] { return !device->works(); }));
+    machine_.plug("headset", true);
+    EXPECT_TRUE(wait_for([&] { return device->works(); }));
+    EXPECT_EQ(machine_.said(),
+              "The microphone 'headset' is gone; it is used again as soon as it is plugged in.|"
+              "The microphone 'headset' is there.|");
+}
+
+TEST_F(Kept, OneThatIsNotThereYetIsSaidOnceAndOpenedLater) {
+    const auto device = keep("headset");
+    EXPECT_FALSE(device->works());
+    std::this_thread::sleep_for(20ms);
+    machine_.plug("headset", true);
+    EXPECT_TRUE(wait_for([&] { return device->works(); }));
+    EXPECT_EQ(machine_.said(), "There is no 'headset'.|The microphone 'headset' is there.|");
+}
+
+TEST_F(Kept, IsExchangedWhileItRuns) {
+    machine_.plug("headset", true);
+    machine_.plug("desk", true);
+    const auto device = keep("headset");
+    EXPECT_TRUE(device->change("desk"));
+    EXPECT_EQ(device->name(), "desk");
+    machine_.plug("headset", false);
+    std::this_thread::sleep_for(20ms);
+    EXPECT_TRUE(device->works());
+    EXPECT_FALSE(device->change("headset"));
+    EXPECT_FALSE(device->works());
+    EXPECT_EQ(machine_.said(), "There is no 'headset'.|");
+}
+
+TEST_F(Kept, AFileIsNotTriedAgain) {
+    const auto device = keep("said.wav");
+    machine_.plug("said.wav", true);
+    std::this_thread::sleep_for(20ms);
+    EXPECT_FALSE(device->works());
+}
+
+TEST(Devices, OfAMachineAreListedWithoutOpeningAny) {
+    // Names of devices are not empty on any machine.
+    const DeviceList found = devices();
+    for (const auto& names : {found.microphones, found.loudspeakers})
+        for (const std::string& name : names)
+            EXPECT_FALSE(name.empty());
+}
+
+}  // namespace
+}  // namespace theatron::sound

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/camera_adjusting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "geometry/screen.h"
+
+namespace theatron::viewer {
+namespace {
+
+using session::CameraAdjustment;
+
+constexpr std::size_t max_undo = 200;
+constexpr int parts = 6;
+
+double& part_of(CameraAdjustment& adjustment, int part) {
+    Vec3& vec = part < 3 ? adjustment.moved_m : adjustment.turned_deg;
+    return part % 3 == 0 ? vec.x : part % 3 == 1 ? vec.y : vec.z;
+}
+
+Vec3 within(Vec3 vec, double longest) {
+    const double size = length(vec);
+    return size > longest ? vec * (longest / size) : vec;
+}
+
+std::string value_text(CameraAdjustment adjustment, int part) {
+    constexpr const char* names[parts] = {"Right x", "Up y",   "Back z",
+                                          "Tilt x",  "Turn y", "Roll z"};
+    char text[64];
+    if (part < 3)
+        std::snprintf(text, sizeof(text), "%s %+.0f mm", names[part],
+                      part_of(adjustment, part) * 1000);
+    else
+        std::snprintf(text, sizeof(text), "%s %+.1f°", names[part], part_of(adjustment, part));
+    return text;
+}
+
+}  // namespace
+
+void CameraAdjusting::take(const std::vector<client::Participant::Camera>& cameras) {
+    cameras_.clear();
+    for (const auto& camera : cameras) {
+        const wire::Camera& description = camera.description;
+        const auto adjustment = session::decode_adjustment(description.adjustment);
+        if (description.frame != wire::CameraFrame::room || camera.calibration.person != 0 ||
+            is_screen(camera.calibration) || !adjustment)
+            continue;
+        cameras_.push_back({description.id, description.name, *adjustment,
+                            description.publisher == ParticipantId{}});
+        if (const auto wanted = wanted_.find(description.id);
+            wanted != wanted_.end() && session::rounded(wanted->second) == *adjustment)
+            wanted_.erase(wanted);
+    }
+    if (!chosen() && !cameras_.empty())
+        chosen_ = cameras_.front().id;
+}
+
+const CameraAdjusting::Camera* CameraAdjusting::chosen() const {
+    const auto found = std::find_if(cameras_.begin(), cameras_.end(),
+                                    [&](const Camera& camera) { return camera.id == chosen_; });
+    return found == cameras_.end() ? nullptr : &*found;
+}
+
+CameraAdjustment CameraAdjusting::current(const Camera& camera) const {
+    const auto wanted = wanted_.find(camera.id);
+    return wanted == wanted_.end() ? camera.adjustment : wanted->second;
+}
+
+void CameraAdjusting::note_undo() {
+    const Camera* camera = chosen();
+    if (!camera)
+        return;
+    undo_.emplace_back(camera->id, current(*camera));
+    if (undo_.size() > max_undo)
+        undo_.erase(undo_.begin());
+}
+
+void CameraAdjusting::want(CameraAdjustment adjustment) {
+    adjustment.moved_m = within(adjustment.moved_m, CameraAdjustment::max_moved_m);
+    adjustment.turned_deg = within(adjustment.turned_deg, CameraAdjustment::max_turned_deg);
+    wanted_[*chosen_] = adjustment;
+    sent_.erase(*chosen_);
+}
+
+void CameraAdjusting::carry_out(const AdjustStep& step) {
+    using What = AdjustStep::What;
+    if (step.what == What::choose)
+        chosen_ = step.camera;
+    const Camera* camera = chosen();
+    if (!camera)
+        return;
+    CameraAdjustment adjustment = current(*camera);
+    switch (step.what) {
+        case What::choose:
+            return;
+        case What::step:
+            note_undo();
+            part_of(adjustment, step.part) += step.by;
+            return want(adjustment);
+        case What::slide:
+            note_undo();
+            sliding_ = step.part;
+            return;
+        case What::undo:
+            if (undo_.empty())
+                return;
+            chosen_ = undo_.back().first;
+            want(undo_.back().second);
+            undo_.pop_back();
+            return;
+        case What::reset:
+            note_undo();
+            adjustment.moved_m = adjustment.turned_deg = {};
+            return want(adjustment);
+        case What::draw:
+            draws_ = !draws_;
+            drawn_.reset();
+            return;
+        case What::whole:
+            note_undo();
+            adjustment.region.reset();
+            return want(adjustment);
+    }
+}
+
+void CameraAdjusting::slide(double value) {
+    const Camera* camera = chosen();
+    if (!camera)
+        return;
+    CameraAdjustment adjustment = current(*camera);
+    part_of(adjustment, sliding_) = value;
+    want(adjustment);
+}
+
+void CameraAdjusting::nudge(xr::Nudge nudge, double yaw) {
+    const Camera* camera = chosen();
+    if (!camera)
+        return;
+    note_undo();
+    CameraAdjustment adjustment = current(*camera);
+    const Vec3 right{std::cos(yaw), 0, -std::sin(yaw)}, back{std::sin(yaw), 0, std::cos(yaw)};
+    const auto move = [&](Vec3 way) { adjustment.moved_m = adjustment.moved_m + step_m * way; };
+    using xr::Nudge;
+    switch (nudge) {
+        case Nudge::left:
+            move(-right);
+            break;
+        case Nudge::right:
+            move(right);
+            break;
+        case Nudge::up:
+            move({0, 1, 0});
+            break;
+        case Nudge::down:
+            move({0, -1, 0});
+            break;
+        case Nudge::nearer:
+            move(back);
+            break;
+        case Nudge::farther:
+            move(-back);
+            break;
+        case Nudge::turn_left:
+            adjustment.turned_deg.y += step_deg;
+            break;
+        case Nudge::turn_right:
+            adjustment.turned_deg.y -= step_deg;
+            break;
+    }
+    want(adjustment);
+}
+
+std::string CameraAdjusting::draw(xr::WindowInput& input, const render::CameraView& view,
+                                  const std::vector<CloudCamera>& cloud) {
+    if (!draws_)
+        return "";
+    if (input.grabbed && input.grabbed_left) {
+        drawn_ = ViewRectangle{*input.grabbed, *input.grabbed};
+        input.grabbed.reset();
+    }
+    if (!drawn_)
+        return "";
+    if (input.pointer)
+        drawn_->to = *input.pointer;
+    input.steering.turn = {};
+    if (!input.released)
+        return "";
+    const ViewRectangle rectangle = *std::exchange(drawn_, std::nullopt);
+    const Camera* camera = chosen();
+    const auto seen = std::find_if(cloud.begin(), cloud.end(), [&](const CloudCamera& c) {
+        return camera && CameraId(c.number) == camera->id;
+    });
+    if (seen == cloud.end())
+        return "The camera has sent no picture";
+    const auto box = drawn_region(rectangle, view, *seen);
+    if (!box)
+        return "Camera " + camera->name + " sees too little there; draw around what it shows";
+    draws_ = false;
+    note_undo();
+    CameraAdjustment adjustment = current(*camera);
+    adjustment.region = box;
+    want(adjustment);
+    return "Only this part of camera " + camera->name + " is sent to all now";
+}
+
+std::optional<std::pair<Vec2, Vec2>> CameraAdjusting::rectangle() const {
+    if (!drawn_)
+        return std::nullopt;
+    return std::pair(drawn_->from, drawn_->to);
+}
+
+void CameraAdjusting::on_tick(client::Participant& participant, TimePoint now) {
+    if (now - sent_at_ < send_every)
+        return;
+    for (const auto& [camera, adjustment] : wanted_) {
+        if (const auto sent = sent_.find(camera); sent != sent_.end() && sent->second == adjustment)
+            continue;
+        if (participant.adjust(camera, adjustment) == 0)
+            return give_up();
+        sent_[camera] = adjustment;
+        sent_at_ = now;
+        return;
+    }
+}
+
+void CameraAdjusting::add_panel(RoomPanel& panel) const {
+    xr::Panel shown{"Place of cameras, for all", {}};
+    const auto command = [&](AdjustStep step) {
+        panel.commands.push_back(step);
+        return int(panel.commands.size()) - 1;
+    };
+    using What = AdjustStep::What;
+    for (const Camera& camera : cameras_) {
+        const CameraAdjustment adjustment = current(camera);
+        const bool is_chosen = camera.id == chosen_;
+        xr::PanelRow row{camera.name, text_of(adjustment), {}};
+        if (!is_chosen)
+            row.buttons.push_back({"Choose", command({What::choose, camera.id, 0, 0})});
+        shown.rows.push_back(std::move(row));
+        for (int part = 0; is_chosen && part < parts; ++part) {
+            CameraAdjustment value = adjustment;
+            const double most =
+                part < 3 ? CameraAdjustment::max_moved_m : CameraAdjustment::max_turned_deg;
+            const double by = part < 3 ? step_m : step_deg;
+            shown.rows.push_back({value_text(adjustment, part),
+                                  "",
+                                  {{"-", command({What::step, {}, part, -by})},
+                                   {"+", command({What::step, {}, part, by})}},
+                                  xr::PanelSlider{part_of(value, part), -most, most,
+                                                  command({What::slide, {}, part, 0})}});
+        }
+        if (is_chosen)
+            shown.rows.push_back({"",
+                                  "",
+                                  {{"Undo", command({What::undo, {}, 0, 0})},
+                                   {"As registered", command({What::reset, {}, 0, 0})}}});
+        if (is_chosen && camera.has_region) {
+            xr::PanelRow region{
+                draws_              ? "Draw a rectangle"
+                : adjustment.region ? "A region"
+                                    : "Whole picture",
+                "",
+                {{draws_ ? "Stop" : "Draw region", command({What::draw, {}, 0, 0})}}};
+            if (adjustment.region)
+                region.buttons.push_back({"Whole picture", command({What::whole, {}, 0, 0})});
+            shown.rows.push_back(std::move(region));
+        }
+    }
+    if (cameras_.empty())
+        shown.rows.push_back({"There are no cameras of the room", "", {}});
+    panel.panels.push_back(std::move(shown));
+}
+
+}  // namespace theatron::viewer

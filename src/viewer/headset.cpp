@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/headset.h"
+
+#include <algorithm>
+
+#include "viewer/refusal_text.h"
+
+namespace theatron::viewer {
+namespace {
+
+namespace request = session::request;
+
+constexpr double walking_m_per_s = 1.4;
+// For the sides of the picture to become dark, or clear again.
+constexpr double vignette_seconds = 0.15;
+constexpr double above_wrist_m = 0.06, before_head_m = 0.55;
+// Cosines of the angle between the palm's direction and that to the face.
+constexpr double palm_turned_to_face = 0.8, palm_turned_away = 0.6;
+constexpr double pushing_m_per_s = 1.2, turning_degrees_per_s = 90;
+constexpr double least_hold_m = 0.05, largest_hold_m = 8;
+// A longer pause was no movement of the person.
+constexpr double longest_step_s = 0.1;
+// An object that is this much behind a measured surface is hidden by it.
+constexpr double hidden_behind_m = 0.03;
+
+// From a camera's frame (y down, z forward) to that of a head (y up, -z forward), and back.
+constexpr Pose half_turn{Quat{0, 1, 0, 0}, {}};
+
+render::PickRay ray_of(const Pose& room_from_aim) {
+    return {room_from_aim.translation, rotate(room_from_aim.rotation, {0, 0, -1})};
+}
+
+// One view that sees what all eyes see, from their middle.
+render::CameraView middle_of(const std::vector<render::CameraView>& eyes, const Pose& head) {
+    render::CameraView view = eyes.empty() ? render::CameraView{} : eyes.front();
+    for (const render::CameraView& eye : eyes) {
+        view.left = std::min(view.left, eye.left);
+        view.right = std::max(view.right, eye.right);
+        view.top = std::min(view.top, eye.top);
+        view.bottom = std::max(view.bottom, eye.bottom);
+    }
+    view.room_from_eye = head * half_turn;
+    return view;
+}
+
+}  // namespace
+
+void Headset::go_to(const Pose& room_from_eye) {
+    begin_ = room_from_eye;
+    has_begun_ = false;
+}
+
+void Headset::recentre() {
+    if (has_begun_ && !real_room_)
+        stand(stood_, heading_);
+}
+
+void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, LiveScene& scene,
+                       client::Participant& participant, TimePoint now) {
+    while (const auto refusal = participant.take_room_refusal())
+        if (const std::string text = text_of(refusal->second); !text.empty())
+            note_ = text;
+    const double seconds = std::clamp(to_seconds(now - at_), 0.0, longest_step_s);
+    at_ = now;
+    floor_from_head_ = frame.floor_from_head;
+    if (!std::exchange(has_begun_, true)) {
+        const Pose head = begin_ * half_turn;
+        stand({head.translation.x, 0, head.translation.z}, xr::heading_of(head));
+    }
+    const xr::Intents intents =
+        input_.update(frame, {hands_[0].held.has_value(), hands_[1].held.has_value()});
+    if (places_table_)
+        place_table(intents);
+    else if (!real_room_)
+        move(intents, scene, seconds);
+
+    for (const xr::Side side : {xr::left_side, xr::right_side})
+        // A lost hand leaves what it held where it was.
+        if (intents.hands[side].is_present)
+            hands_[side].room_from_aim = room_from_floor_ * intents.hands[side].floor_from_aim;
+    show_menu(intents, facts);
+    arc_.reset();
+    for (const xr::Side side : {xr::left_side, xr::right_side})
+        on_hand(intents.hands[side], hands_[side], scene, participant, seconds);
+
+    eyes_.clear();
+    for (const xr::HeadsetEye& eye : frame.eyes) {
+        render::CameraView view;
+        view.room_from_eye = room_from_floor_ * eye.floor_from_eye * half_turn;
+        view.left = eye.left;
+        view.right = eye.right;
+        view.top = eye.top;
+        view.bottom = eye.bottom;
+        eyes_.push_back(view);
+    }
+    head_ = middle_of(eyes_, room_from_floor_ * floor_from_head_);
+    tell(scene);
+}
+
+// Brings the head over a place of the floor. A seated person is lifted to the eyes of a standing
+// one.
+void Headset::stand(Vec3 place, double heading) {
+    stood_ = {place.x, 0, place.z};
+    heading_ = heading;
+    room_from_floor_ = xr::standing_space(floor_from_head_, stood_, heading);
+    if (seated_)
+        room_from_floor_.translation.y = room::standing_eyes_m - floor_from_head_.translation.y;
+}
+
+void Headset::leave(LiveScene& scene, client::Participant& participant) {
+    arc_.reset();
+    menu_.show(false);
+    for (Hand& hand : hands_) {
+        if (hand.held && hand.room_from_aim)
+            let_go(hand, scene.meeting(), participant);
+        hand = {};
+    }
+    tell(scene);
+    scene.set_menu(nullptr, std::nullopt);
+}
+
+void Headset::turn(double degrees) {
+    room_from_floor_ = xr::turned_space(room_from_floor_, floor_from_head_, degrees);
+    heading_ += radians_of(degrees);
+}
+
+void Headset::move(const xr::Intents& intents, const LiveScene& scene, double seconds) {
+    if (intents.turn_degrees != 0)
+        turn(intents.turn_degrees);
+    const bool walks = intents.walk != Vec2{};
+    vignette_ = std::clamp(vignette_ + (walks ? seconds : -seconds) / vignette_seconds, 0.0, 1.0);
+    if (!walks)
+        return;
+    const double heading = xr::heading_of(room_from_floor_ * floor_from_head_);
+    const Vec3 way = rotate(rotation_about({0, 1, 0}, heading),
+                            Vec3{intents.walk.x, 0, -intents.walk.y} * (walking_m_per_s * seconds));
+    const Vec3 head = room_from_floor_ * floor_from_head_.translation;
+    Vec3 to = head + way;
+    if (scene.free_space())
+        to = room::kept_inside(*scene.free_space(), to);
+    const Vec3 moved{to.x - head.x, 0, to.z - head.z};
+    room_from_floor_.translation = room_from_floor_.translation + moved;
+    stood_ = stood_ + moved;
+}
+
+// The middle of the room's table is over the room's origin, with the patient's head at -x
+// (docs/room.md). The real floor stays the floor.
+void Headset::place_table(const xr::Intents& intents) {
+    for (const xr::Side side : {xr::right_side, xr::left_side}) {
+        const xr::HandIntents& hand = intents.hands[side];
+        if (!hand.is_present)
+            continue;
+        const Vec3 at = hand.floor_from_grip.translation;
+        const Quat rotation =
+            rotation_about({0, 1, 0}, radians_of(90) - xr::heading_of(hand.floor_from_aim));
+        room_from_floor_ = {rotation, -rotate(rotation, {at.x, 0, at.z})};
+        if (hand.takes) {
+            places_table_ = false;
+            hands_[side].chose = true;
+            note_ = "The table is placed";
+        }
+        return;
+    }
+}
+
+// At the left wrist: opened by a button of either controller, or by a bare left palm that is turned
+// to the face. Without a left hand it stands before the head.
+void Headset::show_menu(const xr::Intents& intents, const MenuFacts& facts) {
+    const Pose head = room_from_floor_ * floor_from_head_;
+    const xr::HandIntents& left = intents.hands[xr::left_side];
+    const Pose grip = room_from_floor_ * left.floor_from_grip;
+    if (left.is_present && left.is_bare) {
+        const Vec3 palm = rotate(grip.rotation, {1, 0, 0});
+        const double turned = dot(palm, normalized(head.translation - grip.translation));
+        menu_.show(turned > (menu_.is_shown() ? palm_turned_away : palm_turned_to_face));
+    } else if (intents.menu) {
+        menu_.show(!menu_.is_shown());
+    }
+    if (places_table_)
+        menu_.show(false);
+    if (!menu_.is_shown())
+        return;
+    const Vec3 place = left.is_present ? grip.translation + Vec3{0, above_wrist_m, 0}
+                                       : head * Vec3{0, -0.2, -before_head_m};
+    menu_.set(menu_rows(facts), place, head.translation);
+}
+
+void Headset::choose(const MenuRow& row) {
+    switch (row.action) {
+        case MenuAction::recentre:
+            return recentre();
+        case MenuAction::seat:
+            seated_ = !seated_;
+            return stand(room_from_floor_ * floor_from_head_.translation,
+                         xr::heading_of(room_from_floor_ * floor_from_head_));
+        case MenuAction::turn_left:
+            return turn(xr::XrInput::snap_degrees);
+        case MenuAction::turn_right:
+            return turn(-xr::XrInput::snap_degrees);
+        case MenuAction::place_table:
+            places_table_ = true;
+            return;
+        case MenuAction::microphone:
+        case MenuAction::leave:
+        case MenuAction::drawing:
+        case MenuAction::new_brick:
+        case MenuAction::go_to_person:
+            wish_ = row;
+    }
+}
+
+void Headset::on_hand(const xr::HandIntents& intents, Hand& hand, LiveScene& scene,
+                      client::Participant& participant, double seconds) {
+    hand.points = intents.points;
+    hand.row.reset();
+    const bool has_menu = menu_.is_shown() && &hand == &hands_[xr::left_side] && intents.is_bare;
+    if (hand.room_from_aim && !hand.held && !has_menu)
+        if (const auto hit = menu_.pick(ray_of(*hand.room_from_aim)))
+            hand.row = hit->row;
+    if (intents.takes && hand.row) {
+        hand.chose = true;
+        choose(menu_.rows()[*hand.row]);
+    } else if (intents.takes && !hand.chose && !has_menu) {
+        hand.aims_by_grip =
+            !take(hand, scene, participant) && intents.is_bare && !real_room_ && !places_table_;
+    }
+    if (!intents.holds)
+        hand.chose = false;
+    hold(intents, hand, scene.meeting(), participant, seconds);
+    aim(intents, hand, scene);
+    if (!intents.is_present)
+        hand.room_from_aim.reset();
+}
+
+// The one of two hands that aims second wins.
+void Headset::aim(const xr::HandIntents& intents, Hand& hand, const LiveScene& scene) {
+    const bool by_grip = hand.aims_by_grip;
+    if (!intents.holds)
+        hand.aims_by_grip = false;
+    if (!scene.free_space() || !hand.room_from_aim || real_room_)
+        return;
+    const bool teleports = intents.teleports || (by_grip && intents.lets_go && intents.is_present);
+    if (!teleports && !intents.aims_teleport && !hand.aims_by_grip)
+        return;
+    const render::PickRay ray = ray_of(*hand.room_from_aim);
+    room::TeleportArc arc = room::teleport_arc(*scene.free_space(), ray.from, ray.direction);
+    if (!teleports) {
+        arc_ = std::move(arc);
+    } else if (arc.landing) {
+        stand(*arc.landing, xr::heading_of(room_from_floor_ * floor_from_head_));
+        hand.room_from_aim = room_from_floor_ * intents.floor_from_aim;
+    }
+}
+
+// True if the hand's ray met an object, also if it cannot be held.
+bool Headset::take(Hand& hand, LiveScene& scene, client::Participant& participant) {
+    Meeting& meeting = scene.meeting();
+    const render::PickRay ray = ray_of(*hand.room_from_aim);
+    auto hit = meeting.pick(ray, head_);
+    if (!hit)
+        return false;
+    if (const auto surface = scene.pick_surface(ray);
+        surface && *surface < hit->picked.distance_m - hidden_behind_m)
+        return false;
+    if (const auto& open = meeting.case_scene().in_room(); open && open->find(hit->object))
+        hit->object = open->organ_id;
+    const session::RoomObject* object = meeting.find(hit->object);
+    if (!object)
+        return false;
+    if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
+        note_ = meeting.name_of(object->grip.holder) + " holds this";
+        return true;
+    }
+    // The other hand may have it.
+    for (Hand& other : hands_)
+        if (other.held && other.held->object == hit->object)
+            other.held.reset();
+    const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
+    if (grip == 0)
+        return true;
+    hand.held = Held{hit->object, grip,
+                     inverse(*hand.room_from_aim) * meeting.shown_pose(hit->object), object->scale};
+    (void)meeting.take(participant);
+    return true;
+}
+
+void Headset::hold(const xr::HandIntents& intents, Hand& hand, Meeting& meeting,
+                   client::Participant& participant, double seconds) {
+    if (!hand.held || !hand.room_from_aim)
+        return;
+    // The object was removed, or the host refused the grip.
+    const session::RoomObject* object = meeting.find(hand.held->object);
+    if (!object || object->grip.holder != participant.room_self())
+        return hand.held.reset();
+    Pose& held = hand.held->aim_from_object;
+    if (intents.pushes_away != 0) {
+        const double distance = std::max(length(held.translation), least_hold_m);
+        const double wanted = std::clamp(distance + intents.pushes_away * pushing_m_per_s * seconds,
+                                         least_hold_m, largest_hold_m);
+        held.translation = held.translation * (wanted / distance);
+    }
+    if (intents.turns_held != 0) {
+        const Pose shown = *hand.room_from_aim * held;
+        const Quat turn = rotation_about(
+            {0, 1, 0}, radians_of(intents.turns_held * turning_degrees_per_s * seconds));
+        held = inverse(*hand.room_from_aim) *
+               Pose{normalized(turn * shown.rotation), shown.translation};
+    }
+    const Pose shown = *hand.room_from_aim * held;
+    (void)participant.move_object(hand.held->object, meeting.stored_pose(hand.held->object, shown),
+                                  hand.held->scale);
+    if (intents.gives) {
+        if (const auto to = meeting.nearest_person(shown.translation))
+            return give(hand, *to, meeting, participant);
+        note_ = "Nobody is near who could take this";
+    }
+    if (intents.lets_go)
+        let_go(hand, meeting, participant);
+}
+
+void Headset::let_go(Hand& hand, const Meeting& meeting, client::Participant& participant) {
+    const Pose shown = *hand.room_from_aim * hand.held->aim_from_object;
+    for (const room::RoomPerson& person : meeting.people())
+        for (const auto& part : {person.head, person.left_hand, person.right_hand})
+            if (part && length(part->translation - shown.translation) < gives_within_m)
+                return give(hand, person.id, meeting, participant);
+    const Pose pose =
+        meeting.stored_pose(hand.held->object, meeting.resting(hand.held->object, shown));
+    participant.ask_room(
+        request::Release{hand.held->object, hand.held->grip, pose, hand.held->scale});
+    hand.held.reset();
+}
+
+void Headset::give(Hand& hand, ParticipantId to, const Meeting& meeting,
+                   client::Participant& participant) {
+    participant.ask_room(request::HandOver{hand.held->object, hand.held->grip, to});
+    note_ = "Given to " + meeting.name_of(to);
+    hand.held.reset();
+}
+
+void Headset::tell(LiveScene& scene) const {
+    Meeting& meeting = scene.meeting();
+    meeting.set_arc(arc_);
+    meeting.set_own_hands(hands_[0].room_from_aim, hands_[1].room_from_aim);
+    std::vector<room::Pointer> rays;
+    std::optional<std::size_t> chosen;
+    for (const Hand& hand : hands_) {
+        if (hand.row)
+            chosen = hand.row;
+        if (hand.room_from_aim && !hand.held && !arc_ && !places_table_) {
+            const render::PickRay ray = ray_of(*hand.room_from_aim);
+            rays.push_back({meeting.room().self, "", ray.from, ray.direction, std::nullopt});
+        }
+    }
+    scene.set_own_pointers(std::move(rays));
+    scene.set_menu(&menu_, chosen);
+    scene.set_table_outline(places_table_);
+}
+
+wire::PersonPose Headset::pose(TimePoint session_time) const {
+    wire::PersonPose pose;
+    pose.time = session_time;
+    pose.head = part_of(room_from_floor_ * floor_from_head_);
+    if (hands_[0].room_from_aim)
+        pose.left_hand = part_of(*hands_[0].room_from_aim);
+    if (hands_[1].room_from_aim)
+        pose.right_hand = part_of(*hands_[1].room_from_aim);
+    pose.points = pose.right_hand && hands_[1].points;
+    return pose;
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/playing.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace theatron::viewer {
+namespace {
+
+// The host's answer comes within this time; until then the bar shows what was asked for.
+constexpr Duration answered_within = std::chrono::milliseconds(700);
+
+}  // namespace
+
+Duration position_at(const wire::Playback& playback, TimePoint session_time) {
+    const Duration since =
+        playback.paused ? Duration(0) : std::max(session_time - playback.at, Duration(0));
+    return std::clamp(playback.position + since, Duration(0), playback.length);
+}
+
+std::string clock_text(Duration position) {
+    const auto seconds = position / std::chrono::seconds(1);
+    char text[32];
+    if (seconds < 3600)
+        std::snprintf(text, sizeof(text), "%d:%02d", int(seconds / 60), int(seconds % 60));
+    else
+        std::snprintf(text, sizeof(text), "%d:%02d:%02d", int(seconds / 3600),
+                      int(seconds / 60 % 60), int(seconds % 60));
+    return text;
+}
+
+bool Playing::carry_out(const PlayStep& play, client::Participant& participant, TimePoint now) {
+    const auto playback = participant.playback();
+    if (!playback)
+        return false;
+    using What = PlayStep::What;
+    const Duration here = position_at(*playback, participant.session_time(now));
+    switch (play.what) {
+        case What::toggle:
+            participant.play(playback->paused ? wire::PlayAction::resume : wire::PlayAction::pause);
+            break;
+        case What::back:
+            seek(participant, here - step, now);
+            break;
+        case What::forward:
+            seek(participant, here + step, now);
+            break;
+        case What::slide:
+            break;
+    }
+    return true;
+}
+
+void Playing::seek(client::Participant& participant, Duration position, TimePoint now) {
+    asked_ = std::max(position, Duration(0));
+    asked_at_ = now;
+    participant.play(wire::PlayAction::seek, asked_);
+}
+
+void Playing::slide(double position) {
+    wanted_ = seconds_to_duration(position);
+}
+
+void Playing::on_tick(client::Participant& participant, TimePoint now) {
+    if (wanted_ && now - asked_at_ >= seek_every)
+        seek(participant, *std::exchange(wanted_, std::nullopt), now);
+}
+
+std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant, bool may_play,
+                                         TimePoint now, RoomPanel& panel) const {
+    const auto playback = participant.playback();
+    if (!playback)
+        return std::nullopt;
+    const auto button = [&](const char* label, PlayStep::What what) {
+        panel.commands.push_back(PlayStep{what});
+        return xr::PanelButton{label, int(panel.commands.size()) - 1};
+    };
+    Duration here = position_at(*playback, participant.session_time(now));
+    if (wanted_ ||
+        (playback->at < participant.session_time(asked_at_) && now - asked_at_ < answered_within))
+        here = std::min(wanted_.value_or(asked_), playback->length);
+    xr::PanelRow bar{"Recording " + clock_text(here) + " / " + clock_text(playback->length),
+                     playback->paused && !playback->by.empty() ? "Paused by " + playback->by : "",
+                     {}};
+    if (playback->paused && playback->by.empty())
+        bar.detail = "At its end";
+    bar.slider =
+        xr::PanelSlider{to_seconds(here), 0, std::max(to_seconds(playback->length), 0.001), -1};
+    if (!may_play)
+        return bar;
+    using What = PlayStep::What;
+    bar.buttons = {button(playback->paused ? "Play" : "Pause", What::toggle),
+                   button("-5 s", What::back), button("+5 s", What::forward)};
+    bar.slider->command = button("", What::slide).command;
+    return bar;
+}
+
+}  // namespace theatron::viewer

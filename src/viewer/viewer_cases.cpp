@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person's view of the open case: its panel, and the slice through a place under the mouse.
+#include "viewer/case_actions.h"
+#include "viewer/case_panel.h"
+#include "viewer/screen_handling.h"
+#include "viewer/viewer.h"
+
+namespace theatron::viewer {
+namespace {
+
+// A case is opened at this distance in front of the eye.
+constexpr double new_case_distance_m = 0.9;
+
+}  // namespace
+
+void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now) {
+    if (!eye_.is_placed() || !input.pointer)
+        return;
+    Meeting& meeting = scene_.meeting();
+    const render::CameraView view = eye_.view(picture);
+    const auto hit = meeting.pick(render::ray_through(view, *input.pointer), view);
+    const auto& open = meeting.case_scene().in_room();
+    const auto place =
+        hit ? meeting.case_scene().patient_point(hit->object, hit->picked.place) : std::nullopt;
+    if (!open || !open->screen)
+        return note("Point at a part of an organ with images", now);
+    const session::CaseScreen& screen = open->screen->facts;
+    if (place)
+        return void(set_screen(participant_, through(screen, *place)));
+    const bool is_screen = hit && hit->object == open->screen->id;
+    const auto on_slice =
+        is_screen ? meeting.case_scene().monitor().patient_point(*open, hit->picked.place)
+                  : std::nullopt;
+    if (!on_slice)
+        return note("Point at a part of an organ with images, or at a slice", now);
+    session::CaseScreen next = screen;
+    next.orientation = std::uint8_t((screen.orientation + 1) % session::CaseScreen::orientations);
+    set_screen(participant_, through(next, *on_slice));
+}
+
+void Viewer::open_before_eye(const ContentHash& offered) {
+    constexpr Size any{16, 9};
+    const Pose eye = eye_.view(any).room_from_eye;
+    open_case(participant_, offered, eye * Vec3{0, 0.1, new_case_distance_m}, eye.translation);
+}
+
+void Viewer::add_case(RoomPanel& panel) const {
+    const CaseScene& scene = scene_.meeting().case_scene();
+    CasePanelFacts of_case{participant_.cases(),
+                           scene.in_room() ? &*scene.in_room() : nullptr,
+                           scene.content(),
+                           scene.monitor().volume(),
+                           "",
+                           false};
+    if (of_case.room && of_case.room->screen && !session::is_recorded(of_case.room->screen->id)) {
+        const ParticipantId presenter = of_case.room->screen->facts.presenter;
+        of_case.presents =
+            presenter != ParticipantId{} && presenter == scene_.meeting().room().self;
+        if (presenter != ParticipantId{})
+            of_case.presenter = scene_.meeting().name_of(presenter);
+    }
+    add_case_panel(of_case, panel);
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view of a person with a headset.
+#include <utility>
+
+#include "viewer/viewer.h"
+
+namespace theatron::viewer {
+
+void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now) {
+    constexpr Size any{16, 9};
+    stop_following();
+    scene_.set_real_room(real_room);
+    headset_.emplace(eye_.view(any).room_from_eye, real_room);
+    headset_wish_.reset();
+    pace_limits_ = xr::limits_of_display(pictures_per_s);
+    pace_ = xr::DrawingPace(pace_.ways(), 0, pace_limits_);
+    note(real_room ? "Hold a hand over the middle of the table, point to the patient's head, grip"
+                   : "Y or B, or your left palm: menu",
+         now);
+}
+
+void Viewer::leave_headset() {
+    if (!headset_)
+        return;
+    headset_->leave(scene_, participant_);
+    // Heads are tilted; the eye of a window stays upright.
+    const Pose head = headset_->head().room_from_eye;
+    eye_.go_to(room::standing_at({head.translation.x, 0, head.translation.z}, head,
+                                 sits_ ? room::sitting_eyes_m : room::standing_eyes_m));
+    headset_.reset();
+    scene_.set_headset_text("");
+    scene_.set_real_room(false);
+    pace_limits_ = {};
+    pace_ = xr::DrawingPace(pace_.ways(), 0, pace_limits_);
+    scene_changed_ = true;
+}
+
+void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
+    if (!headset_)
+        return;
+    MenuFacts facts;
+    facts.microphone_open = microphone_open_;
+    facts.muted = participant_.status().standing.muted;
+    facts.seated = headset_->is_seated();
+    facts.real_room = scene_.has_real_room();
+    facts.drawing = choice_.renderer() == automatic ? way().renderer + " (auto)" : way().renderer;
+    facts.people = scene_.meeting().people();
+    headset_->on_frame(frame, facts, scene_, participant_, now);
+    if (const auto wish = headset_->take_wish())
+        follow_wish(*wish, now);
+    if (const std::string text = headset_->take_note(); !text.empty())
+        note(text, now);
+    const auto status = participant_.status();
+    const bool is_joined = status.phase == client::Participant::Phase::joined;
+    scene_.set_headset_text(!is_joined            ? "Connection lost, trying again..."
+                            : now < notice_until_ ? notice_
+                                                  : "");
+}
+
+void Viewer::recentre_headset() {
+    if (headset_)
+        headset_->recentre();
+}
+
+void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
+    if (wish.action == MenuAction::drawing) {
+        choose_next_renderer(now);
+    } else if (wish.action == MenuAction::new_brick) {
+        handling_.make_brick(headset_->head(), participant_);
+    } else if (wish.action == MenuAction::go_to_person) {
+        if (scene_.has_real_room())
+            return;  // the room cannot be moved to another person
+        if (const auto place = place_beside(wish.person))
+            headset_->go_to(*place);
+    } else {
+        headset_wish_ = wish.action;
+    }
+}
+
+void Viewer::draw_headset(const xr::HeadsetFrame& frame, unsigned framebuffer, TimePoint now) {
+    std::vector<render::EyePicture> eyes;
+    for (std::size_t i = 0; i < frame.eyes.size(); ++i) {
+        const xr::HeadsetEye& eye = frame.eyes[i];
+        eyes.push_back({headset_->eyes()[i], {framebuffer, eye.x, eye.y, eye.size}});
+    }
+    draw_eyes(headset_->head(), eyes, now);
+    if (headset_->vignette() > 0 && !vignette_)
+        vignette_ = std::make_unique<render::Vignette>();
+    for (const render::EyePicture& eye : eyes)
+        if (vignette_)
+            vignette_->draw(eye.view, eye.target, headset_->vignette());
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views of the person at the window besides the clouds: plain pictures, and the place under the
+// mouse.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "viewer/viewer.h"
+#include "wire/manage_text.h"
+
+namespace theatron::viewer {
+namespace {
+
+// Widths of the plain pictures, in pixels.
+constexpr int small_width = 320, large_width = 1280;
+constexpr int legend_colors = 32;
+
+std::string meters(double m, int digits = 2) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.*f m", digits, m);
+    return text;
+}
+
+std::vector<Rgb> depth_legend() {
+    std::vector<Rgb> colors;
+    for (int i = 0; i < legend_colors; ++i)
+        colors.push_back(depth_color(i / double(legend_colors - 1)));
+    return colors;
+}
+
+// "x 0.12, y 0.93, z -1.40 m": of one width as long as the signs stay.
+std::string place_text(Vec3 place) {
+    char text[96];
+    std::snprintf(text, sizeof(text), "x %.2f, y %.2f, z %.2f m", place.x, place.y, place.z);
+    return text;
+}
+
+}  // namespace
+
+void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
+    stop_following();
+    if (const auto place = meeting_place(); place && eye_.is_placed()) {
+        eye_.go_to(at_eye_height(*place));
+        scene_changed_ = true;
+        return;
+    }
+    ViewChoice choice{eye_.home().camera, 0, 0};
+    if (key.action == xr::Action::view_camera)
+        choice.camera = CameraId(key.camera);
+    try {
+        eye_.go_home(choice, cameras(), picture);
+        scene_changed_ = true;
+        note("View of " + camera_text(choice.camera), now);
+    } catch (const Error& e) {
+        note(e.what(), now);
+    }
+}
+
+void Viewer::view_from_above(TimePoint now) {
+    auto place = from_above(cameras());
+    if (!place || !eye_.is_placed())
+        return note("There is nothing to see from above", now);
+    stop_following();
+    if (const auto& space = scene_.free_space())  // below the ceiling
+        place->translation = room::kept_inside(*space, place->translation);
+    // Without the lamps, which hang above the heads.
+    constexpr double seen_below_m = 1.95, least_m = 0.05;
+    eye_.go_to(*place, std::max(place->translation.y - seen_below_m, least_m));
+    scene_changed_ = true;
+    note("From above", now);
+}
+
+void Viewer::change_point_size(double factor, TimePoint now) {
+    constexpr double smallest = 0.25, largest = 4;
+    point_size_ = std::clamp(point_size_ * factor, smallest, largest);
+    scene_.set_point_size(point_size_);
+    scene_changed_ = true;
+    const bool has_points = way().renderer == "splat" || way().renderer == "disc";
+    char text[48];
+    std::snprintf(text, sizeof(text), "Point size: %.2f", point_size_);
+    note(std::string(text) +
+             (has_points ? "" : "; " + way().renderer + " has no points, splat and disc have (M)"),
+         now);
+}
+
+void Viewer::freeze(TimePoint now) {
+    frozen_ = !frozen_;
+    if (!frozen_)
+        note("Live again", now);
+}
+
+bool Viewer::may(session::Right right) const {
+    return session::may(participant_.status().standing.role, right);
+}
+
+void Viewer::slide(double value) {
+    if (slides_playback_)
+        playing_.slide(value);
+    else
+        adjusting_.slide(value);
+}
+
+void Viewer::play(const PlayStep& play, TimePoint now) {
+    slides_playback_ = play.what == PlayStep::What::slide;
+    if (!may(session::Right::play))
+        return note(wire::text_of(wire::ManageRefusal::playing_role), now);
+    if (!playing_.carry_out(play, participant_, now))
+        note(wire::text_of(wire::ManageRefusal::nothing_to_play), now);
+}
+
+void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    if (key.action == xr::Action::pause_recording)
+        play({PlayStep::What::toggle}, now);
+    else if (key.action == xr::Action::seek_back)
+        play({PlayStep::What::back}, now);
+    else if (key.action == xr::Action::seek_forward)
+        play({PlayStep::What::forward}, now);
+    else
+        adjust_cameras(key, picture, now);
+}
+
+// Sends what the person wants of the cameras.
+void Viewer::follow_cameras(TimePoint now) {
+    if (adjusting_.is_shown()) {
+        std::uint64_t generation = 0;
+        adjusting_.take(participant_.cameras(generation));
+        adjusting_.show(may(session::Right::adjust));
+    }
+    adjusting_.on_tick(participant_, now);
+    playing_.on_tick(participant_, now);
+}
+
+void Viewer::adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now) {
+    if (key.action == xr::Action::nudge) {
+        if (!adjusting_.is_shown() || !eye_.is_placed())
+            return;
+        const Vec3 forward = rotate(eye_.view(picture).room_from_eye.rotation, {0, 0, 1});
+        return adjusting_.nudge(key.nudge, std::atan2(-forward.x, -forward.z));
+    }
+    if (!adjusting_.is_shown() && !may(session::Right::adjust))
+        return note(wire::text_of(wire::ManageRefusal::adjusting_role), now);
+    adjusting_.show(!adjusting_.is_shown());
+    // The eye no longer follows the camera whose view it has, so that one sees it move.
+    if (adjusting_.is_shown() && eye_.is_placed())
+        eye_.go_to(eye_.view(picture).room_from_eye);
+}
+
+void Viewer::draw_region(xr::WindowInput& input, Size picture, TimePoint now) {
+    if (!adjusting_.is_shown() || !eye_.is_placed())
+        return;
+    if (const std::string text = adjusting_.draw(input, eye_.view(picture), scene_.cloud());
+        !text.empty())
+        note(text, now);
+}
+
+void Viewer::take_pictures(TimePoint now) {
+    // The ages in the room go on.
+    constexpr Duration frozen_drawn_every = std::chrono::milliseconds(500);
+    if (!frozen_) {
+        for (const CameraId camera : scene_.take(participant_)) {
+            updated_.insert(camera);
+            scene_changed_ = true;
+        }
+        choose_pace();  // for the cameras that there are now
+    } else {
+        (void)participant_.take_frames();  // the newest ones are there when the person goes on
+        if (now - frozen_drawn_ >= frozen_drawn_every) {
+            frozen_drawn_ = now;
+            scene_changed_ = true;
+        }
+    }
+    fading_ = scene_.fade(participant_, now);
+    scene_changed_ = scene_changed_ || fading_;
+}
+
+ColorImage Viewer::picture(Size size) {
+    return scene_.render({eye_.view(size)}, size, way().renderer, true).color;
+}
+
+void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel) {
+    if (!camera_pictures_)
+        return;
+    for (const auto& [camera, frame] : scene_.newest()) {
+        const CameraId id = camera;  // a lambda cannot capture `camera` everywhere
+        const auto known = scene_.calibrations().find(id);
+        if (known == scene_.calibrations().end() || (large_ && large_->camera != id))
+            continue;
+        const auto& pictures =
+            camera_pictures_->of(id, frame->number, known->second, frame->depth.view(),
+                                 frame->color, large_ ? large_width : small_width);
+        const auto add = [&](PictureKind kind, const char* name,
+                             const std::shared_ptr<const ColorImage>& pixels) {
+            const ShowLarge show{id, kind};
+            if (!pixels || (large_ && *large_ != show))
+                return;
+            panel.commands.push_back(show);
+            xr::OverlayPicture picture{
+                camera_text(id) + ", " + name, pixels, {}, "", "", large_.has_value(),
+                int(panel.commands.size()) - 1};
+            if (kind != PictureKind::color) {
+                picture.legend = depth_legend();
+                picture.legend_from = meters(pictures.range.near_m);
+                picture.legend_to = meters(pictures.range.far_m);
+            }
+            facts.pictures.push_back(std::move(picture));
+        };
+        add(PictureKind::color, "colour", pictures.color);
+        add(PictureKind::depth, "depth", pictures.depth);
+        add(PictureKind::blended, "both", pictures.blended);
+    }
+    if (facts.pictures.empty())
+        large_.reset();  // the camera has left
+}
+
+std::string Viewer::pointed_text() {
+    if (!mouse_ || !eye_.is_placed())
+        return "";
+    const auto at = surface_at(*mouse_, eye_.view(picture_), scene_.meeting(), scene_.cloud());
+    if (!at)
+        return "no surface";
+    if (!at->measured)
+        return (at->surface == session::MarkedSurface::slice ? "image; " : "organ; ") +
+               place_text(at->place);
+    const auto camera = CameraId(at->measured->camera);
+    const auto known = scene_.calibrations().find(camera);
+    const bool is_registered = known != scene_.calibrations().end() && known->second.registered;
+    return meters(length(at->measured->in_camera)) + " from " + camera_text(camera) + "; " +
+           place_text(at->place) + (is_registered ? "" : " (camera is not registered)");
+}
+
+}  // namespace theatron::viewer

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/entry_form_native.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <initializer_list>
+#include <utility>
+
+#include "render/picture_texture.h"
+#include "xr/imgui_fonts_native.h"
+
+namespace theatron::xr {
+namespace {
+
+// Those of the panels in the room.
+constexpr ImU32 behind_color = IM_COL32(12, 14, 18, 255), card_color = IM_COL32(22, 26, 33, 255);
+constexpr ImU32 field_color = IM_COL32(38, 46, 58, 255), key_color = IM_COL32(140, 205, 255, 255);
+constexpr ImU32 main_color = IM_COL32(36, 104, 176, 255);
+constexpr ImU32 main_hovered_color = IM_COL32(48, 124, 204, 255);
+constexpr ImU32 button_color = IM_COL32(52, 66, 84, 255);
+constexpr ImU32 button_hovered_color = IM_COL32(66, 84, 106, 255);
+constexpr ImU32 text_color = IM_COL32(245, 247, 250, 255);
+constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
+constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
+
+ImGuiKey key_of(FormKey key) {
+    switch (key) {
+        case FormKey::tab:
+            return ImGuiKey_Tab;
+        case FormKey::left:
+            return ImGuiKey_LeftArrow;
+        case FormKey::right:
+            return ImGuiKey_RightArrow;
+        case FormKey::up:
+            return ImGuiKey_UpArrow;
+        case FormKey::down:
+            return ImGuiKey_DownArrow;
+        case FormKey::home:
+            return ImGuiKey_Home;
+        case FormKey::end:
+            return ImGuiKey_End;
+        case FormKey::backspace:
+            return ImGuiKey_Backspace;
+        case FormKey::erase:
+            return ImGuiKey_Delete;
+        case FormKey::enter:
+            return ImGuiKey_Enter;
+        case FormKey::space:
+            return ImGuiKey_Space;
+        case FormKey::escape:
+            return ImGuiKey_Escape;
+        case FormKey::a:
+            return ImGuiKey_A;
+        case FormKey::c:
+            return ImGuiKey_C;
+        case FormKey::v:
+            return ImGuiKey_V;
+        case FormKey::x:
+            return ImGuiKey_X;
+        case FormKey::z:
+            return ImGuiKey_Z;
+    }
+    return ImGuiKey_Space;
+}
+
+// A text that ImGui edits in place.
+template <std::size_t size>
+struct TextField {
+    std::array<char, size> letters{};
+    void set(const std::string& text) { std::strncpy(letters.data(), text.c_str(), size - 1); }
+    std::string text() const { return letters.data(); }
+};
+
+}  // namespace
+
+struct EntryForm::Parts {
+    ImGuiContext* context = nullptr;
+    ImGuiPass pass;
+    Clipboard clipboard;
+    std::string pasted;  // what ImGui was given last
+    double text_pixels = 0;
+    ImFont* normal = nullptr;
+    ImFont* small = nullptr;
+    ImFont* large = nullptr;
+
+    EntryFields fields;
+    TextField<4096> link;
+    TextField<64> name;
+    render::PictureTexture picture;
+    std::deque<FormKeyPress> keys;  // one for each picture, as ImGui sees levels
+    std::optional<int> held;        // the key that is down in ImGui
+    bool was_down = false, has_focus = false;
+    int fresh = 0;  // pictures since the form appeared; ImGui lays itself out in the first two
+
+    Parts(EntryFields begin, Clipboard the_clipboard)
+        : context(ImGui::CreateContext()),
+          clipboard(std::move(the_clipboard)),
+          fields(std::move(begin)) {
+        link.set(fields.link);
+        name.set(fields.name);
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+        for (int key = 0; key < ImGuiKey_COUNT; ++key)
+            io.KeyMap[key] = key;
+        io.ClipboardUserData = this;
+        io.GetClipboardTextFn = [](void* self) {
+            auto& parts = *static_cast<Parts*>(self);
+            parts.pasted = parts.clipboard.text();
+            return parts.pasted.c_str();
+        };
+        io.SetClipboardTextFn = [](void* self, const char* text) {
+            static_cast<Parts*>(self)->clipboard.set_text(text);
+        };
+    }
+    ~Parts() { ImGui::DestroyContext(context); }
+
+    void make_fonts(double pixels);
+    void take(const FormInput& input, Size window);
+    EntryAnswer lay_out(const EntryFacts& facts);
+    EntryAnswer form(const EntryFacts& facts, float width);
+    void session(const EntryFacts& facts, float width);
+    void label(const char* words) const;
+};
+
+void EntryForm::Parts::make_fonts(double pixels) {
+    // The first one is the font of all texts for which no other one is chosen.
+    const auto fonts = set_fonts(pass, {pixels, pixels * 0.8, pixels * 1.9});
+    normal = fonts[0], small = fonts[1], large = fonts[2];
+    text_pixels = pixels;
+
+    const float unit = float(pixels / 2);
+    ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    style.WindowPadding = style.FramePadding = {unit, 0.7f * unit};
+    style.WindowPadding = {3 * unit, 2.5f * unit};
+    style.ItemSpacing = {unit, 0.8f * unit};
+    style.WindowRounding = style.ChildRounding = unit;
+    style.FrameRounding = 0.5f * unit;
+    style.WindowBorderSize = style.ChildBorderSize = 0;
+    const auto set = [&](std::initializer_list<ImGuiCol> parts, ImU32 color) {
+        for (const ImGuiCol part : parts)
+            style.Colors[part] = ImGui::ColorConvertU32ToFloat4(color);
+    };
+    set({ImGuiCol_WindowBg}, card_color);
+    set({ImGuiCol_Text}, text_color);
+    set({ImGuiCol_TextDisabled}, label_color);
+    set({ImGuiCol_FrameBg, ImGuiCol_FrameBgActive}, field_color);
+    set({ImGuiCol_Button, ImGuiCol_FrameBgHovered}, button_color);
+    set({ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}, button_hovered_color);
+    set({ImGuiCol_CheckMark, ImGuiCol_NavHighlight}, key_color);
+}
+
+void EntryForm::Parts::take(const FormInput& input, Size window) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {float(window.width), float(window.height)};
+    io.DeltaTime = 1.0f / 60;
+    io.AddInputCharactersUTF8(input.text.c_str());
+    io.MousePos = input.pointer ? ImVec2(float(input.pointer->x) * io.DisplaySize.x,
+                                         float(input.pointer->y) * io.DisplaySize.y)
+                                : ImVec2(-FLT_MAX, -FLT_MAX);
+    io.MouseDown[0] = was_down = input.is_down || input.clicked;
+    io.MouseWheel = float(input.wheel);
+
+    keys.insert(keys.end(), input.keys.begin(), input.keys.end());
+    io.KeyCtrl = io.KeyShift = false;
+    if (held) {
+        io.KeysDown[*std::exchange(held, std::nullopt)] = false;
+    } else if (!keys.empty()) {
+        const FormKeyPress press = keys.front();
+        keys.pop_front();
+        held = key_of(press.key);
+        io.KeysDown[*held] = true;
+        io.KeyCtrl = press.control;
+        io.KeyShift = press.shift;
+    }
+    // The arrows of the keyboard move between fields, Space presses a button.
+    const auto is_down = [&](ImGuiKey key) { return io.KeysDown[key] ? 1.0f : 0.0f; };
+    io.NavInputs[ImGuiNavInput_Activate] = is_down(ImGuiKey_Space);
+    io.NavInputs[ImGuiNavInput_KeyUp_] = is_down(ImGuiKey_UpArrow);
+    io.NavInputs[ImGuiNavInput_KeyDown_] = is_down(ImGuiKey_DownArrow);
+    io.NavInputs[ImGuiNavInput_KeyLeft_] = is_down(ImGuiKey_LeftArrow);
+    io.NavInputs[ImGuiNavInput_KeyRight_] = is_down(ImGuiKey_RightArrow);
+}
+
+void EntryForm::Parts::label(const char* words) const {
+    ImGui::PushFont(small);
+    ImGui::TextDisabled("%s", words);
+    ImGui::PopFont();
+}
+
+EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
+    EntryAnswer answer = EntryAnswer::none;
+    const float paste = ImGui::CalcTextSize("Paste").x + 2 * ImGui::GetStyle().FramePadding.x;
+    label("The link that you were given");
+    ImGui::SetNextItemWidth(width - paste - ImGui::GetStyle().ItemSpacing.x);
+    if (fresh == 0 && fields.link.empty())
+        ImGui::SetKeyboardFocusHere();
+    bool entered = ImGui::InputText("##link", link.letters.data(), link.letters.size(),
+                                    ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if (ImGui::Button("Paste"))
+        link.set(clipboard.text());
+    label("Your name, which the others see");
+    ImGui::SetNextItemWidth(width);
+    if (fresh == 0 && !fields.link.empty())
+        ImGui::SetKeyboardFocusHere();
+    entered = ImGui::InputText("##name", name.letters.data(), name.letters.size(),
+                               ImGuiInputTextFlags_EnterReturnsTrue) ||
+              entered;
+    ImGui::Checkbox("Hear the others", &fields.hears);
+    ImGui::SameLine(0, 2 * float(text_pixels));
+    ImGui::Checkbox("Speak with my microphone", &fields.speaks);
+    ImGui::BeginDisabled(!fields.speaks);
+    ImGui::Checkbox("My voice may be recorded", &fields.voice_may_record);
+    ImGui::EndDisabled();
+
+    ImGui::Dummy({0, 0.5f * float(text_pixels)});
+    if (facts.is_problem)
+        ImGui::PushStyleColor(ImGuiCol_Text, warning_color);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::TextUnformatted(facts.hint.c_str());
+    ImGui::PopTextWrapPos();
+    if (facts.is_problem)
+        ImGui::PopStyleColor();
+    ImGui::Dummy({0, 0.3f * float(text_pixels)});
+
+    const bool ready = facts.can_enter && !name.text().empty();
+    ImGui::BeginDisabled(!ready);
+    ImGui::PushStyleColor(ImGuiCol_Button, main_color);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, main_hovered_color);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, main_hovered_color);
+    if (ImGui::Button("Enter the room", {11 * float(text_pixels), 2.2f * float(text_pixels)}))
+        answer = EntryAnswer::enter;
+    ImGui::PopStyleColor(3);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button("Close", {5 * float(text_pixels), 2.2f * float(text_pixels)}))
+        answer = EntryAnswer::leave;
+    if (entered && ready)
+        answer = EntryAnswer::enter;
+    fields.link = link.text();
+    fields.name = name.text();
+    return answer;
+}
+
+void EntryForm::Parts::session(const EntryFacts& facts, float width) {
+    if (facts.title.empty())
+        return;
+    if (const Size size = picture.size(); size.width > 0) {
+        const float scale = width / float(size.width);
+        ImGui::Image(texture_of(picture.texture()), {width, scale * float(size.height)});
+    }
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::TextUnformatted(facts.title.c_str());
+    for (const std::string& line : facts.lines) {
+        ImGui::PushFont(small);
+        ImGui::PushStyleColor(ImGuiCol_Text, label_color);
+        ImGui::TextUnformatted(line.c_str());
+        ImGui::PopStyleColor();
+        ImGui::PopFont();
+    }
+    ImGui::PopTextWrapPos();
+}
+
+EntryAnswer EntryForm::Parts::lay_out(const EntryFacts& facts) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float em = float(text_pixels);
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    // The session stands beside the form where there is room for it, else below.
+    const bool beside = window.x >= 44 * em && !facts.title.empty();
+    const float form_width = std::min(28 * em, window.x - 2 * padding.x - em);
+    const float session_width = 13 * em, gap = 3 * em;
+    ImGui::SetNextWindowSize({form_width + 2 * padding.x + (beside ? gap + session_width : 0), 0});
+    ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x, window.y});
+    ImGui::Begin("entry", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::BeginGroup();
+    ImGui::PushFont(large);
+    ImGui::TextUnformatted("Theatron");
+    ImGui::PopFont();
+    ImGui::TextDisabled("The shared operating room");
+    ImGui::Dummy({0, 0.5f * em});
+    const EntryAnswer answer = form(facts, form_width);
+    ImGui::EndGroup();
+    if (beside)
+        ImGui::SameLine(0, gap);
+    ImGui::BeginGroup();
+    session(facts, beside ? session_width : form_width);
+    ImGui::EndGroup();
+    ImGui::End();
+    return answer;
+}
+
+EntryForm::EntryForm(EntryFields fields, Clipboard clipboard)
+    : parts_(std::make_unique<Parts>(std::move(fields), std::move(clipboard))) {}
+EntryForm::~EntryForm() = default;
+
+void EntryForm::set_picture(ColorView picture) {
+    parts_->picture.set(picture);
+}
+
+EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Size window,
+                            double text_pixels) {
+    Parts& p = *parts_;
+    ImGui::SetCurrentContext(p.context);
+    if (p.text_pixels != text_pixels)
+        p.make_fonts(text_pixels);
+    const bool escape =
+        std::any_of(input.keys.begin(), input.keys.end(),
+                    [](const FormKeyPress& press) { return press.key == FormKey::escape; });
+    p.take(input, window);
+    ImGui::NewFrame();
+    EntryAnswer answer = p.lay_out(facts);
+    p.has_focus = ImGui::GetIO().WantTextInput;
+    p.fresh = std::min(p.fresh + 1, 3);
+    ImGui::Render();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, window.width, window.height);
+    const ImVec4 behind = ImGui::ColorConvertU32ToFloat4(behind_color);
+    glClearBufferfv(GL_COLOR, 0, &behind.x);
+    p.pass.draw(*ImGui::GetDrawData());
+    if (escape)
+        answer = EntryAnswer::leave;
+    return answer;
+}
+
+bool EntryForm::is_animated() const {
+    const Parts& p = *parts_;
+    return p.fresh < 3 || !p.keys.empty() || p.held || p.was_down || p.has_focus;
+}
+
+const EntryFields& EntryForm::fields() const {
+    return parts_->fields;
+}
+
+}  // namespace theatron::xr

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The form before a session: the link, the person's name, voice, and what the host says of its
+// session.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "image/view.h"
+#include "xr/form_input.h"
+
+namespace theatron::xr {
+
+// The fields that a person fills in.
+struct EntryFields {
+    std::string link, name;
+    bool hears = true;              // the others
+    bool speaks = false;            // to the others
+    bool voice_may_record = false;  // the person agrees that others record the voice
+
+    bool operator==(const EntryFields&) const = default;
+};
+
+// Texts about the session that the link leads to.
+struct EntryFacts {
+    std::string title;  // the session's name; empty: no host has answered
+    std::vector<std::string> lines;
+    std::string hint;  // the next step, or a problem
+    bool is_problem = false;
+    bool can_enter = false;
+
+    bool operator==(const EntryFacts&) const = default;
+};
+
+enum class EntryAnswer { none, enter, leave };
+
+// Needs the window's GL context current, also in the destructor.
+class EntryForm {
+public:
+    struct Clipboard {
+        std::function<std::string()> text;
+        std::function<void(const std::string&)> set_text;
+    };
+
+    // Throws Error where the driver does not accept the shaders.
+    EntryForm(EntryFields fields, Clipboard clipboard);
+    ~EntryForm();
+
+    // A small picture of the session; an empty view removes it.
+    void set_picture(ColorView picture);
+
+    // Takes the input and draws into the window's framebuffer. `text_pixels` is the height of a
+    // normal text.
+    EntryAnswer draw(const EntryFacts& facts, const FormInput& input, Size window,
+                     double text_pixels);
+    // True while the input is not used up, or a text cursor blinks: draw() must follow soon.
+    bool is_animated() const;
+    const EntryFields& fields() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace theatron::xr

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/imgui_fonts_native.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "xr/font.h"
+
+namespace theatron::xr {
+namespace {
+
+// Latin, Greek and Cyrillic letters, and the signs of our own texts.
+constexpr ImWchar glyphs[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x52f, 0x2010, 0x2027, 0};
+
+}  // namespace
+
+std::array<ImFont*, 3> set_fonts(ImGuiPass& pass, const std::array<double, 3>& heights_pixels) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    const auto data = text_font();
+    std::array<ImFont*, 3> fonts;
+    std::transform(heights_pixels.begin(), heights_pixels.end(), fonts.begin(), [&](double height) {
+        ImFontConfig config;
+        config.FontDataOwnedByAtlas = false;
+        config.OversampleH = 2;
+        // ImGui takes a writable pointer and leaves the data alone.
+        return atlas.AddFontFromMemoryTTF(const_cast<std::byte*>(data.data()), int(data.size()),
+                                          float(std::round(height)), &config, glyphs);
+    });
+    atlas.Build();
+    pass.upload_fonts();
+    return fonts;
+}
+
+}  // namespace theatron::xr

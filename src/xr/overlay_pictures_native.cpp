@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xr/overlay_pictures_native.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "xr/imgui_pass_native.h"
+
+namespace theatron::xr {
+namespace {
+
+constexpr ImU32 cell_color = IM_COL32(12, 14, 18, 240);
+constexpr ImU32 title_color = IM_COL32(245, 247, 250, 255);
+constexpr ImU32 value_color = IM_COL32(160, 172, 186, 255);
+constexpr int columns = 3;
+// The share of the window's width that all columns take.
+constexpr float columns_width = 0.48f;
+// Height over width of a picture's place.
+constexpr float usual_shape = 0.75f;
+
+}  // namespace
+
+void OverlayPictures::draw(ImDrawList& list, ImFont& font, float unit, ImVec2 window,
+                           const std::vector<OverlayPicture>& pictures) {
+    cells_.clear();
+    kept_.resize(pictures.size());
+    if (pictures.empty())
+        return;
+    const float text = font.FontSize, padding = 0.5f * unit, bar = text;
+    const float texts = text + bar + 3 * padding;
+    const bool is_large = pictures.front().large;
+    const int rows = is_large ? 1 : (int(pictures.size()) + columns - 1) / columns;
+    const int across = is_large ? 1 : columns;
+    // The cells become smaller until all rows fit into the window.
+    float height = std::min(window.y / float(rows) - unit, window.y - 2 * unit);
+    float width = (is_large ? 0.9f : columns_width / columns) * window.x;
+    const float shape = is_large ? float(pictures.front().pixels->size.height) /
+                                       float(pictures.front().pixels->size.width)
+                                 : usual_shape;
+    width = std::max(std::min(width, (height - texts) / shape), 16.0f);
+    height = width * shape + texts;
+    const ImVec2 first{
+        is_large ? (window.x - width) / 2 : window.x - float(across) * (width + unit),
+        is_large ? (window.y - height) / 2 : unit};
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const OverlayPicture& picture = pictures[i];
+        if (kept_[i].pixels != picture.pixels)
+            kept_[i].texture.set(picture.pixels->view());
+        kept_[i].pixels = picture.pixels;
+        const ImVec2 from{std::round(first.x + float(int(i) % across) * (width + unit)),
+                          std::round(first.y + float(int(i) / across) * (height + unit))};
+        const ImVec2 to{from.x + width, from.y + height};
+        cells_.push_back({from, to, picture.command});
+        list.AddRectFilled(from, to, cell_color, padding);
+        list.PushClipRect(from, to, true);
+        list.AddText(&font, text, {from.x + padding, from.y + padding}, title_color,
+                     picture.title.c_str());
+        // As large as its place allows, in its own shape.
+        const ImVec2 place{width - 2 * padding, height - texts};
+        const auto size =
+            ImVec2{float(picture.pixels->size.width), float(picture.pixels->size.height)};
+        const float scale = std::min(place.x / size.x, place.y / size.y);
+        const ImVec2 corner{from.x + (width - scale * size.x) / 2,
+                            from.y + text + 2 * padding + (place.y - scale * size.y) / 2};
+        list.AddImage(texture_of(kept_[i].texture.texture()), corner,
+                      {corner.x + scale * size.x, corner.y + scale * size.y});
+        if (!picture.legend.empty()) {
+            const auto measure = [&](const std::string& value) {
+                return font.CalcTextSizeA(text, 1e9f, 0, value.c_str()).x;
+            };
+            const float y = to.y - bar - 0.5f * padding;
+            const float left = from.x + measure(picture.legend_from) + 2 * padding;
+            const float right = to.x - measure(picture.legend_to) - 2 * padding;
+            const float step = (right - left) / float(picture.legend.size());
+            list.AddText(&font, text, {from.x + padding, y}, value_color,
+                         picture.legend_from.c_str());
+            list.AddText(&font, text, {right + padding, y}, value_color, picture.legend_to.c_str());
+            for (std::size_t n = 0; n < picture.legend.size(); ++n) {
+                const Rgb c = picture.legend[n];
+                list.AddRectFilled({left + float(n) * step, y + 0.25f * bar},
+                                   {left + float(n + 1) * step, y + 0.9f * bar},
+                                   IM_COL32(c.r, c.g, c.b, 255));
+            }
+        }
+        list.PopClipRect();
+    }
+}
+
+std::optional<int> OverlayPictures::command_at(ImVec2 pixel) const {
+    for (const Cell& cell : cells_)
+        if (pixel.x >= cell.from.x && pixel.x < cell.to.x && pixel.y >= cell.from.y &&
+            pixel.y < cell.to.y)
+            return cell.command;
+    return std::nullopt;
+}
+
+}  // namespace theatron::xr

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated headset in the page, after iwer: it has a framebuffer of its own as real ones do, which the
+// canvas then shows, and keeps what tests look at.
+const device = new IWER.XRDevice(IWER.metaQuest3, { ipd: 0.064 });
+device.stereoEnabled = true;
+device.installRuntime({ forceInstall: true });
+
+// Layers of one context share a framebuffer of the canvas's size.
+const targets = new WeakMap();
+function target_of(gl) {
+    const { width, height } = gl.canvas;
+    let target = targets.get(gl);
+    if (target?.width === width && target.height === height)
+        return target;
+    const bound = gl.getParameter(gl.FRAMEBUFFER_BINDING);
+    target = { width, height, framebuffer: target?.framebuffer ?? gl.createFramebuffer() };
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+    for (const [attachment, format] of [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]]) {
+        const buffer = gl.createRenderbuffer();
+        gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+        gl.renderbufferStorage(gl.RENDERBUFFER, format, width, height);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, buffer);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, bound);
+    targets.set(gl, target);
+    return target;
+}
+Object.defineProperty(XRWebGLLayer.prototype, "framebuffer", { get() { return target_of(this.context).framebuffer; } });
+
+const headset = globalThis.simulated_headset = { device, frames: 0 };
+
+// After the page's frame: shows the eyes on the canvas; keeps the pixels if asked to.
+function show(gl) {
+    const { framebuffer, width, height } = target_of(gl);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, framebuffer);
+    if (headset.wants_pixels) {
+        const pixels = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        headset.pixels = { width, height, pixels };
+        headset.wants_pixels = false;
+    }
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    ++headset.frames;
+}
+
+const request = XRSession.prototype.requestAnimationFrame;
+XRSession.prototype.requestAnimationFrame = function (callback) {
+    return request.call(this, (time, frame) => {
+        callback(time, frame);
+        const left = [...frame.session.inputSources].find(source => source.handedness === "left");
+        headset.left_grip = left && frame.getPose(left.gripSpace, theatron.headset.space)?.transform.position;
+        if (frame.session.renderState.baseLayer)
+            show(frame.session.renderState.baseLayer.context);
+    });
+};
+
+// Share of the pixels that hide the real world, of each half of the picture.
+headset.opaque = async () => {
+    headset.wants_pixels = true;
+    while (headset.wants_pixels)
+        await new Promise(done => setTimeout(done, 20));
+    const { width, height, pixels } = headset.pixels;
+    const halves = [0, 0];
+    for (let i = 0; i < width * height; ++i)
+        halves[i % width < width / 2 ? 0 : 1] += pixels[4 * i + 3] > 127 ? 1 : 0;
+    return halves.map(count => count / (width * height / 2));
+};
+
+// A controller's or hand's ray from `from` through `to`, both in the tracking space.
+headset.aim = (side, from, to) => {
+    const input = device.primaryInputMode === "hand" ? device.hands[side] : device.controllers[side];
+    const way = to.map((value, i) => value - from[i]);
+    const length = Math.hypot(...way);
+    const [x, y, z] = way.map(value => value / length);
+    // The rotation that brings -z onto the way, by yaw about y and then pitch about x.
+    const yaw = Math.atan2(-x, -z) / 2, pitch = Math.asin(y) / 2;
+    input.position.set(...from);
+    input.quaternion.set(Math.cos(yaw) * Math.sin(pitch), Math.sin(yaw) * Math.cos(pitch), -Math.sin(yaw) * Math.sin(pitch),
+                         Math.cos(yaw) * Math.cos(pitch));
+};
+
+// The right ray onto a row of the menu at the left wrist (src/viewer/wrist_menu.h).
+headset.aim_at_row = (row, rows) => {
+    const { x, y, z } = headset.left_grip;
+    headset.aim("right", [x + 0.1, y + 0.1, z + 0.3], [x, y + 0.06 + (rows - row - 0.5) * 0.03, z]);
+};
+headset.grip = (side, closed) => {
+    if (device.primaryInputMode === "hand")
+        device.hands[side].poseId = closed ? "pinch" : "default";
+    else
+        device.controllers[side].updateButtonValue("trigger", closed ? 1 : 0);
+};
+
+// Objects of GL that exist, by kind.
+const objects = {};
+for (const kind of ["Texture", "Buffer", "Framebuffer", "Renderbuffer", "VertexArray", "Program", "Shader", "Query"]) {
+    const prototype = WebGL2RenderingContext.prototype;
+    const make = prototype[`create${kind}`], remove = prototype[`delete${kind}`];
+    objects[kind] = 0;
+    prototype[`create${kind}`] = function (...all) {
+        ++objects[kind];
+        return make.apply(this, all);
+    };
+    prototype[`delete${kind}`] = function (object) {
+        objects[kind] -= object ? 1 : 0;
+        return remove.call(this, object);
+    };
+}
+headset.objects = () => JSON.stringify(objects);

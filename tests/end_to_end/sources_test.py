@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Windows, displays, devices and network streams as screens in the room; and servers that mean harm."""
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+import rtsp_standin
+from rtsp_standin import RtspStandIn
+from theatron_process import PROGRAM, Process, host, make_recording, read_png, run
+from virtual_screen import VirtualScreen
+
+WAIT = 30
+
+
+def camera(figures, name):
+    return next((c for c in figures["cameras"] if c["name"] == name), None)
+
+
+def shown(name, frames=10):
+    return lambda f: camera(f, name) and camera(f, name)["frames"] >= frames
+
+
+class Sources(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_sources_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.lamp = f"folder:{make_recording(cls.folder / 'lamp')},loop=1,preload=1,place=0:1.5:0"
+        cls.pictures = rtsp_standin.encode(320, 180, 30)
+
+    def test_a_stream_is_shown_and_comes_back(self):
+        with host(self.folder / "state", self.lamp) as h, \
+                RtspStandIn(rtsp_standin.play, pictures=self.pictures, password="kn:fe") as server:
+            url = server.url.replace("rtsp://", "rtsp://cart:kn%3afe@")
+            code, _, errors = run("publish", h.greeting["publish_link"], "--share", server.url)
+            self.assertEqual(code, 1)
+            self.assertIn("user and password", errors)
+            with Process("publish", h.greeting["publish_link"], "--share", url + ",name=tower", "--every", "0.2") as cart, \
+                    Process("join", h.greeting["link"], "--every", "0.2") as seen:
+                seen.wait_for(shown("tower", 30), WAIT)
+                before = server.connections
+                server.drop()
+                cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale", WAIT)
+                cart.wait_for(lambda f: camera(f, "tower")["state"] == "live", WAIT)
+                self.assertGreater(server.connections, before)
+                self.assertNotIn("kn", "".join(cart.errors))
+
+    def test_a_stream_that_stalls_is_called_stale_and_opened_again(self):
+        with host(self.folder / "state2") as h, \
+                RtspStandIn(rtsp_standin.play, pictures=self.pictures, count=60) as server, \
+                Process("publish", h.greeting["publish_link"], "--share", server.url + ",name=tower", "--every", "0.2") as cart:
+            cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale", WAIT)
+            cart.wait_for(lambda f: server.connections >= 2 and camera(f, "tower")["state"] == "live", WAIT)
+
+    def test_servers_that_mean_harm_end_only_their_screen(self):
+        large = rtsp_standin.encode(4112, 2800, 1, source="color")
+        harm = ((rtsp_standin.send_garbage, {}, "nothing that Theatron reads as video"),
+                (rtsp_standin.send_endless_headers, {}, "nothing that Theatron reads as video"),
+                (rtsp_standin.promise_much, {}, "nothing that Theatron reads as video"),
+                (rtsp_standin.play, {"pictures": large}, "4096 x 2700"),
+                (rtsp_standin.say_nothing, {}, "without an answer"))
+        with host(self.folder / "state3", self.lamp) as h, Process("join", h.greeting["link"], "--every", "0.2") as seen, \
+                contextlib.ExitStack() as stack:
+            seen.wait_for(shown("lamp"), WAIT)
+            tries = []
+            for serve, options, words in harm:
+                server = stack.enter_context(RtspStandIn(serve, **options))
+                tries.append((serve.__name__, words, stack.enter_context(
+                    Process("publish", h.greeting["publish_link"], "--share", server.url, "--seconds", "20"))))
+            damage = stack.enter_context(RtspStandIn(rtsp_standin.send_damaged_packets, pictures=self.pictures))
+            code, _, errors = run("publish", h.greeting["publish_link"], "--share", damage.url, "--seconds", "3")
+            self.assertIn(code, (0, 1), errors)
+            for name, words, publisher in tries:
+                with self.subTest(name):
+                    self.assertEqual(publisher.end(), 1)
+                    errors = "".join(publisher.errors)
+                    self.assertIn(words, errors)
+                    self.assertEqual(errors.count("\n"), 1, errors)
+            before = camera(seen.newest_json(), "lamp")["frames"]
+            seen.wait_for(lambda f: camera(f, "lamp")["state"] == "live" and camera(f, "lamp")["frames"] > before + 10, WAIT)
+
+    def test_what_is_not_there_is_said(self):
+        with host(self.folder / "state4") as h:
+            for shared, words in (("rtsp://127.0.0.1:1/x", "Cannot connect"),
+                                  ("rtsp://", "is written as rtsp://HOST/PATH"),
+                                  ("v4l2:/dev/video99", "There is no video device"),
+                                  ("v4l2:/dev/null", "is no video device"),
+                                  (f"v4l2:{__file__}", "is no video device"),
+                                  ("x11:", "Name a window")):
+                code, _, errors = run("publish", h.greeting["publish_link"], "--share", shared)
+                self.assertEqual(code, 1)
+                self.assertIn(words, errors)
+                self.assertEqual(errors.count("\n"), 1, errors)
+
+
+class Windows(unittest.TestCase):
+    """Two windows of another program: one green, and a red one that covers half of it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_windows_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+
+    def window(self, screen, color, title, place, size="320x180"):
+        process = subprocess.Popen(
+            ["ffmpeg", "-v", "error", "-re", "-f", "lavfi", "-i", f"color={color}:s={size}:r=10", "-pix_fmt", "rgb24",
+             "-window_title", title, "-window_x", str(place), "-window_y", str(place), "-f", "sdl", title],
+            env=screen.environment, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def picture(self, h, name):
+        file = self.folder / "seen.png"
+        code, _, errors = run("join", h.greeting["link"], "--offscreen", file, "--size", "320x240", "--seconds", "1",
+                              "--color-codec", "raw", "--view", "camera:0")
+        if "GL" in errors or "EGL" in errors:
+            self.skipTest(errors)
+        self.assertEqual(code, 0, errors)
+        return read_png(file)[3]
+
+    def test_a_window_is_shared_without_what_lies_over_it(self):
+        with VirtualScreen(800, 600) as screen:
+            green = self.window(screen, "0x00ff00", "liver", 0)
+            listed = []
+            end = time.monotonic() + WAIT
+            while not listed and time.monotonic() < end:
+                done = subprocess.run([PROGRAM, "cameras", "--json"], env=screen.environment,
+                                      capture_output=True, text=True)
+                listed = [w for w in json.loads(done.stdout)["windows"] if w["title"] == "liver"]
+            self.assertEqual(listed[0]["size"], [320, 180])
+            self.window(screen, "0xff0000", "over", 100)
+            time.sleep(1)
+            lamp = f"folder:{make_recording(self.folder / 'lamp')},loop=1,preload=1,place=0:1.5:0"
+            place = ",width=0.4,place=0:1.5:-0.5"
+            with host(self.folder / "state", lamp) as h, \
+                    Process("publish", h.greeting["publish_link"], "--share", f"x11:liver,name=liver,cursor=0{place}",
+                            "--every", "0.2", env=screen.environment) as cart, \
+                    Process("join", h.greeting["link"], "--every", "0.2") as seen:
+                seen.wait_for(shown("liver"), WAIT)
+                rows = self.picture(h, "liver")
+                for x in (150, 160, 170):
+                    red, green_value, blue = rows[125][3 * x:3 * x + 3]
+                    self.assertTrue(red < 40 and green_value > 215 and blue < 40, (x, red, green_value, blue))
+                green.kill()
+                cart.wait_for(lambda f: camera(f, "liver")["state"] == "stale", WAIT)
+                self.window(screen, "0x00ff00", "liver", 0, "400x100")
+                cart.wait_for(lambda f: camera(f, "liver")["state"] == "live", WAIT)
+
+    def test_the_whole_display_is_shared_and_a_missing_one_is_said(self):
+        with VirtualScreen(640, 360) as screen, host(self.folder / "state2") as h, \
+                Process("publish", h.greeting["publish_link"], "--share", "x11:display,fps=20", "--every", "0.2",
+                        env=screen.environment) as cart, \
+                Process("join", h.greeting["link"], "--every", "0.2") as seen:
+            seen.wait_for(shown("display"), WAIT)
+            self.assertEqual(cart.newest_json()["cameras"][0]["state"], "live")
+            done = subprocess.run([PROGRAM, "publish", h.greeting["publish_link"], "--share", "x11:nobody"],
+                                  env=screen.environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            self.assertIn("There is no visible window 'nobody'", done.stderr)
+        without = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+        done = subprocess.run([PROGRAM, "publish", "https://127.0.0.1:1/#join=x&cert=y", "--share", "x11:display"],
+                              env=without, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page for people with a keyboard, a screen reader or weak eyes: names, focus, contrast (WCAG 2.2 AA)."""
+import contextlib
+import pathlib
+import tempfile
+import unittest
+
+import theatron_process
+from browser import CHROMIUM, Browser
+from theatron_process import host
+
+PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
+SIZE = (960, 540)
+CONTROLS = {"button", "textbox", "checkbox", "link", "combobox", "slider", "application", "Canvas"}
+
+# Texts with too little contrast. Where the room shines through, a black and a white one count.
+CONTRAST = """(() => {
+    const parse = color => color.match(/[\\d.]+/g).map(Number);
+    const over = ([r, g, b, a = 1], below) => [r, g, b].map((v, i) => v * a + below[i] * (1 - a));
+    const light = rgb => rgb.map(v => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+    const ratio = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
+    const poor = [];
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+        const element = walker.currentNode.parentElement, text = walker.currentNode.data.trim();
+        if (!text || !element.checkVisibility({ checkVisibilityCSS: true }) || element.closest(":disabled"))
+            continue;
+        const layers = [];
+        let is_opaque = false;
+        for (let at = element; at && !is_opaque; at = at.id === "panels" ? null : at.parentElement) {
+            const color = parse(getComputedStyle(at).backgroundColor);
+            layers.unshift(color);
+            is_opaque = (color[3] ?? 1) === 1;
+        }
+        const style = getComputedStyle(element), size = parseFloat(style.fontSize);
+        const needed = size >= 24 || (size >= 18.66 && style.fontWeight >= 700) ? 3 : 4.5;
+        const ratios = [0, 255].map(v => {
+            const below = layers.reduce((rgb, layer) => over(layer, rgb), [v, v, v]);
+            return ratio(over(parse(style.color), below), below);
+        });
+        if (Math.min(...ratios) < needed)
+            poor.push(`${text.slice(0, 40)}: ${Math.min(...ratios).toFixed(2)}`);
+    }
+    return poor;
+})()"""
+
+REACHABLE = """[...document.querySelectorAll("button, input, select, summary, a[href], [tabindex]")].filter(e =>
+    e.checkVisibility({ checkVisibilityCSS: true }) && !e.disabled && e.tabIndex >= 0)"""
+NAME = """(e => e.id || e.dataset.key || e.dataset.label || e.textContent)"""
+FOCUS = f"""(() => {{
+    const e = document.activeElement, style = getComputedStyle(e);
+    return {{ name: {NAME}(e), is_body: e === document.body,
+              is_seen: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2 }};
+}})()"""
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class WebAccess(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = contextlib.ExitStack()
+        folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
+        cls.host = cls.stack.enter_context(host(folder / "host"))
+        cls.page = cls.stack.enter_context(Browser()).open(cls.host.greeting["link"], SIZE)
+        cls.page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
+        cls.page.call("Accessibility.enable")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stack.close()
+
+    def check(self):
+        """What holds for whatever the page shows now."""
+        page = self.page
+        self.assertIn(page.evaluate("document.documentElement.lang"), ("en", "de"))
+        controls = [node for node in page.call("Accessibility.getFullAXTree")["nodes"]
+                    if not node["ignored"] and node["role"]["value"] in CONTROLS]
+        self.assertEqual([node for node in controls if not node.get("name", {}).get("value", "").strip()], [])
+        self.assertTrue(controls)
+        for scheme in ("light", "dark"):
+            page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.assertEqual(page.evaluate(CONTRAST), [], scheme)
+
+    def tab_order(self, from_element):
+        """Names of what the Tab key reaches from there until it leaves the page."""
+        self.page.evaluate(f"document.querySelector('{from_element}').focus()")
+        reached = []
+        while not (focus := self.page.evaluate(FOCUS))["is_body"] and len(reached) < 60:
+            if focus["name"] in reached:
+                break
+            self.assertTrue(focus["is_seen"], f"the focus is not seen on {focus['name']}")
+            reached.append(focus["name"])
+            self.page.press("Tab", "Tab", 9)
+        return reached
+
+    def test_lobby_room_and_help_are_named_legible_and_reached_by_keys(self):
+        page = self.page
+        self.check()
+        expected = page.evaluate(f"{REACHABLE}.map({NAME})")
+        self.assertEqual(self.tab_order("#name"), expected[expected.index("name"):])
+
+        page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('name').focus()")
+        page.press("Enter", "Enter", 13, "\r")
+        page.wait_for("theatron.state.phase === 'joined'")
+        self.assertEqual(page.evaluate("document.activeElement.id"), "view")
+        page.wait_for("!!document.querySelector('#room_panels section')")
+        self.check()
+        self.assertEqual(self.tab_order("#view"), page.evaluate(f"{REACHABLE}.map({NAME})"))
+
+        page.evaluate("document.getElementById('view').focus()")
+        page.press("h", "KeyH")
+        page.wait_for("document.getElementById('help').open")
+        self.assertTrue(page.evaluate("document.getElementById('help').contains(document.activeElement)"))
+        self.check()
+        page.press("Escape", "Escape", 27)
+        page.wait_for("!document.getElementById('help').open")
+        self.assertEqual(page.evaluate("document.activeElement.id"), "view")
+
+
+if __name__ == "__main__":
+    unittest.main()

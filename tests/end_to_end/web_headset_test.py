@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The browser client with a simulated headset (iwer): controllers, hands and AR among native participants."""
+import contextlib
+import os
+import pathlib
+import tempfile
+import unittest
+
+import theatron_process
+from browser import CHROMIUM, Browser
+from theatron_process import Process, host, read_png
+
+PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
+PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
+HERE = pathlib.Path(__file__).parent
+IWER = HERE / "node_modules/iwer/build/iwer.min.js"
+CAMERAS = ("synthetic:seconds=2,fps=5,quality=quick,loop=1",)
+SIZE = (320, 180)  # software drivers draw two eyes
+
+
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+@unittest.skipUnless(IWER.exists(), "iwer is not installed: npm ci --prefix tests/end_to_end")
+class WebHeadset(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = contextlib.ExitStack()
+        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
+        cls.host = cls.stack.enter_context(host(cls.folder / "host", *CAMERAS))
+        cls.link = cls.host.greeting["link"]
+        cls.browser = cls.stack.enter_context(Browser())
+        cls.ben = cls.stack.enter_context(Process("join", cls.link, "--name", "Ben", "--every", "0.1"))
+        cls.page = cls.browser.open("about:blank", SIZE)
+        for file in (IWER, HERE / "headset.js"):
+            cls.page.call("Page.addScriptToEvaluateOnNewDocument", source=file.read_text())
+        cls.page.call("Page.navigate", url=cls.link)
+        cls.page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
+        # A machine without a graphics card would go over to the 2D view.
+        cls.page.evaluate("(document.getElementById('way') ?? {}).value = 'room';"
+                          "document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
+        cls.page.wait_for("theatron.state.pictures > 0 && theatron.state.people.length === 2")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stack.close()
+
+    def tearDown(self):
+        if self.page.evaluate("theatron.headset.is_on"):
+            self.page.evaluate("theatron.headset.leave()")
+            self.page.wait_for("!theatron.headset.is_on")
+        self.assertEqual(self.page.problems, [])
+
+    def enter(self, kind="vr"):
+        self.page.wait_for(f"!document.getElementById('enter_{kind}').hidden")
+        self.page.evaluate(f"document.getElementById('enter_{kind}').click()")
+        self.page.wait_for("theatron.headset.is_on")
+        self.frames(1)
+
+    def frames(self, count):
+        seen = self.page.evaluate("simulated_headset.frames")
+        self.page.wait_for(f"simulated_headset.frames >= {seen + count}")
+
+    def picture(self, name):
+        file = pathlib.Path(PICTURES or self.folder) / f"{name}.png"
+        self.page.screenshot(file)
+        return read_png(file)
+
+    def headset(self, script):
+        """Runs a line for the simulated headset, and waits until the page has seen its effect."""
+        self.page.evaluate(f"simulated_headset.{script}")
+        self.frames(1)
+
+    def person(self, facts, name="Ada"):
+        return next((person for person in facts["room"]["people"] if person["name"] == name), {})
+
+    def ada_when(self, condition):
+        """Ada as Ben knows her, once that is true."""
+        def holds(facts):
+            ada = self.person(facts)
+            return "head" in ada and condition(ada)
+        return self.person(self.ben.wait_for(holds, 60))
+
+    def bricks(self, facts):
+        return [o for o in facts["room"]["objects"] if o["kind"] == "brick"]
+
+    def choose(self, row, rows):
+        """A row of the menu, by the right controller."""
+        self.headset("device.controllers.left.updateButtonValue('y-button', 1)")
+        self.headset("device.controllers.left.updateButtonValue('y-button', 0)")
+        self.headset(f"aim_at_row({row}, {rows})")
+        self.picture(f"headset_menu_{row}")
+        self.headset("grip('right', true)")
+        self.headset("grip('right', false)")
+        self.headset("device.controllers.left.updateButtonValue('y-button', 1)")
+        self.headset("device.controllers.left.updateButtonValue('y-button', 0)")
+
+    def make_brick(self):
+        """A brick 0.8 m ahead of the head."""
+        before = len(self.bricks(self.ben.newest_json()))
+        self.choose(5, 9)
+        made = self.ben.wait_for(lambda f: len(self.bricks(f)) > before, 60)
+        return self.bricks(made)[-1]["id"]
+
+    def brick(self, number):
+        return next(o for o in self.bricks(self.ben.newest_json()) if o["id"] == number)
+
+    def wait_for_holder(self, number, name):
+        def holds(facts):
+            holder = self.person(facts, name).get("id") if name else 0
+            return any(o["id"] == number and o["held_by"] == holder for o in self.bricks(facts))
+        return self.ben.wait_for(holds, 60)
+
+    def test_both_eyes_see_the_room_and_the_view_goes_on_at_the_window(self):
+        self.enter()
+        self.frames(3)
+        width, height, channels, rows = self.picture("headset_vr")
+        half = width // 2
+        colors = [{bytes(rows[y][channels * x:channels * x + 3])
+                   for y in range(40, height - 60, 5) for x in range(left + half // 3, left + half - 5, 3)}
+                  for left in (0, half)]
+        for eye in colors:
+            self.assertGreater(len(eye), 200)
+        # The eyes are apart: the halves are not the same picture.
+        left, right = ([rows[height // 2][channels * x] for x in range(at, at + half)] for at in (0, half))
+        self.assertNotEqual(left, right)
+        # The others see the head where the headset is.
+        before = self.ada_when(lambda ada: "right_hand" in ada)
+        self.headset("device.position.set(0.5, 1.2, 0)")
+        after = self.ada_when(lambda ada: abs(ada["head"][1] - 1.2) < 0.01)
+        self.assertAlmostEqual(distance(after["head"], before["head"]), (0.5 ** 2 + 0.4 ** 2) ** 0.5, delta=0.02)
+        self.headset("device.position.set(0, 1.6, 0)")
+        self.page.evaluate("theatron.headset.leave()")
+        self.page.wait_for("!theatron.headset.is_on")
+        drawn = self.page.evaluate("theatron.state.pictures")
+        self.page.wait_for(f"theatron.state.pictures > {drawn + 2}")
+        self.ada_when(lambda ada: "right_hand" not in ada)
+        self.picture("headset_left")
+
+    def test_controllers_take_a_brick_and_give_it_to_a_native_participant(self):
+        self.ben.say("stand 0 1.6 -1 0 1.6 0")
+        self.enter()
+        number = self.make_brick()
+        place = self.brick(number)["position"]
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.picture("headset_ray")
+        self.headset("grip('right', true)")
+        self.wait_for_holder(number, "Ada")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
+        self.ben.wait_for(lambda f: distance(self.bricks(f)[-1]["position"], place) > 0.2, 60)
+        self.picture("headset_held")
+        self.headset("device.controllers.right.updateButtonValue('a-button', 1)")
+        self.wait_for_holder(number, "Ben")
+        self.headset("device.controllers.right.updateButtonValue('a-button', 0)")
+        self.headset("grip('right', false)")
+        self.ben.say("release")
+        self.wait_for_holder(number, None)
+
+    def test_the_stick_teleports_and_turns_and_the_others_see_it(self):
+        self.enter()
+        start = self.ada_when(lambda ada: "right_hand" in ada)
+        self.headset("device.controllers.right.updateAxes('thumbstick', 1, 0)")
+        self.headset("device.controllers.right.updateAxes('thumbstick', 0, 0)")
+        turned = self.ada_when(lambda ada: distance(ada["right_hand"], start["right_hand"]) > 0.05)
+        self.assertLess(distance(turned["head"], start["head"]), 0.02)
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0.7, 0.3, -1.2])")
+        self.headset("device.controllers.right.updateAxes('thumbstick', 0, -1)")
+        self.picture("headset_teleport")
+        self.headset("device.controllers.right.updateAxes('thumbstick', 0, 0)")
+        there = self.ada_when(lambda ada: distance(ada["head"], start["head"]) > 0.8)
+        self.assertAlmostEqual(there["head"][1], start["head"][1], delta=0.02)
+        # Walking darkens the sides; seated people are lifted.
+        self.headset("device.controllers.left.updateAxes('thumbstick', 0, -1)")
+        self.frames(4)
+        self.picture("headset_vignette")
+        self.headset("device.controllers.left.updateAxes('thumbstick', 0, 0)")
+        self.headset("device.position.set(0, 1.2, 0)")
+        self.choose(2, 9)
+        self.ada_when(lambda ada: abs(ada["head"][1] - 1.65) < 0.02)
+        self.headset("device.position.set(0, 1.6, 0)")
+
+    def test_a_pinch_takes_a_brick_and_lets_it_go(self):
+        self.enter()
+        number = self.make_brick()
+        place = self.brick(number)["position"]
+        self.page.evaluate("simulated_headset.device.primaryInputMode = 'hand'")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.picture("headset_hands")
+        self.headset("grip('right', true)")
+        self.wait_for_holder(number, "Ada")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
+        self.headset("grip('right', false)")
+        self.wait_for_holder(number, None)
+        self.assertGreater(distance(self.brick(number)["position"], place), 0.2)
+        self.page.evaluate("simulated_headset.device.primaryInputMode = 'controller'")
+
+    def test_in_ar_the_room_is_the_real_one_and_its_table_is_placed(self):
+        self.ben.say("stand 0 1.6 -1 0 1.6 0")
+        self.enter("ar")
+        # A hand over the table's middle, pointing to the patient's head.
+        self.headset("aim('right', [0.3, 1.0, -1.2], [1.3, 1.0, -1.2])")
+        self.picture("headset_ar_placing")
+        self.headset("grip('right', true)")
+        self.headset("grip('right', false)")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.frames(1)
+        opaque = self.page.evaluate("simulated_headset.opaque()")
+        self.picture("headset_ar")
+        for share in opaque:  # an avatar and rays, and no wall
+            self.assertTrue(0 < share < 0.5, opaque)
+        # The head was 1.2 m beside the table and 0.3 m from its middle, towards its foot.
+        head = self.ada_when(lambda ada: abs(abs(ada["head"][2]) - 1.2) < 0.1)["head"]
+        self.assertAlmostEqual(head[0], 0.3, delta=0.1)
+
+    def test_ten_sessions_leave_nothing_behind(self):
+        counts = []
+        for _ in range(10):
+            self.enter()
+            self.page.evaluate("theatron.headset.leave()")
+            self.page.wait_for("!theatron.headset.is_on")
+            self.page.call("HeapProfiler.collectGarbage")
+            counts.append((self.page.evaluate("theatron.memory()"), self.page.evaluate("simulated_headset.objects()"),
+                           self.page.call("Runtime.getHeapUsage")["usedSize"]))
+        # Memory of the program and objects of GL stay the same; the script's heap has some noise.
+        self.assertEqual(counts[-1][:2], counts[2][:2], counts)
+        self.assertLess(counts[-1][2] - counts[2][2], 1_000_000, counts)
+
+
+if __name__ == "__main__":
+    unittest.main()

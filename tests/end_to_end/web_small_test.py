@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page on a computer without a graphics card, without WebGL, and 300 pixels wide."""
+import contextlib
+import os
+import pathlib
+import tempfile
+import unittest
+
+from browser import CHROMIUM, Browser
+from theatron_process import PROGRAM, Process, host
+
+PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
+PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
+CAMERAS = [f"synthetic:seconds=2,fps=10,quality=quick,camera={i},loop=1" for i in (0, 1)]
+# The number of colours that the 2D view shows, of some of its pixels.
+COLORS = """(() => {
+    const { width, height } = document.getElementById("flat");
+    const copy = Object.assign(document.createElement("canvas"), { width, height })
+        .getContext("2d", { willReadFrequently: true });
+    copy.drawImage(document.getElementById("flat"), 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4 * 97)
+        seen.add(data[i] << 16 | data[i + 1] << 8 | data[i + 2]);
+    return seen.size;
+})()"""
+# Elements that reach beyond the page's sides.
+BESIDE = """[...document.querySelectorAll("button, input, select, p, h1, h2, li, code, label")].filter(e =>
+    e.checkVisibility({ checkVisibilityCSS: true }) && e.textContent !== "" &&
+    (e.getBoundingClientRect().left < 0 || e.getBoundingClientRect().right > innerWidth + 0.5))
+    .map(e => e.id || e.textContent)"""
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class WebSmall(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = contextlib.ExitStack()
+        folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
+        cls.host = cls.stack.enter_context(host(folder / "host", *CAMERAS))
+        cls.link = cls.host.greeting["link"]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stack.close()
+
+    def open(self, browser, size=(640, 360)):
+        page = browser.open(self.link, size)
+        page.wait_for("!!document.getElementById('invitation')?.textContent")
+        return page
+
+    def enter(self, page, way="auto"):
+        page.evaluate(f"document.getElementById('way').value = '{way}'; document.getElementById('name').value = 'Ada';"
+                      "document.getElementById('enter').click()")
+        page.wait_for("theatron.complete_ms !== null")
+
+    def picture(self, page, name):
+        if PICTURES:
+            page.screenshot(pathlib.Path(PICTURES) / f"{name}.png")
+
+    def test_without_a_graphics_card_it_says_so_and_shows_a_camera_where_the_room_is_too_slow(self):
+        with Browser() as browser:
+            page = self.open(browser)
+            self.assertEqual(page.evaluate("theatron.graphics"), "processor")
+            self.assertIn("no graphics card", page.evaluate("document.getElementById('graphics_hint').innerText"))
+            page.evaluate("theatron.Patience.slowest_per_s = 1e6; theatron.Patience.longest_ms = 500")
+            self.enter(page)
+            page.wait_for("theatron.state.renderer === 'flat' && theatron.state.has_picture")
+            page.wait_for("document.getElementById('drawing_text').innerText.includes('too slowly')")
+            self.assertGreater(page.wait_for(f"{COLORS} > 20 && {COLORS}"), 20)
+            self.picture(page, "flat")
+            # The choice is the person's; then nothing changes by itself.
+            page.evaluate("document.getElementById('other_way').click()")
+            page.wait_for("theatron.state.renderer === 'mesh' && theatron.state.pictures > 3")
+            self.assertEqual(page.evaluate("theatron.way"), "room")
+            self.picture(page, "room_without_card")
+            self.assertEqual(page.problems, [])
+
+    def test_without_webgl_one_sees_each_camera_and_is_seen_to_be_there(self):
+        with Browser("--disable-3d-apis") as browser, Process("join", self.link, "--name", "Ben", "--every", "0.2") as ben:
+            page = self.open(browser)
+            self.assertEqual(page.evaluate("theatron.graphics"), "none")
+            self.enter(page)
+            first = page.wait_for("theatron.state.flat_camera")
+            page.wait_for(f"{COLORS} > 20")
+            self.assertTrue(page.evaluate("document.getElementById('other_way').hidden"))
+            page.evaluate("document.getElementById('next_camera').click()")
+            page.wait_for(f"theatron.state.flat_camera && theatron.state.flat_camera !== '{first}'")
+            ben.wait_for(lambda f: {p["name"] for p in f["room"]["people"]} == {"Ada", "Ben"}, 20)
+            pictures = page.evaluate("theatron.state.pictures")
+            page.wait_for(f"theatron.state.pictures > {pictures + 2}")
+            page.evaluate("document.getElementById('leave').click()")
+            page.wait_for("theatron.state.phase === 'left'")
+
+    def test_300_pixels_are_enough(self):
+        with Browser() as browser:
+            page = self.open(browser, (300, 560))
+            self.assertEqual(page.evaluate(BESIDE), [])
+            self.picture(page, "small_lobby")
+            self.enter(page, "room")
+            self.assertEqual(page.evaluate(BESIDE), [])
+            self.picture(page, "small_room")
+            # The menu is folded: the room is seen and reached.
+            self.assertEqual(page.evaluate("document.elementFromPoint(150, 250).id"), "view")
+            self.assertFalse(page.evaluate("document.getElementById('tools').checkVisibility()"))
+            page.evaluate("document.getElementById('menu').click()")
+            self.assertTrue(page.evaluate("document.getElementById('tools').checkVisibility()"))
+            page.evaluate("document.querySelector('[data-key=p]').click()")
+            page.wait_for("!!document.querySelector('#room_panels section')")
+            self.assertEqual(page.evaluate(BESIDE), [])
+            self.picture(page, "small_menu")
+            page.evaluate("document.getElementById('show_help').click()")
+            self.assertEqual(page.evaluate(BESIDE), [])
+            self.picture(page, "small_help")
+
+
+if __name__ == "__main__":
+    unittest.main()

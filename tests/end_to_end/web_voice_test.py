@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Voice between a browser's page and a native participant; the browser's microphone is a file."""
+import contextlib
+import math
+import os
+import pathlib
+import tempfile
+import unittest
+
+from browser import CHROMIUM, Browser
+from theatron_process import PROGRAM, Process, host, wait_until
+from voice_test import RATE, chirps, read_wav, write_wav
+
+PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
+SIZE = (640, 360)
+
+# Gathers what the speaker's jitter buffer plays, and the loudness at both ears.
+LISTEN = """(() => {
+    const { voice } = theatron, [speaker] = voice.speakers.values();
+    const tap = new AudioWorkletNode(voice.context, "microphone", { numberOfOutputs: 0 });
+    const heard = theatron.heard = { samples: [], ears: [0, 0] };
+    tap.port.onmessage = ({ data }) => heard.samples.push(...data);
+    speaker.node.connect(tap);
+    const ears = new ChannelSplitterNode(voice.context, { numberOfOutputs: 2 });
+    speaker.panner.connect(ears);
+    for (const ear of [0, 1]) {
+        const one = new AudioWorkletNode(voice.context, "microphone", { numberOfOutputs: 0 });
+        one.port.onmessage = ({ data }) => heard.ears[ear] += data.reduce((sum, v) => sum + v * v, 0);
+        ears.connect(one, ear);
+    }
+})()"""
+
+
+def pitches(samples):
+    """Of each 20 ms in Hz, 97 to 200, by the delay after which 40 ms are most like themselves; 0 in silence."""
+    rate = RATE // 8
+    low = [sum(samples[i:i + 8]) for i in range(0, len(samples) - 7, 8)]
+    found = []
+    for begin in range(0, len(low) - rate // 25 - rate // 97, rate // 50):
+        block = low[begin:begin + rate // 25]
+        power = sum(v * v for v in block)
+        def likeness(lag):
+            late = low[begin + lag:begin + lag + len(block)]
+            return sum(a * b for a, b in zip(block, late)) / math.sqrt(power * sum(v * v for v in late) + 1)
+        lag = max(range(rate // 200, rate // 97), key=likeness)
+        found.append(rate / lag if power > len(block) * 500 ** 2 and likeness(lag) > 0.7 else 0)
+    return found
+
+
+def pitch_error(part, said):
+    """Median relative difference to that part of what was said which fits best; 1 if less than half of it has a pitch."""
+    def error(begin):
+        differences = sorted(abs(a / b - 1) for a, b in zip(part, said[begin:]) if a and b)
+        return differences[len(differences) // 2] if len(differences) > len(part) // 2 else 1
+    return min(error(begin) for begin in range(len(said) - len(part)))
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class WebVoice(unittest.TestCase):
+    def setUp(self):
+        self.stack = contextlib.ExitStack()
+        self.addCleanup(self.stack.close)
+        self.folder = pathlib.Path(self.stack.enter_context(tempfile.TemporaryDirectory()))
+        self.said = chirps(12)
+        write_wav(self.folder / "said.wav", self.said)
+        self.host = self.stack.enter_context(host(self.folder / "host"))
+        self.links = self.host.greeting["links"]
+
+    def native(self, role, *options):
+        return self.stack.enter_context(
+            Process("join", self.links[role], "--name", "Ben", "--every", "0.2", *options,
+                    env={**os.environ, "XDG_STATE_HOME": str(self.folder / "home")}))
+
+    def enter(self, browser, role="expert"):
+        page = browser.open(self.links[role], SIZE)
+        page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
+        page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('speaks').checked = true;"
+                      "document.getElementById('enter').click()")
+        page.wait_for("theatron.state.phase === 'joined'")
+        return page
+
+    def assert_heard(self, played):
+        """The voice's pitch in some two seconds is that of what was said. On a busy machine others are interrupted."""
+        said, heard = pitches(self.said + self.said), pitches(played)
+        parts = [heard[i:i + 100] for i in range(0, len(heard) - 100, 50)]
+        self.assertLess(min(pitch_error(part, said) for part in parts), 0.03)
+
+    def test_page_and_native_participant_hear_each_other(self):
+        browser = self.stack.enter_context(Browser(
+            "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+            f"--use-file-for-fake-audio-capture={self.folder / 'said.wav'}"))
+        heard = self.folder / "heard.wav"
+        ben = self.native("operator", "--microphone", self.folder / "said.wav", "--speaker", heard)
+        page = self.enter(browser)
+        with self.subTest("the page hears the native participant, from where he stands"):
+            ear = page.wait_for("theatron.state.people.length === 2 && theatron.state.ear")
+            (x, y, z), ahead = ear["position"], ear["ahead"]
+            left = (ahead[2], 0, -ahead[0])  # y is up
+            ben.say(" ".join(["stand"] + [f"{v:.3f}" for v in (x + left[0], y, z + left[2], x, y, z)]))
+            page.wait_for("theatron.voice.speakers.size === 1 && theatron.state.people.every(p => p.self || p.head)")
+            page.wait_for("document.getElementById('speaking').textContent === 'Speaking: Ben'")
+            page.evaluate(LISTEN)
+            page.wait_for(f"theatron.heard.samples.length > {5 * RATE}")
+            left, right = page.evaluate("theatron.heard.ears")
+            self.assertGreater(left, 1.3 * right)
+            played = [int(32767 * v) for v in page.evaluate(f"theatron.heard.samples.slice({RATE}, {5 * RATE})")]
+            self.assert_heard(played)
+        with self.subTest("the native participant hears the page"):
+            spoken = ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 8, 40)
+            ada = [person["id"] for person in spoken["room"]["people"] if person["name"] == "Ada"]
+            self.assertEqual([voice["id"] for voice in spoken["voice"]["voices"]], ada)
+        with self.subTest("muted, the page says so and is silent"):
+            ben.say("mute Ada")
+            page.wait_for("document.getElementById('voice_hint').textContent.includes('muted you')")
+            ben.wait_for(lambda f: not f["voice"]["speaking"], 10)
+        with self.subTest("a closed microphone is closed"):
+            page.evaluate("document.getElementById('microphone').click()")
+            self.assertEqual(page.evaluate("theatron.voice.microphone"), "off")
+            self.assertIsNone(page.evaluate("theatron.voice.stream"))
+        ben.say("quit")
+        self.assertEqual(ben.end(), 0)
+        # Behind the browser's echo and noise filters the levels are others; the course of the syllables stays.
+        played = read_wav(heard)
+        first = next(i for i, v in enumerate(played) if v > 1000)
+        self.assert_heard(played[first:first + 8 * RATE])
+        self.assertEqual(page.problems, [])
+
+    def test_without_a_microphone_the_page_is_in_the_room_and_says_what_to_do(self):
+        browser = self.stack.enter_context(Browser("--use-fake-device-for-media-stream"))
+        browser.call("Browser.setPermission", permission={"name": "microphone"}, setting="denied")
+        page = self.enter(browser)
+        page.wait_for("document.getElementById('voice_hint').textContent.includes('Allow it')")
+        self.assertEqual(page.evaluate("theatron.state.phase"), "joined")
+        self.native("expert", "--microphone", self.folder / "said.wav")
+        page.wait_for("[...theatron.voice.speakers.values()].some(speaker => speaker.figures.seconds > 1)")
+
+
+if __name__ == "__main__":
+    unittest.main()
