@@ -13,13 +13,14 @@ option(THEATRON_CUDA "Build the CUDA kernels (needs nvcc)" OFF)
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(launcher ${CCACHE})
+  # Paths below the base are kept as relative ones, so every clone finds what another has compiled.
+  set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1)
   if(EMSCRIPTEN)
     # It does not know em++ by its name.
-    set(launcher ${CMAKE_COMMAND} -E env CCACHE_COMPILERTYPE=clang ${CCACHE})
+    list(APPEND launcher CCACHE_COMPILERTYPE=clang)
   endif()
-  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher} ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher} ${CCACHE})
 endif()
 
 add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field-initializers)

@@ -225,22 +225,22 @@ void Painter::camera(const Content& content, const Rect& rect,
 // The camera at the left, recordings in the middle, the age at the right.
 void Painter::caption(const Content& content, const Rect& rect) {
     const ImFont* font = fonts_.small;
-    const float y = float(rect.y + (rect.height - font->FontSize) / 2), gap = letter_;
+    const float y = float(rect.y + (rect.height - font->FontSize) / 2), between = letter_;
     const std::string age = content.age.empty() ? "" : content.age + " old";
     const float age_width = measure(font, age).x;
     text(font, {to(rect).x - age_width, y}, content.age_warns ? warning_color : label_color, age);
-    const float room = float(rect.width) - age_width - gap;
+    const float room = float(rect.width) - age_width - between;
     const std::string name = content.camera.empty() ? "" : "Camera " + content.camera;
     const std::string camera = shortened(font, name, content.recorded.empty() ? room : room / 2);
     text(font, {float(rect.x), y}, label_color, camera);
     if (content.recorded.empty())
         return;
-    const float left = float(rect.x) + measure(font, camera).x + gap, dot = 0.32f * letter_;
+    const float left = float(rect.x) + measure(font, camera).x + between, dot = 0.32f * letter_;
     list_.AddCircleFilled({left + dot, float(rect.y + rect.height / 2)}, dot,
                           IM_COL32(226, 74, 66, 255));
     const float begin = left + 3 * dot;
     text(font, {begin, y}, text_color,
-         shortened(font, content.recorded, to(rect).x - age_width - gap - begin));
+         shortened(font, content.recorded, to(rect).x - age_width - between - begin));
 }
 
 void Painter::room(const Content& content, const Rect& rect, const render::Texture* picture) {

@@ -14,7 +14,7 @@ namespace {
 using session::CameraAdjustment;
 
 constexpr std::size_t max_undo = 200;
-constexpr int parts = 6;
+constexpr int part_count = 6;
 
 double& part_of(CameraAdjustment& adjustment, int part) {
     Vec3& vec = part < 3 ? adjustment.moved_m : adjustment.turned_deg;
@@ -27,7 +27,7 @@ Vec3 within(Vec3 vec, double longest) {
 }
 
 std::string value_text(CameraAdjustment adjustment, int part) {
-    constexpr const char* names[parts] = {"Right x", "Up y",   "Back z",
+    constexpr const char* names[part_count] = {"Right x", "Up y",   "Back z",
                                           "Tilt x",  "Turn y", "Roll z"};
     char text[64];
     if (part < 3)
@@ -240,7 +240,7 @@ void CameraAdjusting::add_panel(RoomPanel& panel) const {
         if (!is_chosen)
             row.buttons.push_back({"Choose", command({What::choose, camera.id, 0, 0})});
         shown.rows.push_back(std::move(row));
-        for (int part = 0; is_chosen && part < parts; ++part) {
+        for (int part = 0; is_chosen && part < part_count; ++part) {
             CameraAdjustment value = adjustment;
             const double most =
                 part < 3 ? CameraAdjustment::max_moved_m : CameraAdjustment::max_turned_deg;

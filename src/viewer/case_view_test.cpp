@@ -113,7 +113,7 @@ TEST(CasePanel, OffersCasesThatAreNotOpen) {
 TEST(CasePanel, ShowsPicturesSeriesAndThePresenter) {
     CasePanelFacts facts;
     session::CaseInRoom room;
-    room.screen.emplace();
+    room.screen = session::CaseInRoom::Screen{};
     client::OpenCase content;
     content.description.emplace();
     content.description->series.resize(2);
