@@ -22,7 +22,9 @@
 #include "link_argument.h"
 #include "register_result.h"
 #include "registration/board_session.h"
+#include "registration/pose_line.h"
 #include "registration/touched_corners.h"
+#include "registration/tracked_holder.h"
 
 namespace theatron::app {
 namespace {
@@ -37,6 +39,8 @@ struct Flags {
     std::string refine;   // a file of places
     std::string touches;  // a file, or - for standard input
     std::string tip = "0:0:0";
+    std::string holder;  // a file, or - for standard input
+    std::string holder_offset = "0:0:0:1:0:0:0";
     RigOutput output;
     int poses = 10;
     double seconds = 0;
@@ -144,32 +148,62 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
     }
 }
 
-// Where the board is in the room, by a controller's tip at its corners. Standard input is read to
-// its end. Throws Error with a sentence.
-Pose touched_board(const Flags& flags, const registration::LatticeTarget& target) {
-    constexpr std::size_t max_touches_bytes = 1 << 16;
+// The text of a file, or of standard input to its end.
+std::string typed_or_file(const std::string& file, const Flags& flags, const char* request) {
+    constexpr std::size_t max_text_bytes = 1 << 16;
+    if (file != "-") {
+        const Bytes bytes = files::read_file(file, max_text_bytes);
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+    if (!flags.output.json)
+        std::cout << request << "\n";
+    std::string text;
+    char c = 0;
+    while (text.size() < max_text_bytes && std::cin.get(c))
+        text += c;
+    return text;
+}
+
+// The room by a controller's tip at the board's corners. Throws Error with a sentence.
+RoomFrame touched_room(const Flags& flags, const registration::LatticeTarget& target,
+                       const RigSolution& solution) {
     const auto tip = capture::parse_place(flags.tip);
     if (!tip)
         throw Error("--tip " + flags.tip + " is not X:Y:Z in metres.");
-    std::string text;
-    if (flags.touches == "-") {
-        if (!flags.output.json)
-            std::cout << "Leave the board where it is and give the touches of its corners, one "
-                         "'CORNER X Y Z' a line; Ctrl-D ends.\n";
-        char c = 0;
-        while (text.size() < max_touches_bytes && std::cin.get(c))
-            text += c;
-    } else {
-        const Bytes bytes = files::read_file(flags.touches, max_touches_bytes);
-        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    }
-    const auto parsed = registration::parse_touches(text, tip->translation);
+    const auto parsed = registration::parse_touches(
+        typed_or_file(flags.touches, flags,
+                      "Leave the board where it is and give the touches of its corners, one "
+                      "'CORNER X Y Z' a line; Ctrl-D ends."),
+        tip->translation);
     if (!parsed.problem.empty())
         throw Error(parsed.problem);
     const registration::TouchFit fit = registration::fit_touches(target, parsed.touches);
     if (!fit.problem.empty())
         throw Error(fit.problem);
-    return fit.room_from_board;
+    return {fit.room_from_board * inverse(solution.reference_from_board.back()),
+            "the touched corners of the board"};
+}
+
+// The room by a controller that carries the board. Throws Error with a sentence.
+RoomFrame held_room(const Flags& flags, const registration::LatticeTarget& target,
+                    const RigSolution& solution) {
+    std::string words = flags.holder_offset;
+    std::replace(words.begin(), words.end(), ':', ' ');
+    const auto offset = registration::parse_pose(registration::words_of(words, 7));
+    if (!offset)
+        throw Error("--holder-offset " + flags.holder_offset +
+                    " is not X:Y:Z or X:Y:Z:QW:QX:QY:QZ in metres.");
+    const auto parsed = registration::parse_holder(typed_or_file(
+        flags.holder, flags,
+        "Give the controller's pose at places of the board, one 'PLACE X Y Z QW QX QY QZ' a line; "
+        "Ctrl-D ends."));
+    if (!parsed.problem.empty())
+        throw Error(parsed.problem);
+    const registration::HolderFit fit =
+        registration::fit_holder(target, solution.reference_from_board, *offset, parsed.poses);
+    if (!fit.problem.empty())
+        throw Error(fit.problem);
+    return {fit.room_from_reference, "the board's tracked holder"};
 }
 
 // Means of some images of each camera, for --refine.
@@ -228,10 +262,12 @@ void run(const Flags& flags) {
     const RigSolution solution = session.solve();
     if (const std::string problem = session.problem(solution); !problem.empty())
         throw Error(problem);
-    std::optional<Pose> touched;
+    std::optional<RoomFrame> room;
     if (!flags.touches.empty())
-        touched = touched_board(flags, target);
-    save(rig_of_board(cameras, session, solution, "board " + flags.board.board, touched),
+        room = touched_room(flags, target, solution);
+    else if (!flags.holder.empty())
+        room = held_room(flags, target, solution);
+    save(rig_of_board(cameras, session, solution, "board " + flags.board.board, room),
          flags.output);
 }
 
@@ -261,6 +297,22 @@ void add_register_command(CLI::App& app) {
         "views are taken) with lines CORNER X Y Z or CORNER X Y Z QW QX QY QZ, metres in the room, "
         "for three corners or more of the board at its last place: A is the corner with the three "
         "filled cells, then B, C, D clockwise, seen from the front");
+    command
+        ->add_option(
+            "--holder", flags->holder,
+            "The room's frame from the board in a holder on a tracked controller: a file (- is "
+            "standard input, read when the views are taken) with a line PLACE X Y Z QW QX QY QZ "
+            "for "
+            "one place of the board or more, counted from 1 as they are printed: the controller's "
+            "pose in the room, metres")
+        ->excludes("--touches");
+    command
+        ->add_option("--holder-offset", flags->holder_offset,
+                     "With --holder: the board in the controller's frame, X:Y:Z or "
+                     "X:Y:Z:QW:QX:QY:QZ in metres: the middle of its front face, x to the right, y "
+                     "up, seen from the front")
+        ->needs("--holder")
+        ->capture_default_str();
     command
         ->add_option("--tip", flags->tip,
                      "With --touches: the tip that touches, in the controller's frame, metres")

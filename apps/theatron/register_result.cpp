@@ -142,7 +142,7 @@ std::vector<Pose> earlier_places(const Cameras& cameras) {
 
 RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
                            const RigSolution& solution, const std::string& method,
-                           const std::optional<Pose>& room_from_board) {
+                           const std::optional<RoomFrame>& given) {
     RegisteredRig rig;
     RegistrationReport& report = rig.report;
     Vec3 middle{};
@@ -152,9 +152,9 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
     const Calibration& first = cameras[0].calibration;
     const auto floor = floor_of(cameras, session, solution);
     Pose room;
-    if (room_from_board) {
-        room = *room_from_board * inverse(solution.reference_from_board.back());
-        rig.room = "the touched corners of the board";
+    if (given) {
+        room = given->room_from_reference;
+        rig.room = given->source;
     } else if (first.registered) {
         room = first.room_from_camera;
         rig.room = "the first camera's own place";

@@ -15,6 +15,11 @@ namespace theatron::app {
 
 using Cameras = std::vector<DepthSource::Camera>;
 
+struct RoomFrame {
+    Pose room_from_reference;
+    std::string source;  // for sentences: "the room's frame comes from ..."
+};
+
 struct RegisteredRig {
     capture::CameraPlaces places;
     std::string room;  // what the room's frame comes from
@@ -29,11 +34,10 @@ struct RigOutput {
 // From views of the board, improved on the scene's surfaces where that helps. `solution` must have
 // no problem.
 //
-// The room's frame comes from `room_from_board`, where the board is at its last place, if it is
-// given, else from the first camera's own place, else from the floor.
+// The room's frame is `given`, else comes from the first camera's own place, else from the floor.
 RegisteredRig rig_of_board(const Cameras& cameras, const registration::BoardSession& session,
                            const registration::RigSolution& solution, const std::string& method,
-                           const std::optional<Pose>& room_from_board);
+                           const std::optional<RoomFrame>& given);
 
 // From the places of `earlier`, improved on surfaces; `means` by camera. Throws Error if a camera
 // has no place there, or if no better places were found.

@@ -36,7 +36,7 @@ struct TouchFit {
     std::string problem;  // a sentence if the touches are no board; the rest is unspecified then
 };
 
-// At least three corners, each touched once or more (least squares after Umeyama, PAMI 1991).
+// At least three corners, each touched once or more.
 TouchFit fit_touches(const LatticeTarget& target, const std::vector<Touch>& touches);
 
 }  // namespace theatron::registration

@@ -192,6 +192,10 @@ class Register(unittest.TestCase):
         self.refused(self.left, self.right, options=("--touches", touches), says="Line 2 of the touches is not")
         touches.write_text("A 0 1 0\nB 2.8 1 0\nC 0.8 0.4 0\n")
         self.refused(self.left, self.right, options=("--touches", touches), says="mm off the board's corners")
+        touches.write_text("1 0 1 0\n")
+        self.refused(self.left, self.right, options=("--holder", touches), says="Line 1 of the holder's poses is not")
+        touches.write_text("7 0 1 0 1 0 0 0\n")
+        self.refused(self.left, self.right, options=("--holder", touches), says="name place 7")
         self.refused(self.left, self.right, options=("--report", file), says="name the same file")
         foreign = self.folder / "letter.txt"
         foreign.write_text("Dear Ann")
@@ -221,6 +225,18 @@ class Register(unittest.TestCase):
         self.assertIn("Registration of 2 cameras", html)
         self.assertIn("Fixed errors of depth", html)
         self.assertNotIn("http", html)
+
+    def test_the_board_in_a_tracked_holder_gives_the_rooms_frame(self):
+        # The board's middle is at 1.2 m, turned by 9 degrees in itself; the controller is 30 cm below it.
+        file, poses = self.folder / "held.json", self.folder / "holder.txt"
+        a = math.radians(9)
+        poses.write_text(f"1 {0.3 * math.sin(a)} {1.2 - 0.3 * math.cos(a)} 0 {math.cos(a / 2)} 0 0 {math.sin(a / 2)}\n")
+        code, out, errors = self.register(self.left, self.right, output=file, options=(
+            "--holder", poses, "--holder-offset", "0:0.3:0"))
+        self.assertEqual(code, 0, errors)
+        self.assertEqual(json.loads(out.splitlines()[-1])["room"], "the board's tracked holder")
+        for camera, degrees in zip(json.loads(file.read_text())["cameras"], (-30, 30)):
+            self.assertLess(math.dist(camera["room_from_camera"]["translation"], position(degrees)), 0.02)
 
     def test_a_camera_that_was_moved_a_little_is_found_again_without_a_board(self):
         cameras = [make_room_camera(self.folder / name, degrees) for name, degrees in (("west", -30), ("east", 30))]
