@@ -9,6 +9,7 @@ import unittest
 
 from room_test import member
 from theatron_process import Process, host, make_recording, read_png, run, wait_until
+from virtual_screen import VirtualScreen
 
 WIDTH, HEIGHT = 320, 180
 
@@ -161,6 +162,42 @@ class Screens(unittest.TestCase):
             code, _, errors = run("publish", h.greeting["publish_link"])
             self.assertEqual(code, 1)
             self.assertIn("--share", errors)
+
+    def test_the_mouse_moves_a_screen_and_its_panel_pins_and_ends_it(self):
+        width, height, middle = 720, 600, (360, 300)
+        shared = f"{self.video},loop=1,width=0.2,place=0:1.5:-0.5"
+        environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "cart")}
+        with VirtualScreen(width, height) as x11, host(self.folder / "state5", self.lamp) as h, \
+                self.person(h.greeting["link"], "Ben") as ben, \
+                Process("publish", h.greeting["publish_link"], "--share", shared, env=environment) as cart, \
+                Process("join", h.greeting["links"]["operator"], "--name", "Dora", "--size", f"{width}x{height}",
+                        "--render-scale", "1", "--renderer", "mesh", "--quality", "low", env=x11.environment) as window:
+            scope = lambda f: screen(f, "scope")
+            ben.wait_for(lambda f: scope(f) and len(f["room"]["people"]) == 2, 20)
+            blue_green_red = lambda x, y: x11.pixels(x, y, 1, 1)[0][:3]
+            is_shown = lambda x, y: is_green(blue_green_red(x, y)[::-1])
+            wait_until(lambda: is_shown(*middle), 30)
+            drag = ("mousemove", *middle, "sleep", 0.2, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2)
+            end_drag = ("mousemove", 440, 300, "sleep", 0.2, "mouseup", 1)
+            x11.do(*drag, "key", "plus", "sleep", 0.2, *end_drag)
+            moved = scope(ben.wait_for(lambda f: scope(f) and scope(f)["position"][0] > 0.05 and not scope(f)["held_by"], 10))
+            self.assertAlmostEqual(moved["position"][1], 1.5, places=2)
+            self.assertAlmostEqual(moved["scale"], 0.2 * 1.15)
+            wait_until(lambda: is_shown(440, 300))
+
+            x11.do("mousemove", 700, 590, "key", "p")
+            buttons = lambda: x11.buttons(width, height)
+            # Smaller, Larger, Pin in place, End share.
+            wait_until(lambda: len(buttons()) >= 4)
+            x11.do("mousemove", *buttons()[-2], "click", 1)
+            ben.wait_for(lambda f: scope(f)["screen"]["pinned"], 10)
+            x11.do("mousemove", 440, 300, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2, "mouseup", 1)
+            self.assertEqual(scope(ben.newest_json())["position"], moved["position"])
+            x11.do("mousemove", *buttons()[-1], "click", 1)
+            ben.wait_for(lambda f: not scope(f), 10)
+            self.assertEqual(cart.end(), 0)
+            x11.do("key", "Escape", "sleep", 0.3, "key", "Escape")
+            self.assertEqual(window.end(), 0, "".join(window.errors))
 
 
 if __name__ == "__main__":
