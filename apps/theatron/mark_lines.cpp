@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "session/mark.h"
+#include "session/shared_screen.h"
 #include "viewer/mark_actions.h"
 
 namespace theatron::app {
@@ -22,7 +23,8 @@ MarkedSurface surface_of(const client::Participant::Room& room, std::uint32_t nu
     const auto found = room.objects.find(session::ObjectId(number));
     if (found != room.objects.end() && found->second.kind == session::ObjectKind::organ)
         return MarkedSurface::organ;
-    if (found != room.objects.end() && found->second.kind == session::ObjectKind::screen)
+    if (found != room.objects.end() && found->second.kind == session::ObjectKind::screen &&
+        !session::is_shared_screen(found->second))
         return MarkedSurface::slice;
     throw Error("There is no organ or screen of this number; --json lists them under \"cases\".");
 }

@@ -39,6 +39,7 @@ nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
     return {{"id", camera.number ? nlohmann::json(int(*camera.number)) : nlohmann::json()},
             {"name", camera.lane.name},
             {"state", wire::text_of(camera.lane.camera.condition)},
+            {"share_ended", camera.has_ended},
             {"problem", wire::english(camera.lane.camera.problem)},
             {"filter", camera.lane.filter},
             {"fps", camera.lane.frames_per_second},
@@ -105,6 +106,9 @@ void run(const Flags& flags) {
         if (!status.publish_problem.empty())
             throw Error(status.publish_problem);
         if (status.phase == client::Participant::Phase::ended)
+            break;
+        // Others have ended all that it shared.
+        if (publisher->has_ended())
             break;
         if (steady_now() < next_line)
             continue;

@@ -10,8 +10,10 @@
 #include "room/bricks.h"
 #include "session/case_objects.h"
 #include "session/room_text.h"
+#include "session/shared_screen.h"
 #include "viewer/meeting.h"
 #include "viewer/refusal_text.h"
+#include "viewer/screen_panel.h"
 
 namespace theatron::app {
 namespace {
@@ -21,6 +23,7 @@ namespace request = session::request;
 constexpr double same_place_m = 1e-6;
 const char* const needs_places =
     "It needs numbers of metres, none beyond 1000: for example 'brick 0.2 1.25 0.3'.";
+const char* const no_longer_held = "The object is no longer held.";
 const char* const not_joined = "The room is not known yet.";
 constexpr Duration refusals_interval = std::chrono::seconds(1);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
@@ -44,7 +47,9 @@ Pose towards(Vec3 place, Vec3 at) {
 
 const char* RoomLines::help() {
     return "'stand X Y Z AT_X AT_Y AT_Z', 'point [X Y Z AT_X AT_Y AT_Z]', 'call', 'brick X Y Z',\n"
-           "'grab NUMBER', 'move X Y Z [DEGREES]', 'release', 'give NAME', 'remove' (metres)";
+           "'grab NUMBER', 'move X Y Z [DEGREES]', 'width METRES' of a held screen, 'release',\n"
+           "'give NAME', 'remove', 'pin NUMBER', 'unpin NUMBER', 'end NUMBER' of a shared screen "
+           "(metres)";
 }
 
 void RoomLines::stand(const Pose& room_from_head) {
@@ -55,8 +60,8 @@ bool RoomLines::obey(const std::string& line, client::Participant& participant) 
     std::istringstream words(line);
     std::string what;
     words >> what;
-    for (const char* known :
-         {"stand", "point", "call", "brick", "grab", "move", "release", "give", "remove"})
+    for (const char* known : {"stand", "point", "call", "brick", "grab", "move", "width", "release",
+                              "give", "remove", "pin", "unpin", "end"})
         if (what == known) {
             if (const std::string problem = change(what, words, participant); !problem.empty())
                 log::say("'" + line + "': " + problem);
@@ -113,6 +118,15 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
                      found->second.room_from_object, found->second.scale};
         return "";
     }
+    if (what == "pin" || what == "unpin" || what == "end") {
+        std::uint32_t number = 0;
+        words >> number;
+        using What = viewer::ChangeScreen::What;
+        const What change = what == "pin" ? What::pin : what == "unpin" ? What::unpin : What::end;
+        return words && viewer::change_screen({change, session::ObjectId(number)}, participant)
+                   ? ""
+                   : "There is no shared screen of this number; --json lists them under \"room\".";
+    }
     if (const auto mine = mine_in(participant.room());
         mine && (!held_ || held_->object != mine->object || held_->grip != mine->grip))
         held_ = mine;
@@ -136,6 +150,12 @@ std::string RoomLines::change_held(const std::string& what, std::istream& words,
             return needs_places;
         words >> degrees;
         held_->room_from_object = {rotation_about({0, 1, 0}, radians_of(degrees)), place};
+        // A screen has y down; unturned it faces the reader at +z.
+        if (const auto room = participant.room();
+            room.objects.contains(held_->object) &&
+            session::is_shared_screen(room.objects.at(held_->object)))
+            held_->room_from_object =
+                held_->room_from_object * Pose{usual_screen_place.rotation, {}};
         // The pose of a part is relative to its organ.
         if (const auto open = session::case_in_room(participant.room().objects);
             open && open->find(held_->object))
@@ -144,7 +164,21 @@ std::string RoomLines::change_held(const std::string& what, std::istream& words,
         if (participant.move_object(held_->object, held_->room_from_object, held_->scale))
             return "";
         held_.reset();
-        return "The object is no longer held.";
+        return no_longer_held;
+    }
+    if (what == "width") {
+        double width_m = 0;
+        words >> width_m;
+        const auto room = participant.room();
+        const auto found = room.objects.find(held_->object);
+        if (!words || !session::is_screen_width(width_m) || found == room.objects.end() ||
+            !session::is_shared_screen(found->second))
+            return "A shared screen that is held can be from 0.1 to 10 m wide.";
+        held_->scale = width_m;
+        if (participant.move_object(held_->object, held_->room_from_object, width_m))
+            return "";
+        held_.reset();
+        return no_longer_held;
     }
     if (what == "give") {
         std::string name;
@@ -231,6 +265,13 @@ nlohmann::json room_json(const client::Participant& participant) {
         if (object.kind == session::ObjectKind::mark)
             if (const auto mark = session::decode_mark(object.properties))
                 objects.back()["mark"] = exporting::mark_json(*mark);
+        if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
+            objects.back()["screen"] = {
+                {"camera",
+                 screen->camera ? nlohmann::json(int(*screen->camera)) : nlohmann::json()},
+                {"name", screen->name},
+                {"publisher", screen->publisher},
+                {"pinned", screen->pinned}};
     }
     return {{"hash", session::hash_text(room.objects)},
             {"recorded_hash", session::hash_text(session::as_recorded(room.objects))},

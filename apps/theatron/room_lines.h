@@ -18,8 +18,9 @@ public:
     static const char* help();
 
     // Carries out a line: "stand X Y Z AT_X AT_Y AT_Z", "point [X Y Z AT_X AT_Y AT_Z]",
-    // "call", "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "release", "give NAME",
-    // "remove". False if it is none of these. A sentence on a wrong line is printed.
+    // "call", "brick X Y Z", "grab NUMBER", "move X Y Z [DEGREES]", "width METRES", "release",
+    // "give NAME", "remove", "pin NUMBER", "unpin NUMBER", "end NUMBER". False if it is none of
+    // these. A sentence on a wrong line is printed.
     bool obey(const std::string& line, client::Participant& participant);
 
     // Gives the participant a head. Metres; y up, -z forward.
@@ -54,9 +55,9 @@ private:
 };
 
 // {"hash","self","people":[{"id","name","records","role","muted","calls","points","head",
-// "left_hand","right_hand"}],"objects":[{"id","kind","creator","held_by","position","scale","mark"}]};
-// `position`, and places of heads and hands that are known, in metres; `held_by` 0 if no
-// participant holds the object.
+// "left_hand","right_hand"}],"objects":[{"id","kind","creator","held_by","position","scale","mark",
+// "screen"}]}; `position`, and places of heads and hands that are known, in metres; `held_by` 0 if
+// no participant holds the object.
 nlohmann::json room_json(const client::Participant& participant);
 
 }  // namespace theatron::app

@@ -23,10 +23,4 @@ std::unique_ptr<Camera> open_x11_camera(Options& options, const Progress& progre
 std::unique_ptr<Camera> open_v4l2_camera(Options& options, const Progress& progress);
 std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress& progress);
 
-// Where a screen without a place stands: above the middle of the table's far side, facing the
-// people on this one.
-inline constexpr Pose usual_screen_place{Quat{0, 1, 0, 0}, Vec3{0, 1.9, -1.8}};
-inline constexpr double usual_screen_width_m = 1.2, least_screen_width_m = 0.1,
-                        largest_screen_width_m = 10;
-
 }  // namespace theatron::capture

@@ -33,6 +33,8 @@ public:
         // The numbers of the cameras of publish(), in their order. Each connection gives new
         // numbers; an empty list: the connection is lost, or the host refused the cameras.
         std::function<void(const std::vector<CameraId>&)> published;
+        // Somebody has ended these screens for all; they are not offered again.
+        std::function<void(const std::vector<CameraId>&)> ended;
         // The settings of these cameras from now on; a stream without a setting is not encoded.
         std::function<void(const std::vector<wire::StreamSetting>&)> encode;
         // The next frame of this stream in this setting must be a key frame.
@@ -247,6 +249,7 @@ private:
     std::uint32_t decide(auto decision);
     void offer_cameras();
     void on_published();
+    void on_share_ended();
     void refuse_cameras(const wire::Text& why);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);

@@ -56,6 +56,31 @@ void Participant::on_published() {
         options_.publishing.published(numbers_);
 }
 
+void Participant::on_share_ended() {
+    const wire::ShareEnded& message = session_.share_ended();
+    std::vector<CameraId> ended;
+    for (const CameraId camera : message.cameras) {
+        const auto found = std::find(numbers_.begin(), numbers_.end(), camera);
+        if (found == numbers_.end())
+            continue;
+        std::string name;
+        {
+            // Offers have the order of their numbers.
+            const std::lock_guard lock(shared_->mutex);
+            const auto offer = found - numbers_.begin();
+            if (offer < std::ptrdiff_t(shared_->offers.size())) {
+                name = shared_->offers[std::size_t(offer)].name;
+                shared_->offers.erase(shared_->offers.begin() + offer);
+            }
+        }
+        numbers_.erase(found);
+        ended.push_back(camera);
+        remark(message.by + " has ended the share of \"" + name + "\".");
+    }
+    if (!ended.empty() && options_.publishing.ended)
+        options_.publishing.ended(ended);
+}
+
 void Participant::send_media(const wire::MediaHeader& header,
                              std::shared_ptr<const Bytes> message) {
     const std::lock_guard lock(shared_->mutex);

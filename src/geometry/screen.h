@@ -14,6 +14,12 @@ inline constexpr Size screen_grid{16, 16};
 // The camera stands so close before the screen that its place is the screen's.
 inline constexpr int screen_distance_mm = 10;
 
+// Where the first screen without a place stands: above the middle of the table's far side, facing
+// the people on this one.
+inline constexpr Pose usual_screen_place{Quat{0, 1, 0, 0}, Vec3{0, 1.9, -1.8}};
+inline constexpr double usual_screen_width_m = 1.2, least_screen_width_m = 0.1,
+                        largest_screen_width_m = 10;
+
 inline bool is_screen(const Calibration& calibration) {
     return calibration.depth.size == screen_grid && calibration.color.size != Size{};
 }
@@ -23,6 +29,7 @@ inline bool is_screen(const Calibration& calibration) {
 struct ScreenPlace {
     Pose room_from_screen;
     double width_m = 0, height_m = 0;
+    bool operator==(const ScreenPlace&) const = default;
 };
 
 // The calibration of a screen with this picture, `width_m` wide.

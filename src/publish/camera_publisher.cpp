@@ -96,6 +96,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         place_before_person(cameras, calibrations);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const capture::CameraInfo& info = cameras[i]->info();
+        offered_.push_back(i);
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
                            encode_calibration(calibrations[i]), sharing.may_record,
                            is_screen(calibrations[i]) ? wire::CameraFrame::room : sharing.frame});
@@ -141,16 +142,26 @@ std::vector<std::string> CameraPublisher::camera_names() const {
 std::vector<CameraPublisher::Figures> CameraPublisher::figures() const {
     std::vector<Figures> result;
     for (const auto& lane : lanes_)
-        result.push_back({std::nullopt, lane->figures()});
+        result.push_back({std::nullopt, true, lane->figures()});
     const std::lock_guard lock(mutex_);
-    for (std::size_t i = 0; i < std::min(numbers_.size(), result.size()); ++i)
-        result[i].number = numbers_[i];
+    for (std::size_t i = 0; i < offered_.size(); ++i) {
+        Figures& figures = result[offered_[i]];
+        figures.has_ended = false;
+        if (i < numbers_.size())
+            figures.number = numbers_[i];
+    }
     return result;
+}
+
+bool CameraPublisher::has_ended() const {
+    const std::lock_guard lock(mutex_);
+    return offered_.empty();
 }
 
 client::Participant::Publishing CameraPublisher::events() {
     client::Participant::Publishing events;
     events.published = [this](const std::vector<CameraId>& numbers) { on_published(numbers); };
+    events.ended = [this](const std::vector<CameraId>& numbers) { on_ended(numbers); };
     events.encode = [this](const std::vector<wire::StreamSetting>& settings) {
         on_encode(settings);
     };
@@ -161,11 +172,14 @@ client::Participant::Publishing CameraPublisher::events() {
 }
 
 void CameraPublisher::begin(client::Participant& participant) {
+    std::vector<wire::OfferedCamera> offers;
     {
         const std::lock_guard lock(mutex_);
         participant_ = &participant;
+        for (const std::size_t camera : offered_)
+            offers.push_back(offers_[camera]);
     }
-    participant.publish(offers_);
+    participant.publish(std::move(offers));
 }
 
 void CameraPublisher::end() {
@@ -181,7 +195,28 @@ void CameraPublisher::end() {
 // The index of the camera with this number of the host; lanes_.size() if there is none.
 std::size_t CameraPublisher::camera_with(CameraId number) const {
     const auto found = std::find(numbers_.begin(), numbers_.end(), number);
-    return found == numbers_.end() ? lanes_.size() : std::size_t(found - numbers_.begin());
+    return found == numbers_.end() ? lanes_.size()
+                                   : offered_[std::size_t(found - numbers_.begin())];
+}
+
+// The host's number of this camera; none while it is not in the session.
+std::optional<CameraId> CameraPublisher::number_of(std::size_t camera) const {
+    const auto found = std::find(offered_.begin(), offered_.end(), camera);
+    const auto offer = std::size_t(found - offered_.begin());
+    return offer < numbers_.size() ? std::optional(numbers_[offer]) : std::nullopt;
+}
+
+void CameraPublisher::on_ended(const std::vector<CameraId>& numbers) {
+    const std::lock_guard lock(mutex_);
+    for (const CameraId number : numbers) {
+        const auto found = std::find(numbers_.begin(), numbers_.end(), number);
+        if (found == numbers_.end())
+            continue;
+        const auto offer = found - numbers_.begin();
+        lanes_[offered_[std::size_t(offer)]]->set_settings({}, {});
+        offered_.erase(offered_.begin() + offer);
+        numbers_.erase(found);
+    }
 }
 
 void CameraPublisher::on_published(const std::vector<CameraId>& numbers) {
@@ -189,12 +224,12 @@ void CameraPublisher::on_published(const std::vector<CameraId>& numbers) {
     if (!participant_)
         return;
     numbers_ = numbers;
-    numbers_.resize(std::min(numbers_.size(), lanes_.size()));
+    numbers_.resize(std::min(numbers_.size(), offered_.size()));
     if (numbers_.empty())
         for (const auto& lane : lanes_)
             lane->set_settings({}, {});
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        wire::CameraState state = states_[i];
+        wire::CameraState state = states_[offered_[i]];
         state.camera = numbers_[i];
         if (state.condition != wire::CameraCondition::live || !state.problem.empty() ||
             !state.filter.empty())
@@ -233,13 +268,13 @@ void CameraPublisher::on_encode_key(StreamId stream, SettingId setting) {
 // Writes the host's number of the camera and session times into the header, then sends.
 void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& encoded) {
     const std::lock_guard lock(mutex_);
-    if (!participant_ || camera >= numbers_.size())
+    const auto number = number_of(camera);
+    if (!participant_ || !number)
         return;
     color_watch_.on_tick(lanes_, steady_now());
     const Duration offset = participant_->now() - steady_now();
     wire::MediaHeader header = encoded.header;
-    header.stream =
-        is_depth(header.stream) ? depth_stream(numbers_[camera]) : color_stream(numbers_[camera]);
+    header.stream = is_depth(header.stream) ? depth_stream(*number) : color_stream(*number);
     for (TimePoint* time :
          {&header.moment, &header.captured, &header.delivered, &header.filtered, &header.encoded})
         shift(*time, offset);
@@ -251,9 +286,10 @@ void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& enc
 void CameraPublisher::on_state(std::size_t camera, wire::CameraState state) {
     const std::lock_guard lock(mutex_);
     states_[camera] = state;
-    if (!participant_ || camera >= numbers_.size())
+    const auto number = number_of(camera);
+    if (!participant_ || !number)
         return;
-    state.camera = numbers_[camera];
+    state.camera = *number;
     participant_->tell_camera(state);
 }
 

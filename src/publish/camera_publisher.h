@@ -50,8 +50,12 @@ public:
         lanes_.at(camera)->set_filter(settings, std::move(background));
     }
 
+    // Others have ended the shares of all cameras: nothing is sent any more.
+    bool has_ended() const;
+
     struct Figures {
         std::optional<CameraId> number;  // in the session; nothing: it is not in a session
+        bool has_ended = false;          // somebody has ended its share
         send::LaneFigures lane;
     };
     std::vector<Figures> figures() const;
@@ -66,12 +70,14 @@ public:
 
 private:
     void open(std::size_t camera, std::unique_ptr<capture::Camera> opened);
+    void on_ended(const std::vector<CameraId>& numbers);
     void on_published(const std::vector<CameraId>& numbers);
     void on_encode(const std::vector<wire::StreamSetting>& settings);
     void on_encode_key(StreamId stream, SettingId setting);
     void on_media(std::size_t camera, const send::EncodedMedia& encoded);
     void on_state(std::size_t camera, wire::CameraState state);
     std::size_t camera_with(CameraId number) const;
+    std::optional<CameraId> number_of(std::size_t camera) const;
 
     const std::vector<std::string> specifications_;
     const capture::CameraPlaces places_;
@@ -79,7 +85,8 @@ private:
 
     mutable std::mutex mutex_;  // guards all up to `workers_`
     client::Participant* participant_ = nullptr;
-    std::vector<CameraId> numbers_;          // given by the host, by camera; may be empty
+    std::vector<std::size_t> offered_;       // the cameras of the offers, in their order
+    std::vector<CameraId> numbers_;          // given by the host, by offer; may be empty
     std::vector<wire::CameraState> states_;  // newest, by camera
 
     send::ColorWatch color_watch_;

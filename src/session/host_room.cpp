@@ -39,6 +39,7 @@ void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room,
             own.push_back(mark);
     for (const RoomChange& change : state_.set_creator(own, id))
         tell(change);
+    take_own_screens(id);
     if (keeps_room)
         send_snapshot(id);
 }
@@ -79,20 +80,25 @@ void HostRoom::clear() {
         tell(change);
 }
 
-void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
+std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
     const auto member = members_.find(id);
     if (member == members_.end() || !member->second.keeps_room)
-        return;
-    if (message.number == 0)
-        return send_snapshot(id);
+        return std::nullopt;
+    if (message.number == 0) {
+        send_snapshot(id);
+        return std::nullopt;
+    }
     const auto request = decode_request(message.request);
     RoomState::Decision decision{Refusal::malformed, {}};
+    const std::optional<CameraId> camera = request ? camera_of_removed(*request) : std::nullopt;
     if (request && names_recorded(*request))
         decision.refusal = Refusal::recorded;
     else if (request && gives_to_observer(*request))
         decision.refusal = Refusal::role;
     else if (request && !may(member->second.role, Right::handle))
         decision.refusal = Refusal::role;
+    else if (auto on_screen = request ? decide_on_screen(id, *request) : std::nullopt)
+        decision = std::move(*on_screen);
     else if (auto on_case = request ? decide_on_case(id, message.number, *request) : std::nullopt)
         decision = std::move(*on_case);
     else if (auto on_mark = request ? decide_on_mark(id, message.number, *request) : std::nullopt)
@@ -103,6 +109,7 @@ void HostRoom::on_request(ParticipantId id, const wire::RoomRequest& message) {
         tell(change);
     member->second.decided = message.number;
     send(id, wire::RoomDecision{message.number, std::uint8_t(decision.refusal)});
+    return decision.refusal == Refusal::none ? camera : std::nullopt;
 }
 
 std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, std::uint32_t number,
@@ -112,8 +119,10 @@ std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, st
     };
     const auto find = [&](ObjectId object) -> const RoomObject* {
         const auto found = state_.objects().find(object);
-        return found != state_.objects().end() && is_of_case(found->second.kind) ? &found->second
-                                                                                 : nullptr;
+        return found != state_.objects().end() && is_of_case(found->second.kind) &&
+                       !is_shared_screen(found->second)
+                   ? &found->second
+                   : nullptr;
     };
     if (const auto* create = std::get_if<request::Create>(&request))
         return is_of_case(create->kind) ? std::optional(open_case(id, *create)) : std::nullopt;

@@ -13,9 +13,19 @@
 #include "session/request_budget.h"
 #include "session/room_bytes.h"
 #include "session/room_state.h"
+#include "session/shared_screen.h"
 #include "wire/envelope.h"
 
 namespace theatron::session {
+
+// A camera of a publisher that is a screen.
+struct ScreenOffer {
+    ParticipantId publisher{};
+    std::string publisher_name;
+    Bytes person;  // as in wire::Join
+    std::string name;
+    Calibration calibration;  // is_screen()
+};
 
 class HostRoom {
 public:
@@ -24,6 +34,9 @@ public:
     // The latest time of a pose, after the host's present time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
+    // Screens whose source is away; the oldest gives way.
+    static constexpr std::size_t max_kept_screens = 32;
+
     // The persons (wire::Join) who made these marks.
     using Authors = std::map<ObjectId, Bytes>;
 
@@ -31,6 +44,7 @@ public:
     HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions, Authors authors = {})
         : state_(restored), authors_(std::move(authors)), actions_(actions) {
         (void)end_presenting(std::nullopt);
+        forget_sources();
     }
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
@@ -40,12 +54,23 @@ public:
     // Its role or another fact has changed.
     void set_person(ParticipantId id, const PersonFacts& facts);
     void leave(ParticipantId id);
-    // Removes all objects but people.
+    // See RoomState.
     void clear();
-    void on_request(ParticipantId id, const wire::RoomRequest& message);
+    // Returns the camera of a shared screen that the request has ended for all.
+    std::optional<CameraId> on_request(ParticipantId id, const wire::RoomRequest& message);
     // Refuses a request unread, for this reason.
     void refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal);
     void send_snapshot(ParticipantId id);
+
+    // A publisher's camera that is a screen. Returns its place in the room: where it was before, if
+    // its source was here before and no screen stands there now; the place of its calibration, if
+    // that has one; else a place that is free, also of `further` screens, or the usual place.
+    ScreenPlace place_screen(const ScreenOffer& offer,
+                             const std::vector<ScreenPlace>& further = {}) const;
+    // Makes the screen an object of the room, at this place.
+    void add_screen(CameraId camera, const ScreenOffer& offer, const ScreenPlace& place);
+    // Its source has left. The place is kept, as are those of at most max_kept_screens sources.
+    void remove_screen(CameraId camera);
 
     // The cases that participants may open: by creating an organ whose properties name the case.
     // One case is open at a time; another one replaces it.
@@ -93,6 +118,18 @@ private:
     // The same of marks.
     std::optional<RoomState::Decision> decide_on_mark(ParticipantId id, std::uint32_t number,
                                                       const Request& request);
+    // The same of shared screens (host_room_screens.cpp).
+    std::optional<RoomState::Decision> decide_on_screen(ParticipantId id, const Request& request);
+    // The camera of the shared screen that the request is to end.
+    std::optional<CameraId> camera_of_removed(const Request& request) const;
+    bool is_sharer(ParticipantId id, ObjectId screen) const;
+    // The screen of a source that was here before and is away.
+    std::optional<ObjectId> find_kept(const ScreenOffer& offer) const;
+    // After a restart no source is here.
+    void forget_sources();
+    void drop_oldest_kept();
+    // Makes the member of the same person the one who shares the screens.
+    void take_own_screens(ParticipantId id);
     // Makes a participant the presenter of no screen; without one: all participants.
     std::vector<RoomChange> end_presenting(std::optional<ParticipantId> presenter);
     RoomState::Decision open_case(ParticipantId id, const request::Create& request);
@@ -106,6 +143,7 @@ private:
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
     Authors authors_;
+    std::map<ObjectId, Bytes> sharers_;  // the persons (wire::Join) who share the screens
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

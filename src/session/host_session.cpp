@@ -80,7 +80,11 @@ HostSession::HostSession(Config config)
     std::vector<wire::Camera> cameras = config_.cameras;
     for (wire::Camera& camera : cameras)
         camera.session = config_.session;
+    // Screens of a recording, and those at a place that the host's person chose, stay there.
+    const std::vector<PlacedScreen> screens = place_screens({}, cameras, Placing::only_unplaced);
     streams_.add(host_publisher, std::move(cameras));
+    for (const PlacedScreen& screen : screens)
+        room_.add_screen(screen.camera, screen.offer, screen.place);
 }
 
 void HostSession::on_connected(ParticipantId id, TimePoint now) {
@@ -240,7 +244,8 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, 
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
-    room_.on_request(id, request);
+    if (const auto ended = room_.on_request(id, request))
+        end_share(*ended, id);
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {

@@ -184,6 +184,19 @@ private:
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);
+    struct PlacedScreen {
+        CameraId camera{};
+        ScreenOffer offer;
+        ScreenPlace place;
+    };
+    enum class Placing { all, only_unplaced };
+    // Gives the screens among these cameras their places in the room, one after the other. `offer`
+    // has the facts of their publisher.
+    std::vector<PlacedScreen> place_screens(const ScreenOffer& offer,
+                                            std::vector<wire::Camera>& cameras,
+                                            Placing which = Placing::all) const;
+    // Ends the share of a publisher's camera, of which its publisher is told.
+    void end_share(CameraId camera, ParticipantId by);
     // Removes cameras of this participant from the session.
     void unshare(ParticipantId id, const std::vector<CameraId>& cameras);
     void take_media(ParticipantId publisher);

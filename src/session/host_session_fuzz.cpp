@@ -87,7 +87,8 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::cases};
+    wishes.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::cases,
+                       wire::Feature::screens};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
@@ -123,6 +124,25 @@ session::CaseFacts case_facts(int number) {
     facts.name = "case";
     facts.opacities.assign(std::size_t(2 + number), 255);
     return facts;
+}
+
+// A screen of the room shows a camera that is here; few are kept whose source is away.
+void check_screens(const HostSession& host) {
+    std::size_t away = 0;
+    std::set<CameraId> shown;
+    for (const auto& [id, object] : host.room().snapshot().objects) {
+        const auto screen = session::decode_shared_screen(object.kind, object.properties);
+        if (!screen)
+            continue;
+        if (!session::is_screen_width(object.scale))
+            std::abort();
+        if (!screen->camera)
+            ++away;
+        else if (!host.streams().find(*screen->camera) || !shown.insert(*screen->camera).second)
+            std::abort();
+    }
+    if (away > session::HostRoom::max_kept_screens)
+        std::abort();
 }
 
 // A participant who waits for admission gets nothing of the session.
@@ -209,6 +229,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             case 10: {
                 wire::Camera offered = camera(0);
+                if (what >= 128)
+                    offered.calibration = encode_calibration(
+                        screen_calibration({64, 48}, choice / 16.0, usual_screen_place));
                 wire::Publish offer;
                 for (int i = 0; i < choice % 4; ++i)
                     offer.cameras.push_back({"own", choice % 8 < 4, 30, offered.calibration});
@@ -314,6 +337,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             }
         check(host);
         check_rights(host);
+        check_screens(host);
     }
     return 0;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/calibration.h"
+#include "geometry/screen.h"
 #include "session/announced_cameras.h"
 #include "session/host_session.h"
 
@@ -42,8 +43,47 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     send(id, std::move(answer));
     for (const wire::Camera& camera : cameras)
         audit(AuditEvent::What::shared, id, "", camera.name);
-    streams_.add(id, std::move(cameras), admission_.find(id)->name);
+    const Participant& publisher = *admission_.find(id);
+    const std::vector<PlacedScreen> screens =
+        place_screens({id, publisher.name, publisher.person, {}, {}}, cameras);
+    streams_.add(id, std::move(cameras), publisher.name);
+    for (const PlacedScreen& screen : screens)
+        room_.add_screen(screen.camera, screen.offer, screen.place);
     take_media(id);
+    set_budgets();
+}
+
+std::vector<HostSession::PlacedScreen> HostSession::place_screens(
+    const ScreenOffer& offer, std::vector<wire::Camera>& cameras, Placing which) const {
+    std::vector<PlacedScreen> screens;
+    std::vector<ScreenPlace> places;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const auto calibration = decode_calibration(cameras[i].calibration);
+        if (!calibration || !is_screen(*calibration) ||
+            (which == Placing::only_unplaced && calibration->registered))
+            continue;
+        ScreenOffer one = offer;
+        one.name = cameras[i].name;
+        one.calibration = *calibration;
+        const ScreenPlace place = room_.place_screen(one, places);
+        cameras[i].calibration = encode_calibration(
+            screen_calibration(calibration->color.size, place.width_m, place.room_from_screen));
+        places.push_back(place);
+        screens.push_back({streams_.next_id(i), std::move(one), place});
+    }
+    return screens;
+}
+
+void HostSession::end_share(CameraId camera, ParticipantId by) {
+    const CameraStreams* found = streams_.find(camera);
+    if (!found || found->publisher() == host_publisher)
+        return;
+    const ParticipantId publisher = found->publisher();
+    const std::string& name = admission_.find(by)->name;
+    audit(AuditEvent::What::unshared, publisher, name, found->description().name);
+    streams_.remove({camera});
+    if (admission_.find(publisher)->has(wire::Feature::screens))
+        send(publisher, wire::ShareEnded{{camera}, name});
     set_budgets();
 }
 
@@ -83,6 +123,8 @@ void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimeP
 void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras) {
     for (const CameraId camera : cameras)
         audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
+    for (const CameraId camera : cameras)
+        room_.remove_screen(camera);
     streams_.remove(cameras);
     set_budgets();
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "session/mark.h"
+#include "session/shared_screen.h"
 
 namespace theatron::session {
 namespace {
@@ -15,7 +16,8 @@ bool is_there(const RoomObjects& objects, const Mark& mark) {
     const auto found = objects.find(ObjectId(mark.object));
     return found != objects.end() &&
            found->second.kind ==
-               (mark.surface == MarkedSurface::organ ? ObjectKind::organ : ObjectKind::screen);
+               (mark.surface == MarkedSurface::organ ? ObjectKind::organ : ObjectKind::screen) &&
+           !is_shared_screen(found->second);
 }
 
 bool has_room_for(const RoomObjects& objects, ParticipantId author, std::size_t bytes) {

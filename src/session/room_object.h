@@ -143,6 +143,8 @@ enum class Refusal : std::uint8_t {
     part_of_case,  // it cannot be removed alone
     of_another,    // a mark of another author
     mark_stays,    // marks cannot be held or changed
+    pinned,        // a shared screen that stays where it is
+    of_sharer,     // only who shares the screen and operators may do it
 };
 
 // FNV-1a over all fields; equal rooms have equal hashes on every machine.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "session/mark_rules.h"
+#include "session/shared_screen.h"
 
 namespace theatron::session {
 namespace {
@@ -19,6 +20,17 @@ bool is_sound(const Pose& pose, double scale) {
     const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
     return std::abs(norm - 1) < 1e-3 && scale >= RoomState::min_scale &&
            scale <= RoomState::max_scale;
+}
+
+// A shared screen whose source is here.
+bool shows_camera(const RoomObject& object) {
+    const auto screen = decode_shared_screen(object.kind, object.properties);
+    return screen && screen->camera;
+}
+
+// The scale of a shared screen is its width.
+bool may_have(const RoomObject& object, double scale) {
+    return !is_shared_screen(object) || is_screen_width(scale);
 }
 
 }  // namespace
@@ -77,7 +89,7 @@ std::vector<RoomChange> RoomState::release_all(ParticipantId participant) {
 std::vector<RoomChange> RoomState::clear() {
     std::vector<ObjectId> gone;
     for (const auto& [id, object] : objects_)
-        if (object.kind != ObjectKind::person)
+        if (object.kind != ObjectKind::person && !shows_camera(object))
             gone.push_back(id);
     return remove(gone);
 }
@@ -99,6 +111,18 @@ std::vector<RoomChange> RoomState::set_creator(const std::vector<ObjectId>& obje
             changes.push_back(changed(id));
         }
     return changes;
+}
+
+std::optional<RoomChange> RoomState::put(std::optional<ObjectId> id, RoomObject object) {
+    const auto before = id ? objects_.find(*id) : objects_.end();
+    const bool is_new = before == objects_.end();
+    if ((is_new && objects_.size() >= max_objects) ||
+        !is_sound(object.room_from_object, object.scale) ||
+        !has_room_for(object.properties.size(), is_new ? 0 : before->second.properties.size()))
+        return std::nullopt;
+    const ObjectId place = is_new ? ObjectId(++newest_id_) : *id;
+    objects_[place] = std::move(object);
+    return changed(place);
 }
 
 std::vector<RoomChange> RoomState::on_left(ParticipantId participant) {
@@ -142,7 +166,8 @@ RoomState::Decision RoomState::on_request(ParticipantId from, std::uint32_t numb
 
 RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomObject> objects) {
     const auto is_of_case = [](const RoomObject& object) {
-        return object.kind == ObjectKind::organ || object.kind == ObjectKind::screen;
+        return object.kind == ObjectKind::organ ||
+               (object.kind == ObjectKind::screen && !is_shared_screen(object));
     };
     std::vector<ObjectId> old;
     std::size_t old_bytes = 0, bytes = 0;
@@ -232,7 +257,7 @@ Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Relea
     if (!held)
         return refusal;
     RoomObject& object = *held;
-    if (!is_sound(request.room_from_object, request.scale))
+    if (!is_sound(request.room_from_object, request.scale) || !may_have(object, request.scale))
         return Refusal::malformed;
     object.grip = {};
     object.room_from_object = request.room_from_object;
@@ -279,7 +304,7 @@ bool RoomState::on_pose(ParticipantId from, const ObjectPose& pose) {
         !is_sound(pose.room_from_object, pose.scale))
         return false;
     RoomObject& object = found->second;
-    if (pose.at <= object.moved_at)
+    if (pose.at <= object.moved_at || !may_have(object, pose.scale))
         return false;
     object.moved_at = pose.at;
     object.room_from_object = pose.room_from_object;

@@ -33,11 +33,14 @@ public:
     std::vector<RoomChange> on_person(ParticipantId participant, Bytes properties);
     // Releases the objects that it holds where they are.
     std::vector<RoomChange> release_all(ParticipantId participant);
-    // Removes all objects but people.
+    // Removes all objects but people and the shared screens whose source is here.
     std::vector<RoomChange> clear();
     // Removes these objects, or makes another participant their creator.
     std::vector<RoomChange> remove(const std::vector<ObjectId>& objects);
     std::vector<RoomChange> set_creator(const std::vector<ObjectId>& objects, ParticipantId to);
+    // The host's own change: adds the object, or replaces `id`. nullopt, and nothing has changed:
+    // the room is full, or the object is beyond its limits.
+    std::optional<RoomChange> put(std::optional<ObjectId> id, RoomObject object);
     // As release_all(), and removes its person object.
     std::vector<RoomChange> on_left(ParticipantId participant);
 
@@ -49,7 +52,8 @@ public:
     Decision on_request(ParticipantId from, std::uint32_t number, const Request& request,
                         bool may_change);
 
-    // Removes all organs and screens, the marks on them, and adds these objects, all or none.
+    // Removes all organs and screens of a case, the marks on them, and adds these objects, all or
+    // none.
     Decision replace_case(ParticipantId by, std::vector<RoomObject> objects);
 
     // Applies a pose. True, and it must be forwarded, if it belongs to the object's present grip,

@@ -98,6 +98,10 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         published_ = std::move(*published);
         return Change::published;
     }
+    if (auto* ended = std::get_if<wire::ShareEnded>(&*message)) {
+        share_ended_ = std::move(*ended);
+        return joined_ ? Change::unshared : Change::nothing;
+    }
     if (auto* encode = std::get_if<wire::Encode>(&*message)) {
         encode_ = std::move(*encode);
         return Change::encode;

@@ -44,6 +44,7 @@ public:
         delivery,    // delivery(): the host sends more or less
         renderer,    // renderer_word(): how the host wants this participant to draw
         published,   // published(): the answer to an offer
+        unshared,    // share_ended(): others have ended screens of this participant
         encode,      // encode(): how to encode the cameras that this participant publishes
         encode_key,  // encode_key(): the host requests a key frame of one of them
         room,        // room(): a message for a SharedRoom
@@ -91,6 +92,7 @@ public:
     // Empty as long as the session goes on.
     const wire::Text& goodbye() const { return goodbye_; }
     const wire::Published& published() const { return published_; }
+    const wire::ShareEnded& share_ended() const { return share_ended_; }
     const wire::Encode& encode() const { return encode_; }
     const wire::EncodeKey& encode_key() const { return encode_key_; }
     // RoomSnapshot, RoomChange or RoomDecision.
@@ -126,6 +128,7 @@ private:
     wire::SetRenderer renderer_word_;
     wire::Text goodbye_;
     wire::Published published_;
+    wire::ShareEnded share_ended_;
     wire::Encode encode_;
     wire::EncodeKey encode_key_;
     wire::ToParticipant room_;

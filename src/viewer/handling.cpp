@@ -3,8 +3,10 @@
 
 #include <utility>
 
+#include "session/shared_screen.h"
 #include "viewer/case_actions.h"
 #include "viewer/refusal_text.h"
+#include "viewer/room_panel.h"
 
 namespace theatron::viewer {
 namespace {
@@ -28,6 +30,8 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
         const session::RoomObject* object = meeting.find(held_->object);
         if (!object || object->grip.holder != participant.room_self())
             held_.reset();
+        else if (session::is_shared_screen(*object))
+            change_width(input);
     }
     if (held_) {
         input.grabbed.reset();
@@ -49,6 +53,18 @@ void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
         release(meeting, participant);
 }
 
+// The keys that change the size of points change the width of the held screen.
+void Handling::change_width(xr::WindowInput& input) {
+    std::erase_if(input.keys, [&](const xr::KeyPress& key) {
+        const bool larger = key.action == xr::Action::larger_points;
+        if (!larger && key.action != xr::Action::smaller_points)
+            return false;
+        held_->scale = session::clamped_screen_width(
+            held_->scale * (larger ? screen_width_step : 1 / screen_width_step));
+        return true;
+    });
+}
+
 void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
                     const render::CameraView& view, Meeting& meeting,
                     client::Participant& participant) {
@@ -60,6 +76,9 @@ void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
         hit->object = open->organ_id;
     const session::RoomObject* object = meeting.find(hit->object);
     if (!object)
+        return;
+    // A pinned screen is part of the room, around which one turns.
+    if (session::is_pinned(*object))
         return;
     if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
         note_ = meeting.name_of(object->grip.holder) + " holds this";
@@ -90,6 +109,11 @@ void Handling::on_key(xr::Action action, const render::CameraView& view, const M
             const std::size_t number = part->facts.part;
             release(meeting, participant);
             show_part(participant, number, false);
+            return;
+        }
+        if (const auto* object = meeting.find(held_->object);
+            object && session::is_shared_screen(*object)) {
+            note_ = "P shows the screens, with buttons that end their shares";
             return;
         }
         if (open && (held_->object == open->organ_id ||

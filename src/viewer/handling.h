@@ -44,6 +44,7 @@ private:
     // `part`: of an organ, not the organ.
     void grab(Vec2 pointer, bool part, std::optional<double> surface_m,
               const render::CameraView& view, Meeting& meeting, client::Participant& participant);
+    void change_width(xr::WindowInput& input);
     void release(const Meeting& meeting, client::Participant& participant);
     void on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
                 client::Participant& participant);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "session/shared_screen.h"
 #include "viewer/refusal_text.h"
 
 namespace theatron::viewer {
@@ -269,6 +270,10 @@ bool Headset::take(Hand& hand, LiveScene& scene, client::Participant& participan
         return false;
     if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
         note_ = meeting.name_of(object->grip.holder) + " holds this";
+        return true;
+    }
+    if (session::is_pinned(*object)) {
+        note_ = text_of(session::Refusal::pinned);
         return true;
     }
     // The other hand may have it.

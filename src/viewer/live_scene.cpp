@@ -45,6 +45,7 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     if (generation != generation_) {
         take_cameras(cameras);
         cut_people(cameras);
+        captions_changed_ |= follow_screens();
         generation_ = generation;
     }
     if (generation_ > 0)
@@ -77,9 +78,15 @@ void LiveScene::note_screens(const client::Participant& participant) {
 bool LiveScene::take_meeting(const client::Participant& participant) {
     meeting_.set_clouds(person_clouds_.seen());
     const bool changed = meeting_.take(participant);
-    if (changed)
+    if (changed) {
         person_clouds_.place(meeting_.people());
+        (void)follow_screens();
+    }
     return changed;
+}
+
+bool LiveScene::follow_screens() {
+    return screens_.follow(meeting_.room().objects, meeting_.room().self);
 }
 
 // Applies cameras that left, joined or have a new calibration; the others keep their pictures. A
@@ -283,7 +290,6 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
         if (!real_room_)
             room_.add_to(frame_, view);
         meeting_.add_to(frame_, view);
-        screens_.add_to(frame_);
         add_pointers(view);
         if (menu_)
             menu_->add_to(frame_, chosen_row_);

@@ -35,7 +35,12 @@ public:
     using Origin = std::pair<wire::SessionId, std::string>;
 
     explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})
-        : choice_(choice), people_(std::move(people)) {}
+        : choice_(choice), people_(std::move(people)) {
+        meeting_.set_screens(screens_);
+    }
+    // The meeting refers to the screens.
+    LiveScene(const LiveScene&) = delete;
+    LiveScene& operator=(const LiveScene&) = delete;
 
     // Takes over new cameras and frames. Returns the cameras with a new picture. A camera that
     // joins or leaves changes no other camera's picture; beyond render::max_cameras none is added.
@@ -117,6 +122,7 @@ public:
 
 private:
     void take_cameras(const std::vector<client::Participant::Camera>& cameras);
+    bool follow_screens();
     void note_screens(const client::Participant& participant);
     Status upload(const receive::CameraFrame& frame);
     std::vector<render::DrawnClouds> clouds(const std::string& renderer);

@@ -137,6 +137,8 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
                                  render::ObjectId(std::uint32_t(id))});
     }
     case_.add_to(frame, view);
+    if (screens_)
+        screens_->add_to(frame);
     std::vector<room::PlacedMark> marks = placed_marks(room_.objects, case_);
     if (new_mark_)
         append_placed(*new_mark_, false, case_, marks);
@@ -167,7 +169,10 @@ void Meeting::add_holder(render::SceneFrame& frame, session::ObjectId id,
     if (object.grip.holder == ParticipantId{} || object.grip.holder == room_.self)
         return;
     const std::string text = name_of(object.grip.holder) + " holds this";
-    Pose place = room::facing(shown_pose(id).translation + Vec3{0, label_above_m, 0}, eye);
+    double above_m = label_above_m;
+    if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
+        above_m += 0.5 * session::place_of(object, *screen).height_m;
+    Pose place = room::facing(shown_pose(id).translation + Vec3{0, above_m, 0}, eye);
     place.translation =
         place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
     frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});

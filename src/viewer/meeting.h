@@ -18,6 +18,7 @@
 #include "room/teleport_marks.h"
 #include "session/pose_track.h"
 #include "viewer/case_scene.h"
+#include "viewer/shared_screens.h"
 
 namespace theatron::viewer {
 
@@ -28,6 +29,10 @@ public:
     static constexpr Duration stale_after = std::chrono::seconds(2);
     // A call of a person to the others lasts this long.
     static constexpr Duration called_for = std::chrono::seconds(20);
+
+    // The screens that are drawn and held with the objects of the room; they must outlive the
+    // meeting.
+    void set_screens(SharedScreens& screens) { screens_ = &screens; }
 
     // The people who are seen as point clouds, from the next take().
     void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }
@@ -92,6 +97,7 @@ private:
     void add_holder(render::SceneFrame& frame, session::ObjectId id,
                     const session::RoomObject& object, Vec3 eye);
 
+    SharedScreens* screens_ = nullptr;
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;

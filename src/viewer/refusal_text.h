@@ -27,6 +27,8 @@ static_assert(code_of(session::Refusal::recorded) == wire::TextCode::part_of_rec
 static_assert(code_of(session::Refusal::part_of_case) == wire::TextCode::part_of_case);
 static_assert(code_of(session::Refusal::of_another) == wire::TextCode::of_another);
 static_assert(code_of(session::Refusal::mark_stays) == wire::TextCode::mark_stays);
+static_assert(code_of(session::Refusal::pinned) == wire::TextCode::screen_pinned);
+static_assert(code_of(session::Refusal::of_sharer) == wire::TextCode::screen_of_another);
 
 // Part of a sentence, without a full stop; empty where nothing was refused.
 inline std::string text_of(session::Refusal refusal) {

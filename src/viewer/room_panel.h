@@ -65,9 +65,15 @@ struct AdjustStep {  // of the chosen camera
 struct PlayStep {  // of the recording that the host plays
     enum class What { toggle, back, forward, slide } what{};
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep>;
+// The width of a screen changes by this factor with a click or a key.
+inline constexpr double screen_width_step = 1.15;
+struct ChangeScreen {
+    enum class What { smaller, larger, pin, unpin, end } what{};
+    session::ObjectId screen{};
+};
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
+                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall,
+                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

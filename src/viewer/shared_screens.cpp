@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "room/people.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
 
 namespace theatron::viewer {
 namespace {
 
-constexpr double rim_m = 0.02, thickness_m = 0.03;
-// The caption stands above the picture, before the housing.
-constexpr double captions_in_width = 30, before_m = 0.003;
+// In widths of the screen. The caption stands above the picture, before the housing.
+constexpr double rim = 0.017, thickness = 0.025, caption_height = 1 / 30.0, lifted = 0.003;
 constexpr Rgb ink{235, 240, 245}, warning{255, 170, 60};
 
 }  // namespace
@@ -36,6 +36,11 @@ void SharedScreens::set_camera(CameraId camera, const std::string& name,
     Screen& screen = screens_[camera];
     if (screen.name == name && screen.calibration == calibration)
         return;
+    // Only the place is another one.
+    if (screen.name == name && screen.calibration.color.size == calibration.color.size) {
+        screen.calibration = calibration;
+        return;
+    }
     screen = {};
     screen.name = name;
     screen.calibration = calibration;
@@ -72,34 +77,77 @@ bool SharedScreens::note(const std::vector<client::CameraFigures>& cameras, Time
     return changed;
 }
 
-void SharedScreens::add_to(render::SceneFrame& frame) {
-    for (auto& [id, screen] : screens_) {
-        const ScreenPlace place = screen_place(screen.calibration);
-        const double caption_m = place.width_m / captions_in_width;
-        const double x = place.width_m / 2, y = place.height_m / 2;
-        if (!screen.panel) {
-            screen.texture.emplace(screen.calibration.color.size);
-            screen.panel.emplace(render::make_panel_mesh(place.width_m, place.height_m));
-            screen.housing.emplace(
-                render::make_box_mesh({-x - rim_m, -y - rim_m - 2 * caption_m, before_m},
-                                      {x + rim_m, y + rim_m, before_m + thickness_m}));
-        }
-        if (std::exchange(screen.is_new, false))
-            screen.texture->set(screen.color->view());
-        render::SurfaceLook look;
-        look.base_color = screen.color ? Vec3{1, 1, 1} : Vec3{0, 0, 0};
-        look.texture = &*screen.texture;
-        look.unlit = true;
-        render::SceneObject panel{&*screen.panel, place.room_from_screen, look};
-        panel.casts_shadow = false;
-        frame.objects.push_back(panel);
-        frame.objects.push_back(
-            {&*screen.housing, place.room_from_screen, {{0.05, 0.06, 0.07}, 0, 0.6}});
-        frame.texts.push_back(
-            {screen.caption.text,
-             place.room_from_screen * Pose{Quat{}, {-x, -y - 0.7 * caption_m, -before_m}},
-             caption_m, screen.caption.is_trouble ? warning : ink});
+bool SharedScreens::follow(const session::RoomObjects& objects, ParticipantId self) {
+    bool changed = false;
+    const auto object_of = [&](session::ObjectId id) {
+        const session::RoomObject& object = objects.at(id);
+        const auto facts = session::decode_shared_screen(object.kind, object.properties);
+        return Object{id, session::place_of(object, *facts), facts->pinned, object.grip.holder};
+    };
+    const auto set = [&](Screen& screen, std::optional<Object> object) {
+        changed = changed || object != screen.object;
+        screen.object = std::move(object);
+    };
+    for (auto& [camera, screen] : screens_) {
+        const auto id = session::find_screen(objects, camera, screen.name);
+        set(screen, id ? std::optional(object_of(*id)) : std::nullopt);
     }
+    std::map<CameraId, Screen> before = std::exchange(own_, {});
+    for (const auto& [id, object] : objects) {
+        const auto facts = session::decode_shared_screen(object.kind, object.properties);
+        if (!facts || !facts->camera || session::is_recorded(id) || object.creator != self ||
+            screens_.contains(*facts->camera))
+            continue;
+        Screen& own = own_[*facts->camera];
+        if (auto known = before.find(*facts->camera); known != before.end())
+            own = std::move(known->second);
+        own.name = facts->name;
+        own.calibration.color.size = facts->picture;
+        own.caption = {facts->name + ": you share this", false};
+        set(own, object_of(id));
+    }
+    return changed || before.size() != own_.size();
+}
+
+void SharedScreens::add_to(render::SceneFrame& frame) {
+    for (auto* screens : {&screens_, &own_})
+        for (auto& [camera, screen] : *screens)
+            add(screen, frame);
+}
+
+void SharedScreens::add(Screen& screen, render::SceneFrame& frame) {
+    const ScreenPlace place =
+        screen.object ? screen.object->place : screen_place(screen.calibration);
+    const double width = place.width_m;
+    const double x = 0.5, y = 0.5 * place.height_m / width;
+    if (!screen.panel) {
+        screen.panel.emplace(render::make_panel_mesh(2 * x, 2 * y));
+        screen.housing.emplace(
+            render::make_box_mesh({-x - rim, -y - rim - 2 * caption_height, lifted},
+                                  {x + rim, y + rim, lifted + thickness}));
+    }
+    if (screen.color && !screen.texture)
+        screen.texture.emplace(screen.calibration.color.size);
+    if (std::exchange(screen.is_new, false))
+        screen.texture->set(screen.color->view());
+    const auto id =
+        screen.object ? render::ObjectId(std::uint32_t(screen.object->id)) : render::ObjectId::none;
+    render::SurfaceLook look;
+    look.base_color = screen.color ? Vec3{1, 1, 1} : Vec3{0, 0, 0};
+    look.texture = screen.texture ? &*screen.texture : nullptr;
+    look.unlit = true;
+    render::SceneObject panel{&*screen.panel, place.room_from_screen, look, false, id, width};
+    panel.casts_shadow = false;
+    frame.objects.push_back(panel);
+    const bool is_held = screen.object && screen.object->holder != ParticipantId{};
+    const Vec3 color = is_held ? room::color_of(screen.object->holder) : Vec3{0.05, 0.06, 0.07};
+    frame.objects.push_back(
+        {&*screen.housing, place.room_from_screen, {color, 0, 0.6}, false, id, width});
+    const Vec3 caption = Vec3{-x, -y - 0.7 * caption_height, -lifted} * width;
+    frame.texts.push_back(
+        {screen.caption.text + (screen.object && screen.object->pinned ? "  pinned" : ""),
+         place.room_from_screen * Pose{Quat{}, caption}, caption_height * width,
+         screen.caption.is_trouble ? warning : ink});
 }
 
 }  // namespace theatron::viewer

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The screens that participants share: their pictures in the room, each with its name and age.
+//
+// A screen stands where its object of the room is (session/shared_screen.h), or, at a host that has
+// no such objects, where its camera's calibration says.
 #pragma once
 
 #include <map>
@@ -11,6 +14,7 @@
 #include "client/participant_figures.h"
 #include "geometry/screen.h"
 #include "render/scene_frame.h"
+#include "session/shared_screen.h"
 
 namespace theatron::viewer {
 
@@ -30,7 +34,10 @@ public:
     // Adds the screen or changes it. Precondition: is_screen(calibration).
     void set_camera(CameraId camera, const std::string& name, const Calibration& calibration);
     void remove_camera(CameraId camera) { screens_.erase(camera); }
-    bool empty() const { return screens_.empty(); }
+    // Moves the screens to where their objects are. The host sends `self` no pictures of its own
+    // screens: an empty screen stands for each of them. True if the picture changes.
+    bool follow(const session::RoomObjects& objects, ParticipantId self);
+    bool empty() const { return screens_.empty() && own_.empty(); }
     bool has(CameraId camera) const { return screens_.count(camera) > 0; }
 
     void take(const receive::CameraFrame& frame);
@@ -41,17 +48,30 @@ public:
     void add_to(render::SceneFrame& frame);
 
 private:
+    // The object of a screen.
+    struct Object {
+        session::ObjectId id{};
+        ScreenPlace place;
+        bool pinned = false;
+        ParticipantId holder{};
+        bool operator==(const Object&) const = default;
+    };
     struct Screen {
         std::string name;
         Calibration calibration;
+        std::optional<Object> object;
         ScreenCaption caption;
         std::shared_ptr<const ColorImage> color;
         TimePoint captured;   // of `color`
         bool is_new = false;  // `color` is not in the texture
         std::optional<render::SceneTexture> texture;
+        // One metre wide.
         std::optional<render::SceneMesh> panel, housing;
     };
+    static void add(Screen& screen, render::SceneFrame& frame);
+
     std::map<CameraId, Screen> screens_;
+    std::map<CameraId, Screen> own_;
 };
 
 }  // namespace theatron::viewer

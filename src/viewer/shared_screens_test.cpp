@@ -30,5 +30,36 @@ TEST(ScreenCaptionTest, AScreenWithoutPicturesOrWithOldOnesSaysSo) {
               (ScreenCaption{"e: has failed", true}));
 }
 
+// Only add_to() needs a GL context.
+TEST(SharedScreensTest, FollowTheirObjectsAndShowAnEmptyOneForAnOwnShare) {
+    constexpr ParticipantId self{1}, ben{2};
+    constexpr CameraId scope{3}, own{4};
+    SharedScreens screens;
+    screens.set_camera(scope, "scope", screen_calibration({640, 480}, 1, {}));
+    EXPECT_FALSE(screens.follow({}, self)) << "a host without such objects";
+    session::RoomObjects objects;
+    const auto add = [&](std::uint32_t id, ParticipantId by, CameraId camera) {
+        session::RoomObject object;
+        object.kind = session::ObjectKind::screen;
+        object.creator = by;
+        object.properties = session::encode_shared_screen({camera, false, {640, 480}, "", "x"});
+        objects[session::ObjectId(id)] = object;
+    };
+    add(8, ben, scope);
+    EXPECT_TRUE(screens.follow(objects, self));
+    EXPECT_FALSE(screens.follow(objects, self));
+    objects.begin()->second.scale = 2;
+    EXPECT_TRUE(screens.follow(objects, self));
+    screens.remove_camera(scope);
+    (void)screens.follow(objects, self);
+    EXPECT_TRUE(screens.empty()) << "of Ben's screen no picture comes";
+    add(9, self, own);
+    EXPECT_TRUE(screens.follow(objects, self));
+    EXPECT_FALSE(screens.empty());
+    objects.clear();
+    EXPECT_TRUE(screens.follow(objects, self));
+    EXPECT_TRUE(screens.empty());
+}
+
 }  // namespace
 }  // namespace theatron::viewer

@@ -10,6 +10,7 @@
 #include "video/depth_codecs.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
+#include "viewer/screen_panel.h"
 #include "wire/manage_text.h"
 
 namespace theatron::viewer {
@@ -238,6 +239,11 @@ void Viewer::press(int command, TimePoint now) {
     }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
+    if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
+        if (!change_screen(*screen, participant_))
+            note("This is not in the room any more", now);
+        return;
+    }
     if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
@@ -473,6 +479,11 @@ Facts Viewer::facts(TimePoint now) {
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
                                    is_calling(now), voices_.speaking}));
+        const client::Participant::Room& room = scene_.meeting().room();
+        ScreenPanelFacts screens{&room.objects, room.self, role, {}};
+        for (const room::RoomPerson& person : scene_.meeting().people())
+            screens.names[person.id] = person.name;
+        add_screen_panel(screens, panel);
     }
     if (shows_case_)
         add_case(panel);

@@ -52,6 +52,7 @@ enum class Feature : std::uint16_t {
     voice_consent = 5,  // says with VoiceConsent if others may record its voice
     adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
     playback = 7,       // is told where the host's recording is, and may play it
+    screens = 8,        // is told with ShareEnded that others have ended its screens
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
@@ -676,6 +677,18 @@ struct Playback {
     }
 };
 
+// To a publisher: somebody has ended these of its screens for all. They are no longer in the
+// session, and are not to be offered again.
+struct ShareEnded {
+    std::vector<CameraId> cameras;
+    std::string by;  // name of the person
+
+    static void fields(auto& m, auto&& field) {
+        field(m.cameras, max_cameras);
+        field(m.by, max_name);
+    }
+};
+
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
                             Unpublish, CameraState, RoomRequest, Manage, RequestContent,
@@ -684,7 +697,7 @@ using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
                  CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
                  RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed, OfferedCases,
-                 Content, CameraChanged, Playback>;
+                 Content, CameraChanged, Playback, ShareEnded>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

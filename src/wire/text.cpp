@@ -117,6 +117,8 @@ constexpr Row rows[] = {
     {TextCode::part_of_case, "This belongs to the case; hide it, or close the case"},
     {TextCode::of_another, "Somebody else made this"},
     {TextCode::mark_stays, "A mark stays as it was made; it can only be removed"},
+    {TextCode::screen_pinned, "This screen is pinned; its sharer or an operator unpins it"},
+    {TextCode::screen_of_another, "Only the person who shares this and operators may do that"},
 
     {TextCode::operators_decide, "Only operators decide on others."},
     {TextCode::decided_person_gone, "That person has left."},

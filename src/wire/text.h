@@ -93,6 +93,8 @@ enum class TextCode : std::uint16_t {
     part_of_case = 509,
     of_another = 510,
     mark_stays = 511,
+    screen_pinned = 512,
+    screen_of_another = 513,
 
     // Decisions on people.
     operators_decide = 600,

@@ -370,6 +370,9 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(seek.position, 90s);
     const Playback playback{3s, from_us(12), 60s, true, "Anna"};
     EXPECT_EQ(round_trip(playback), playback);
+    const ShareEnded ended = round_trip(ShareEnded{{CameraId{3}, CameraId{9}}, "Dora"});
+    EXPECT_EQ(ended.cameras, (std::vector{CameraId{3}, CameraId{9}}));
+    EXPECT_EQ(ended.by, "Dora");
     CameraChanged change;
     change.camera.id = CameraId{3};
     change.camera.adjustment = Bytes(33);
@@ -397,7 +400,7 @@ TEST(Control, EveryMessageRoundTrips) {
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
     // The last kind there is.
-    const Bytes known = encode(Playback{});
+    const Bytes known = encode(ShareEnded{});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {

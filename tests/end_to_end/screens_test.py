@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A shared video is a screen in the room of everybody, and harms no camera."""
+import os
 import pathlib
 import shutil
+import signal
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, run
+from room_test import member
+from theatron_process import Process, host, make_recording, read_png, run, wait_until
+from virtual_screen import VirtualScreen
 
 WIDTH, HEIGHT = 320, 180
 
@@ -19,6 +23,16 @@ def write_video(path, frames):
 
 def camera(figures, name):
     return next((c for c in figures["cameras"] if c["name"] == name), None)
+
+
+def screen(figures, name):
+    """The object of a shared screen whose source is here."""
+    return next((o for o in figures["room"]["objects"]
+                 if "screen" in o and o["screen"]["name"] == name and o["screen"]["camera"] is not None), None)
+
+
+def is_green(pixel):
+    return pixel[0] < 40 and pixel[1] > 235 and pixel[2] < 40
 
 
 class Screens(unittest.TestCase):
@@ -49,12 +63,91 @@ class Screens(unittest.TestCase):
                 self.assertEqual(code, 0, errors)
                 _, _, _, rows = read_png(picture)
                 middle = rows[120][3 * 160:3 * 160 + 3]
-                self.assertTrue(middle[0] < 40 and middle[1] > 235 and middle[2] < 40, tuple(middle))
+                self.assertTrue(is_green(middle), tuple(middle))
             with Process("publish", h.greeting["publish_link"], "--share", shared, "--every", "0.2"), \
                     Process("join", h.greeting["link"], "--every", "0.2") as seen:
                 ended = seen.wait_for(
                     lambda f: camera(f, "scope") and camera(f, "scope")["state"] == "ended", 20)
                 self.assertEqual(camera(ended, "lamp")["state"], "live")
+
+    def person(self, link, name):
+        """Somebody with a program of their own."""
+        environment = os.environ | {"XDG_STATE_HOME": str(self.folder / name)}
+        return member(link, name, env=environment)
+
+    def middle_of_picture(self, link):
+        """None where nothing can be drawn."""
+        picture = self.folder / "middle.png"
+        code, _, errors = run("join", link, "--offscreen", picture, "--size", "320x240", "--seconds", "1", "--color-codec", "raw")
+        if "GL" in errors or "EGL" in errors:
+            return None
+        self.assertEqual(code, 0, errors)
+        return tuple(read_png(picture)[3][120][3 * 160:3 * 160 + 3])
+
+    def wait_for_error(self, process, words):
+        wait_until(lambda: any(words in line for line in process.errors), 10)
+
+    def test_screens_are_moved_scaled_pinned_kept_recorded_and_ended(self):
+        tower = self.folder / "tower.y4m"
+        write_video(tower, 60)
+        recording = self.folder / "session.mkv"
+        share = ("--share", f"{self.video},loop=1,width=0.6", "--may-record", "--every", "0.2", "--name", "cart")
+        environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "cart")}
+        with host(self.folder / "state3", self.lamp) as h, \
+                self.person(h.greeting["links"]["operator"], "Dora") as dora, \
+                self.person(h.greeting["link"], "Ben") as ben, \
+                Process("publish", h.greeting["publish_link"], *share, "--share", f"{tower},loop=1,width=0.6",
+                        env=environment) as cart:
+            both = ben.wait_for(lambda f: screen(f, "scope") and screen(f, "tower"), 20)
+            places = [screen(both, name)["position"] for name in ("scope", "tower")]
+            self.assertGreater(max(abs(a - b) for a, b in zip(*places)), 0.6, places)
+            number = screen(both, "scope")["id"]
+            recorder = Process("record", h.greeting["link"], recording, "--json")
+            self.addCleanup(recorder.__exit__)
+            ben.wait_for(lambda f: any(p["records"] for p in f["room"]["people"]), 20)
+            # Before the wall that the camera sees.
+            ben.say(f"grab {number}")
+            ben.say("move 0 1.5 -0.5")
+            ben.say("width 0.4")
+            dora.wait_for(lambda f: screen(f, "scope")["held_by"] and screen(f, "scope")["position"] == [0, 1.5, -0.5]
+                          and screen(f, "scope")["scale"] == 0.4, 10)
+            ben.say("release")
+            ben.say(f"pin {number}")
+            self.wait_for_error(ben, "Only the person who shares this and operators may do that")
+            dora.wait_for(lambda f: not screen(f, "scope")["held_by"], 10)
+            dora.say(f"pin {number}")
+            ben.wait_for(lambda f: screen(f, "scope")["screen"]["pinned"], 10)
+            ben.say(f"grab {number}")
+            self.wait_for_error(ben, "This screen is pinned")
+            middle = self.middle_of_picture(h.greeting["link"])
+            self.assertTrue(middle is None or is_green(middle), middle)
+            if middle is not None:
+                code, _, errors = run("join", h.greeting["link"], "--or-screen", "--offscreen", self.folder / "or.png",
+                                      "--size", "640x480", "--seconds", "1")
+                self.assertEqual(code, 0, errors)
+            recorder.send(signal.SIGTERM)
+            self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
+
+            # One share is ended for all; its publisher goes on with the other.
+            dora.say(f"end {screen(both, 'tower')['id']}")
+            ben.wait_for(lambda f: not screen(f, "tower") and not camera(f, "tower"), 10)
+            self.wait_for_error(cart, 'Dora has ended the share of "tower"')
+            self.assertEqual([c["share_ended"] for c in cart.newest_json()["cameras"]], [False, True])
+            h.send(signal.SIGTERM)
+            self.assertEqual(h.end(), 0)
+        with host(self.folder / "state3", self.lamp) as h, \
+                self.person(h.greeting["links"]["operator"], "Dora") as dora, \
+                Process("publish", h.greeting["publish_link"], *share, env=environment) as cart:
+            kept = screen(dora.wait_for(lambda f: screen(f, "scope"), 20), "scope")
+            self.assertEqual((kept["position"], kept["scale"], kept["screen"]["pinned"]), ([0, 1.5, -0.5], 0.4, True))
+            dora.say(f"end {kept['id']}")
+            self.assertEqual(cart.end(), 0, "nothing is left to send")
+            dora.wait_for(lambda f: not screen(f, "scope") and not camera(f, "scope"), 10)
+        with host(self.folder / "state4", f"recording:{recording}", f"recording:{recording},camera=1") as h, \
+                self.person(h.greeting["link"], "Ben") as ben:
+            ben.wait_for(lambda f: screen(f, "scope") and screen(f, "scope")["recorded"]
+                         and screen(f, "scope")["screen"]["pinned"]
+                         and screen(f, "scope")["position"] == [0, 1.5, -0.5], 20)
 
     def test_what_is_no_video_is_refused_with_a_sentence(self):
         bad = self.folder / "bad.mp4"
@@ -69,6 +162,42 @@ class Screens(unittest.TestCase):
             code, _, errors = run("publish", h.greeting["publish_link"])
             self.assertEqual(code, 1)
             self.assertIn("--share", errors)
+
+    def test_the_mouse_moves_a_screen_and_its_panel_pins_and_ends_it(self):
+        width, height, middle = 720, 600, (360, 300)
+        shared = f"{self.video},loop=1,width=0.2,place=0:1.5:-0.5"
+        environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "cart")}
+        with VirtualScreen(width, height) as x11, host(self.folder / "state5", self.lamp) as h, \
+                self.person(h.greeting["link"], "Ben") as ben, \
+                Process("publish", h.greeting["publish_link"], "--share", shared, env=environment) as cart, \
+                Process("join", h.greeting["links"]["operator"], "--name", "Dora", "--size", f"{width}x{height}",
+                        "--render-scale", "1", "--renderer", "mesh", "--quality", "low", env=x11.environment) as window:
+            scope = lambda f: screen(f, "scope")
+            ben.wait_for(lambda f: scope(f) and len(f["room"]["people"]) == 2, 20)
+            blue_green_red = lambda x, y: x11.pixels(x, y, 1, 1)[0][:3]
+            is_shown = lambda x, y: is_green(blue_green_red(x, y)[::-1])
+            wait_until(lambda: is_shown(*middle), 30)
+            drag = ("mousemove", *middle, "sleep", 0.2, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2)
+            end_drag = ("mousemove", 440, 300, "sleep", 0.2, "mouseup", 1)
+            x11.do(*drag, "key", "plus", "sleep", 0.2, *end_drag)
+            moved = scope(ben.wait_for(lambda f: scope(f) and scope(f)["position"][0] > 0.05 and not scope(f)["held_by"], 10))
+            self.assertAlmostEqual(moved["position"][1], 1.5, places=2)
+            self.assertAlmostEqual(moved["scale"], 0.2 * 1.15)
+            wait_until(lambda: is_shown(440, 300))
+
+            x11.do("mousemove", 700, 590, "key", "p")
+            buttons = lambda: x11.buttons(width, height)
+            # Smaller, Larger, Pin in place, End share.
+            wait_until(lambda: len(buttons()) >= 4)
+            x11.do("mousemove", *buttons()[-2], "click", 1)
+            ben.wait_for(lambda f: scope(f)["screen"]["pinned"], 10)
+            x11.do("mousemove", 440, 300, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2, "mouseup", 1)
+            self.assertEqual(scope(ben.newest_json())["position"], moved["position"])
+            x11.do("mousemove", *buttons()[-1], "click", 1)
+            ben.wait_for(lambda f: not scope(f), 10)
+            self.assertEqual(cart.end(), 0)
+            x11.do("key", "Escape", "sleep", 0.3, "key", "Escape")
+            self.assertEqual(window.end(), 0, "".join(window.errors))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shared screens in the host's room: their places, and what participants may do with them.
+#include <algorithm>
+#include <utility>
+
+#include "session/host_room.h"
+#include "session/screen_places.h"
+
+namespace theatron::session {
+namespace {
+
+ObjectId object_of(const Request& request) {
+    return std::visit(
+        [](const auto& wanted) {
+            if constexpr (requires { wanted.object; })
+                return wanted.object;
+            return ObjectId{};
+        },
+        request);
+}
+
+}  // namespace
+
+ScreenPlace HostRoom::place_screen(const ScreenOffer& offer,
+                                   const std::vector<ScreenPlace>& further) const {
+    std::vector<ScreenPlace> others = further;
+    for (const auto& [id, object] : state_.objects())
+        if (const auto screen = decode_shared_screen(object.kind, object.properties);
+            screen && screen->camera)
+            others.push_back(place_of(object, *screen));
+    ScreenPlace place = screen_place(offer.calibration);
+    place.width_m = clamped_screen_width(place.width_m);
+    const Size picture = offer.calibration.color.size;
+    const auto set_width = [&](double width_m) {
+        place.width_m = width_m;
+        place.height_m = width_m * picture.height / picture.width;
+    };
+    set_width(place.width_m);
+    if (const auto kept = find_kept(offer)) {
+        const RoomObject& before = state_.objects().at(*kept);
+        set_width(before.scale);
+        place.room_from_screen = before.room_from_object;
+        if (std::none_of(others.begin(), others.end(),
+                         [&](const ScreenPlace& other) { return overlap(place, other); }))
+            return place;
+    } else if (offer.calibration.registered) {
+        return place;
+    }
+    place.room_from_screen =
+        free_screen_place(place.width_m, place.height_m, others).value_or(usual_screen_place);
+    return place;
+}
+
+void HostRoom::add_screen(CameraId camera, const ScreenOffer& offer, const ScreenPlace& place) {
+    const auto kept = find_kept(offer);
+    SharedScreen screen;
+    if (kept) {
+        const RoomObject& before = state_.objects().at(*kept);
+        screen = *decode_shared_screen(before.kind, before.properties);
+    }
+    screen.camera = camera;
+    screen.picture = offer.calibration.color.size;
+    screen.publisher = offer.publisher_name;
+    screen.name = offer.name;
+    RoomObject object;
+    object.kind = ObjectKind::screen;
+    object.creator = offer.publisher;
+    object.room_from_object = place.room_from_screen;
+    object.scale = place.width_m;
+    object.properties = encode_shared_screen(screen);
+    // A calibration may have a picture or a place beyond the limits of objects; then the screen
+    // stays where it is.
+    if (!decode_shared_screen(object.kind, object.properties))
+        return;
+    const auto change = state_.put(kept, std::move(object));
+    if (!change)
+        return;
+    tell(*change);
+    sharers_[change->object] = offer.person;
+    for (const auto& [id, member] : members_)
+        if (!members_.contains(offer.publisher) && !offer.person.empty() &&
+            member.person == offer.person)
+            return take_own_screens(id);
+}
+
+void HostRoom::take_own_screens(ParticipantId id) {
+    const Bytes& person = members_.at(id).person;
+    std::vector<ObjectId> own;
+    for (const auto& [screen, sharer] : sharers_) {
+        const auto found = state_.objects().find(screen);
+        if (!person.empty() && sharer == person && found != state_.objects().end() &&
+            !members_.contains(found->second.creator))
+            own.push_back(screen);
+    }
+    for (const RoomChange& change : state_.set_creator(own, id))
+        tell(change);
+}
+
+void HostRoom::remove_screen(CameraId camera) {
+    for (const auto& [id, object] : state_.objects()) {
+        auto screen = decode_shared_screen(object.kind, object.properties);
+        if (!screen || screen->camera != camera)
+            continue;
+        screen->camera.reset();
+        RoomObject away = object;
+        away.grip = {};
+        away.properties = encode_shared_screen(*screen);
+        sharers_.erase(id);
+        if (const auto change = state_.put(id, std::move(away)))
+            tell(*change);
+        return drop_oldest_kept();
+    }
+}
+
+// Objects are in the order of their age.
+void HostRoom::drop_oldest_kept() {
+    std::vector<ObjectId> away;
+    for (const auto& [id, object] : state_.objects())
+        if (const auto screen = decode_shared_screen(object.kind, object.properties);
+            screen && !screen->camera)
+            away.push_back(id);
+    if (away.size() <= max_kept_screens)
+        return;
+    away.resize(away.size() - max_kept_screens);
+    for (const RoomChange& change : state_.remove(away))
+        tell(change);
+}
+
+void HostRoom::forget_sources() {
+    const RoomObjects objects = state_.objects();
+    for (const auto& [id, object] : objects) {
+        if (!is_shared_screen(object))
+            continue;
+        auto screen = decode_shared_screen(object.kind, object.properties);
+        if (!screen || !is_screen_width(object.scale)) {
+            (void)state_.remove({id});
+            continue;
+        }
+        screen->camera.reset();
+        RoomObject away = object;
+        away.creator = {};
+        away.properties = encode_shared_screen(*screen);
+        if (!state_.put(id, std::move(away)))
+            (void)state_.remove({id});
+    }
+    drop_oldest_kept();
+}
+
+std::optional<ObjectId> HostRoom::find_kept(const ScreenOffer& offer) const {
+    for (const auto& [id, object] : state_.objects())
+        if (const auto screen = decode_shared_screen(object.kind, object.properties);
+            screen && !screen->camera && screen->publisher == offer.publisher_name &&
+            screen->name == offer.name)
+            return id;
+    return std::nullopt;
+}
+
+bool HostRoom::is_sharer(ParticipantId id, ObjectId screen) const {
+    if (state_.objects().at(screen).creator == id)
+        return true;
+    const auto sharer = sharers_.find(screen);
+    return sharer != sharers_.end() && !sharer->second.empty() &&
+           sharer->second == members_.at(id).person;
+}
+
+std::optional<CameraId> HostRoom::camera_of_removed(const Request& request) const {
+    const auto* remove = std::get_if<request::Remove>(&request);
+    const auto found = remove ? state_.objects().find(remove->object) : state_.objects().end();
+    if (found == state_.objects().end())
+        return std::nullopt;
+    const auto screen = decode_shared_screen(found->second.kind, found->second.properties);
+    return screen ? screen->camera : std::nullopt;
+}
+
+// nullopt: the request is decided as that on any object.
+std::optional<RoomState::Decision> HostRoom::decide_on_screen(ParticipantId id,
+                                                              const Request& request) {
+    const ObjectId named = object_of(request);
+    const auto found = state_.objects().find(named);
+    if (found == state_.objects().end() || !is_shared_screen(found->second))
+        return std::nullopt;
+    const auto refused = [](Refusal refusal) { return RoomState::Decision{refusal, {}}; };
+    const RoomObject& object = found->second;
+    const auto before = decode_shared_screen(object.kind, object.properties);
+    const bool may_decide = is_sharer(id, named) || may(members_.at(id).role, Right::manage);
+    if (!before || !before->camera)
+        return refused(Refusal::no_such_object);
+    if (std::holds_alternative<request::Grab>(request) && before->pinned)
+        return refused(Refusal::pinned);
+    if (const auto* change = std::get_if<request::SetProperties>(&request)) {
+        auto after = decode_shared_screen(ObjectKind::screen, change->properties);
+        if (!after)
+            return refused(Refusal::malformed);
+        SharedScreen same = *before;
+        same.pinned = after->pinned;
+        if (*after != same)
+            return refused(Refusal::malformed);
+        if (!may_decide)
+            return refused(Refusal::of_sharer);
+    }
+    if (std::holds_alternative<request::Remove>(request)) {
+        if (!may_decide)
+            return refused(Refusal::of_sharer);
+        // The host's own cameras do not end.
+        if (object.creator == ParticipantId{})
+            return refused(Refusal::role);
+        sharers_.erase(named);
+        // Also out of somebody's hand.
+        return RoomState::Decision{Refusal::none, state_.remove({named})};
+    }
+    return std::nullopt;
+}
+
+}  // namespace theatron::session

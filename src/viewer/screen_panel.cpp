@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/screen_panel.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "session/permissions.h"
+#include "session/shared_screen.h"
+
+namespace theatron::viewer {
+namespace {
+
+namespace request = session::request;
+
+// "Ben shares it, 1.20 m wide, pinned, Anna holds this".
+std::string state_of(const session::RoomObject& object, const session::SharedScreen& screen,
+                     const ScreenPanelFacts& facts) {
+    char width[32];
+    std::snprintf(width, sizeof(width), "%.2f m wide", object.scale);
+    std::string text = (object.creator == ParticipantId{} ? "of the host"
+                        : object.creator == facts.self    ? "you share it"
+                                                          : screen.publisher + " shares it") +
+                       ", " + width;
+    if (screen.pinned)
+        text += ", pinned";
+    const ParticipantId holder = object.grip.holder;
+    if (holder == facts.self && holder != ParticipantId{})
+        text += ", you hold it";
+    else if (const auto name = facts.names.find(holder); name != facts.names.end())
+        text += ", " + name->second + " holds it";
+    return text;
+}
+
+}  // namespace
+
+bool may_decide_on_screen(const session::RoomObject& screen, ParticipantId self, wire::Role role) {
+    return session::may(role, session::Right::manage) ||
+           (screen.creator == self && session::may(role, session::Right::handle));
+}
+
+void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
+    using What = ChangeScreen::What;
+    xr::Panel screens{"Screens", {}};
+    for (const auto& [id, object] : *facts.objects) {
+        const auto screen = session::decode_shared_screen(object.kind, object.properties);
+        if (!screen || !screen->camera || session::is_recorded(id))
+            continue;
+        xr::PanelRow row{screen->name, state_of(object, *screen, facts), {}};
+        const auto add = [&, number = id](const char* label, What what) {
+            panel.commands.push_back(ChangeScreen{what, number});
+            row.buttons.push_back({label, int(panel.commands.size()) - 1});
+        };
+        if (session::may(facts.role, session::Right::handle) && !screen->pinned &&
+            object.grip.holder == ParticipantId{}) {
+            add("Smaller", What::smaller);
+            add("Larger", What::larger);
+        }
+        if (may_decide_on_screen(object, facts.self, facts.role)) {
+            add(screen->pinned ? "Unpin" : "Pin in place",
+                screen->pinned ? What::unpin : What::pin);
+            // The host's own screens do not end.
+            if (object.creator != ParticipantId{})
+                add("End share", What::end);
+        }
+        screens.rows.push_back(std::move(row));
+    }
+    if (!screens.rows.empty())
+        panel.panels.push_back(std::move(screens));
+}
+
+bool change_screen(const ChangeScreen& change, client::Participant& participant) {
+    const auto room = participant.room();
+    const auto found = room.objects.find(change.screen);
+    if (found == room.objects.end())
+        return false;
+    const session::RoomObject& object = found->second;
+    auto screen = session::decode_shared_screen(object.kind, object.properties);
+    if (!screen || !screen->camera)
+        return false;
+    using What = ChangeScreen::What;
+    switch (change.what) {
+        case What::smaller:
+        case What::larger: {
+            const double factor =
+                change.what == What::larger ? screen_width_step : 1 / screen_width_step;
+            const std::uint32_t grip = participant.ask_room(request::Grab{change.screen});
+            participant.ask_room(
+                request::Release{change.screen, grip, object.room_from_object,
+                                 session::clamped_screen_width(object.scale * factor)});
+            break;
+        }
+        case What::pin:
+        case What::unpin:
+            screen->pinned = change.what == What::pin;
+            participant.ask_room(
+                request::SetProperties{change.screen, session::encode_shared_screen(*screen)});
+            break;
+        case What::end:
+            participant.ask_room(request::Remove{change.screen});
+            break;
+    }
+    return true;
+}
+
+}  // namespace theatron::viewer

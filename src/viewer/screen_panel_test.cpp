@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/screen_panel.h"
+
+#include <gtest/gtest.h>
+
+#include "session/shared_screen.h"
+
+namespace theatron::viewer {
+namespace {
+
+using What = ChangeScreen::What;
+constexpr ParticipantId self{1}, ben{2};
+constexpr session::ObjectId scope{7};
+
+session::RoomObject shared_by(ParticipantId by, bool pinned = false,
+                              std::optional<CameraId> camera = CameraId{3}) {
+    session::RoomObject object;
+    object.kind = session::ObjectKind::screen;
+    object.creator = by;
+    object.scale = 1.2;
+    object.properties = session::encode_shared_screen(
+        {camera, pinned, {1920, 1080}, by == self ? "Anna" : "Ben", "scope"});
+    return object;
+}
+
+struct Shown {
+    std::string detail;
+    std::vector<std::string> labels;
+    std::vector<ChangeScreen> commands;
+};
+// The row of the only screen; nothing: there is no panel.
+std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
+    const session::RoomObjects objects{{scope, object}};
+    RoomPanel panel;
+    panel.commands.push_back(Call{});  // of another panel
+    add_screen_panel({&objects, self, role, {{ben, "Ben"}}}, panel);
+    if (panel.panels.empty())
+        return std::nullopt;
+    const xr::PanelRow& row = panel.panels.at(0).rows.at(0);
+    EXPECT_EQ(row.text, "scope");
+    Shown result{row.detail, {}, {}};
+    for (const xr::PanelButton& button : row.buttons) {
+        result.labels.push_back(button.label);
+        result.commands.push_back(
+            std::get<ChangeScreen>(panel.commands.at(std::size_t(button.command))));
+        EXPECT_EQ(result.commands.back().screen, scope);
+    }
+    return result;
+}
+
+using Labels = std::vector<std::string>;
+
+TEST(ScreenPanel, TheSharerPinsAndEndsTheirShare) {
+    const auto own = shown(shared_by(self), wire::Role::publisher);
+    ASSERT_TRUE(own);
+    EXPECT_EQ(own->detail, "you share it, 1.20 m wide");
+    EXPECT_EQ(own->labels, (Labels{"Smaller", "Larger", "Pin in place", "End share"}));
+    EXPECT_EQ(own->commands[2].what, What::pin);
+    EXPECT_EQ(own->commands[3].what, What::end);
+    const auto pinned = shown(shared_by(self, true), wire::Role::publisher);
+    EXPECT_EQ(pinned->detail, "you share it, 1.20 m wide, pinned");
+    EXPECT_EQ(pinned->labels, (Labels{"Unpin", "End share"}));
+    EXPECT_EQ(pinned->commands[0].what, What::unpin);
+}
+
+TEST(ScreenPanel, OthersScaleItAndOperatorsDoAll) {
+    EXPECT_EQ(shown(shared_by(ben), wire::Role::expert)->labels, (Labels{"Smaller", "Larger"}));
+    EXPECT_EQ(shown(shared_by(ben), wire::Role::operator_)->labels,
+              (Labels{"Smaller", "Larger", "Pin in place", "End share"}));
+    EXPECT_EQ(shown(shared_by(ben), wire::Role::observer)->labels, Labels{});
+    EXPECT_EQ(shown(shared_by(ben, true), wire::Role::expert)->labels, Labels{});
+}
+
+TEST(ScreenPanel, AHeldScreenSaysByWhom) {
+    session::RoomObject held = shared_by(ben);
+    held.grip.holder = ben;
+    const auto row = shown(held, wire::Role::expert);
+    EXPECT_EQ(row->detail, "Ben shares it, 1.20 m wide, Ben holds it");
+    EXPECT_EQ(row->labels, Labels{});
+}
+
+TEST(ScreenPanel, AScreenWhoseSourceIsAwayIsNotListed) {
+    EXPECT_FALSE(shown(shared_by(ben, false, std::nullopt), wire::Role::operator_));
+}
+
+}  // namespace
+}  // namespace theatron::viewer
