@@ -100,12 +100,12 @@ void Host::follow_certificates() {
             host.link.fingerprint = linked.fingerprint;
             address = host.link;
         }
-        log::info("host", "links changed with the certificate, browsers can use the old ones");
         try {
             write_address(host.state, address);
         } catch (const Error& error) {
             log::warning("host", "'theatron link' shows old links", {{"problem", error.what()}});
         }
+        log::info("host", "links changed with the certificate, browsers can use the old ones");
     }
     host.note_certificates();
 }
