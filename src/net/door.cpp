@@ -259,7 +259,6 @@ private:
         parser_.skip(true);
         http::async_read_header(*stream_, incoming_, parser_, step([this] {
             has_request_ = true;
-            extend(first_message_deadline, "did not join in time");
             if (door_.access.proxies.contains(address_))
                 find_client();
             else
@@ -280,11 +279,13 @@ private:
         address_ = *client;
         if (const auto evicted = door_.places.act_for(id_, address_group(address_)))
             door_.turn_away(*evicted, "had to go for others");
+        extend(first_message_deadline, "asked too often");
         door_.places.want_handshake(id_);
         door_.begin_handshakes();
     }
 
     void decide() {
+        extend(first_message_deadline, "did not join in time");
         const auto& request = parser_.get();
         const std::string_view host = view(request[http::field::host]);
         const auto& name = door_.access.name;
