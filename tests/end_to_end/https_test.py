@@ -62,7 +62,7 @@ class Https(unittest.TestCase):
                 peer.receive_control("Welcome")
                 self.install("second")
                 wait_until(lambda: shown_fingerprint(link) == second, 20)
-                # Who is in stays in.
+                # Participants who are in stay in.
                 peer.send_control("Ping", sent_us=1)
                 peer.receive_control("Pong")
             wait_until(lambda: any("links changed with the certificate" in line for line in h.errors), 20)

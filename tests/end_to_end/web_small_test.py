@@ -30,7 +30,7 @@ BESIDE = """[...document.querySelectorAll("button, input, select, p, h1, h2, li,
     (e.getBoundingClientRect().left < 0 || e.getBoundingClientRect().right > innerWidth + 0.5))
     .map(e => e.id || e.textContent)"""
 
-# What lies over the corners and the middle of the 2D view's picture, which fills the canvas in one direction.
+# Elements that lie over the corners and the middle of the 2D view's picture, which fills the canvas in one direction.
 COVERED = """(() => {
     const canvas = document.getElementById("flat"), box = canvas.getBoundingClientRect();
     const scale = Math.min(box.width / canvas.width, box.height / canvas.height);
