@@ -51,7 +51,7 @@ struct Flags {
     std::string places;
     std::string audit, admit = "all";
     std::string cases;
-    std::string certificate, key;
+    std::string certificate, key, proxy_certificate;
     double seconds = 0;
     double link_hours = 0;
     bool json = false;
@@ -136,6 +136,7 @@ void run(Flags& flags) {
     flags.options.cases = flags.cases;
     flags.options.certificate = flags.certificate;
     flags.options.key = flags.key;
+    flags.options.proxy_certificate = flags.proxy_certificate;
     flags.options.page = host::usual_page_folder();
     flags.options.is_audited = flags.audit != "none";
     if (flags.options.is_audited)
@@ -188,6 +189,7 @@ void run(Flags& flags) {
         host.follow_links();
         if (steady_now() >= next_look) {
             host.follow_filter_files();
+            host.follow_certificates();
             next_look = steady_now() + 500ms;
         }
         if (live_line && steady_now() >= next_line) {
@@ -264,11 +266,27 @@ void add_host_command(CLI::App& app) {
     auto* certificate = command->add_option(
         "--certificate", flags->certificate,
         "Your organisation's certificate as a PEM file, with those of its issuers, so that "
-        "browsers do not warn (docs/browser.md); by default the host makes one itself");
+        "browsers do not warn (docs/hospital_it.md); by default the host makes one itself. It is "
+        "read again when it changes");
     auto* key =
         command->add_option("--key", flags->key, "Its key, a PEM file that only you may read");
     certificate->needs(key);
     key->needs(certificate);
+    command->add_flag("--hsts", flags->options.insists_on_https,
+                      "With --certificate: browsers use only HTTPS for this name for a year "
+                      "(Strict-Transport-Security)");
+    command->add_option(
+        "--public-name", flags->options.public_name,
+        "NAME or NAME:PORT under which participants reach this host: part of the links; requests "
+        "for other names are refused");
+    command
+        ->add_option("--behind-proxy", flags->options.proxies,
+                     "ADDRESS or NETWORK/BITS of a proxy (nginx, Caddy) whose X-Forwarded-For is "
+                     "believed; repeat for more. Needs --public-name and --proxy-certificate")
+        ->allow_extra_args(false);
+    command->add_option("--proxy-certificate", flags->proxy_certificate,
+                        "The proxy's certificate as a PEM file, for the links; read again when it "
+                        "changes");
     command->add_option("--name", flags->options.name, "What participants see as the room's name")
         ->capture_default_str();
     command->add_option(

@@ -24,7 +24,7 @@ void FlatView::next_camera() {
     camera_ = next->first;
 }
 
-bool FlatView::take() {
+bool FlatView::take(TimePoint now) {
     if (const auto status = participant_.status();
         status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
@@ -64,6 +64,7 @@ bool FlatView::take() {
         }
     }
     ++pictures_;
+    drawn_.add(now);
     return true;
 }
 
@@ -80,10 +81,12 @@ void FlatView::note(const std::string& text, TimePoint now) {
     notice_until_ = now + notice_time;
 }
 
-nlohmann::json FlatView::state(const std::string& address, TimePoint now) const {
+nlohmann::json FlatView::state(const std::string& address, TimePoint now) {
     viewer::Facts facts;
     facts.received = client::figures_of(participant_);
     facts.has_picture = camera_.has_value();
+    facts.drawn_per_second = drawn_.per_second(now);
+    facts.most_drawn_per_second = pictures_per_second;
     facts.way.renderer = "flat";
     if (now < notice_until_)
         facts.notice = notice_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "base/statistics.h"
 #include "client/participant.h"
 
 namespace theatron::web {
@@ -17,6 +18,8 @@ class FlatView {
 public:
     // More pixels are left out: the canvas shows them anyway, and the computer is slow.
     static constexpr int most_flat_width = 640;
+    // As often as page/graphics.js asks for a picture.
+    static constexpr double pictures_per_second = 5;
 
     // `participant` must outlive the view.
     explicit FlatView(client::Participant& participant) : participant_(participant) {}
@@ -25,13 +28,13 @@ public:
     void next_camera();
     // Takes over new frames. True if the camera's picture is another one: see pixels(). Throws
     // Error if the host refused this participant.
-    bool take();
+    bool take(TimePoint now);
     // Red, green, blue and 255, row by row from above.
     const Bytes& pixels() const { return pixels_; }
     Size size() const { return size_; }
 
     // As page_state(), without what only the room shows.
-    nlohmann::json state(const std::string& address, TimePoint now) const;
+    nlohmann::json state(const std::string& address, TimePoint now);
     void note(const std::string& text, TimePoint now);
 
 private:
@@ -44,6 +47,7 @@ private:
     Bytes pixels_;
     Size size_;
     std::uint64_t pictures_ = 0;
+    RateWindow drawn_;
     std::string notice_;
     TimePoint notice_until_;
 };

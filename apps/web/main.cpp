@@ -265,7 +265,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_join_flat(const char* host, int port, const c
 EMSCRIPTEN_KEEPALIVE const std::byte* theatron_flat_picture() {
     bool is_new = false;
     if (page().flat)
-        web::guarded([&] { is_new = page().flat->view.take(); });
+        web::guarded([&] { is_new = page().flat->view.take(steady_now()); });
     return is_new && page().flat ? page().flat->view.pixels().data() : nullptr;
 }
 EMSCRIPTEN_KEEPALIVE int theatron_flat_width() {

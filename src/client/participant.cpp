@@ -284,7 +284,7 @@ void Participant::on_control(ByteView message) {
             }
             if (is_new)
                 offer_cameras();
-            if (is_new && options_.described)
+            if (is_new && session_.joined() && options_.described)
                 options_.described();
             break;
         }
@@ -354,6 +354,11 @@ void Participant::on_control(ByteView message) {
     }
 }
 
+bool Participant::waits() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->status.phase == Phase::waiting;
+}
+
 void Participant::ping(TimePoint local) {
     shared_->client->send_control(wire::encode(wire::Ping{local}));
     // The offset is wanted soon; then it only has to follow the drift.
@@ -363,10 +368,10 @@ void Participant::ping(TimePoint local) {
 void Participant::on_tick() {
     const TimePoint local = steady_now();
     net::Client& client = *shared_->client;
+    if (local >= next_ping_ && (session_.joined() || waits()))
+        ping(local);
     if (!session_.joined())
         return;
-    if (local >= next_ping_)
-        ping(local);
 
     std::string depth_wish, color_wish;
     std::optional<wire::ChooseDelivery> delivery_wish;

@@ -257,6 +257,7 @@ private:
     void on_cameras();
     void on_camera_states();
     void on_tick();
+    bool waits() const;  // for admission
     void ping(TimePoint local);
     void announce() const;
     void remark(const std::string& text) const;

@@ -102,9 +102,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         }
     const bool has_room = played && played->recording->room().present;
     room_file = std::make_unique<RoomFile>(state / "room");
-    certificate = options.certificate.empty()
-                      ? net::load_or_make_certificate(state)
-                      : net::read_certificate(options.certificate, options.key);
+    const net::Access access = open_access(options);
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
@@ -139,14 +137,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         config.cameras.push_back(
             describe(cameras[i]->info(), has_room && plays(*played, options.cameras[i])));
 
-    link = {options.link_host, 0, "", certificate.fingerprint};
     session = std::make_unique<session::HostSession>(std::move(config));
-    server = std::make_unique<net::Server>(options.listen, certificate, handler());
-    link.port = server->port();
-    const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
-    if (link.host.empty())
-        link.host = everywhere ? outside_address() : options.listen.address;
-    write_address(state, link);
+    server =
+        std::make_unique<net::Server>(options.listen, certificate->current(), handler(), access);
+    note_link(options, access);
     audit_beginning();
 
     // The lanes never change once the server's thread runs.
@@ -232,14 +226,18 @@ Host::Host(const HostOptions& options, const capture::Progress& progress)
 Host::~Host() = default;
 
 std::string Host::link(wire::Role role) const {
-    net::Link link = impl_->link;
+    net::Link link;
+    {
+        const std::lock_guard lock(impl_->link_mutex);
+        link = impl_->link;
+    }
     link.token = impl_->token_of(role);
     link.role = wire::text_of(role);
     return net::format_link(link);
 }
 
 std::uint16_t Host::port() const {
-    return impl_->link.port;
+    return impl_->server->port();
 }
 
 std::vector<std::string> Host::camera_names() const {

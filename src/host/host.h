@@ -35,7 +35,13 @@ struct HostOptions {
     // Files of an organisation's certificate, for browsers (net::read_certificate); empty: the
     // host's own one.
     std::filesystem::path certificate, key;
-    std::filesystem::path page;  // the browser client (host/page.h); empty: none
+    bool insists_on_https = false;  // answers carry Strict-Transport-Security; needs `certificate`
+    // "NAME" or "NAME:PORT" (net::parse_public_name), of links instead of `link_host`; requests for
+    // other names are refused. Empty: every name is right.
+    std::string public_name;
+    std::vector<std::string> proxies;         // trusted ones (net::Proxies)
+    std::filesystem::path proxy_certificate;  // that they show, for links; needed with `proxies`
+    std::filesystem::path page;               // the browser client (host/page.h); empty: none
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
@@ -45,7 +51,7 @@ public:
     Host(const HostOptions& options, const capture::Progress& progress);
     ~Host();
 
-    // The link of a role, which stays valid.
+    // The link of a role, which stays valid, except that it changes with the certificate.
     std::string link(wire::Role role = wire::Role::expert) const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
@@ -75,6 +81,9 @@ public:
     void follow_filter_files();
     // The same for links that were made or revoked (host/link_book.h).
     void follow_links();
+
+    // The same for certificates. Their problems are also logged, and part of the figures.
+    void follow_certificates();
 
     // Carries out a decision of the person at this machine, as one of an operator. A refusal is
     // printed.

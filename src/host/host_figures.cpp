@@ -32,6 +32,13 @@ double age_ms(const HostFigures::Participant& participant) {
     return to_ms(age);
 }
 
+// Negative after its end.
+files::UtcSeconds seconds_left(const HostFigures& figures,
+                               const HostFigures::Certificate& certificate) {
+    const auto now = std::chrono::floor<std::chrono::seconds>(figures.utc);
+    return certificate.ends - now.time_since_epoch().count();
+}
+
 nlohmann::json camera_json(const HostFigures::Camera& camera) {
     const send::LaneFigures& f = camera.lane;
     nlohmann::json stages = nlohmann::json::array();
@@ -159,6 +166,13 @@ nlohmann::json to_json(const HostFigures& figures) {
                             {"name", visitor.name},
                             {"person", hex_text(visitor.person)},
                             {"role", wire::text_of(visitor.role)}});
+    nlohmann::json certificates = nlohmann::json::array();
+    for (const auto& certificate : figures.certificates)
+        certificates.push_back({{"of", certificate.of},
+                                {"fingerprint", certificate.fingerprint},
+                                {"expires", files::utc_text(certificate.ends)},
+                                {"seconds_left", seconds_left(figures, certificate)},
+                                {"problem", certificate.problem}});
     return {{"name", figures.name},
             {"utc", utc_text(figures.utc)},
             {"session_us", to_us(figures.session_time)},
@@ -170,7 +184,8 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"overlaps", overlaps},
             {"visitors", visitors},
             {"turned_away", figures.turned_away},
-            {"faults", figures.faults}};
+            {"faults", figures.faults},
+            {"certificates", certificates}};
 }
 
 std::string to_prometheus(const HostFigures& figures) {
@@ -266,6 +281,13 @@ std::string to_prometheus(const HostFigures& figures) {
     out.family("faults_total", "counter",
                "Faults that cost a connection, a picture or a camera and not the host.");
     out.value("", double(figures.faults));
+    out.family("certificate_seconds_left", "gauge", "Until a certificate expires.");
+    for (const auto& certificate : figures.certificates)
+        out.value("of=" + quoted(certificate.of), double(seconds_left(figures, certificate)));
+    out.family("certificate_problem", "gauge",
+               "1 while a certificate must be looked after; status says why.");
+    for (const auto& certificate : figures.certificates)
+        out.value("of=" + quoted(certificate.of), certificate.problem.empty() ? 0 : 1);
     out.family("uptime_seconds", "counter", "Since the host began.");
     out.value("", figures.seconds);
     return out.take();
@@ -297,6 +319,9 @@ std::string to_table(const nlohmann::json& figures) {
     };
     count("faults", "faults inside the host, see its log");
     count("turned_away", "strangers turned away");
+    for (const auto& certificate : list(figures, "certificates"))
+        if (const std::string problem = text(certificate, "problem"); !problem.empty())
+            table += problem + "\n";
     std::snprintf(line, sizeof(line), "%-24s %-7s %6s %8s %8s %8s %8s %8s  %s\n", "camera", "state",
                   "fps", "age ms", "lane ms", "p99 ms", "dropped", "reopens", "filter");
     table += line;

@@ -10,6 +10,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "base/utc.h"
+#include "files/utc_text.h"
 #include "host/place_watch.h"
 #include "send/lane_figures.h"
 #include "wire/control.h"
@@ -54,6 +55,14 @@ struct HostFigures {
     std::uint64_t turned_away = 0;             // strangers, since the host began
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
+    struct Certificate {
+        std::string of;  // "host" or "proxy"
+        std::string fingerprint;
+        files::UtcSeconds ends = 0;
+        std::string problem;  // a sentence; empty: all is well
+    };
+    std::vector<Certificate> certificates;
+
     // Empty: the camera is as registered.
     std::string adjustment(CameraId camera) const {
         const auto found = adjusted.find(camera);
@@ -65,7 +74,8 @@ struct HostFigures {
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","role","muted",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
+// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults",
+// "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 
 // The text format of Prometheus, version 0.0.4.

@@ -489,6 +489,7 @@ HostFigures Host::Impl::figures() const {
     if (place_watch)
         figures.places = place_watch->figures();
     figures.visitors = visitor_figures;
+    figures.certificates = certificate_figures;
     figures.has_ended = ended_figure;
     figures.turned_away = turned_away;
     figures.faults = fault_count();

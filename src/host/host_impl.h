@@ -15,6 +15,7 @@
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "host/host_identity.h"
+#include "host/kept_certificate.h"
 #include "host/link_book.h"
 #include "host/page.h"
 #include "host/place_watch.h"
@@ -33,8 +34,11 @@ namespace theatron::host {
 
 struct Host::Impl {
     std::atomic<std::size_t>& participants;
-    net::Certificate certificate;
-    net::Link link;  // without a token
+    // Used by the owner of the host.
+    std::optional<KeptCertificate> certificate, proxy_certificate;
+    std::map<std::string, std::string> told_of_certificates;  // problems that were logged
+    mutable std::mutex link_mutex;
+    net::Link link;  // without a token; changed by the owner of the host, guarded by link_mutex
     std::filesystem::path state;
     std::optional<LinkWatch> link_watch;    // used by the owner of the host
     std::optional<TimePoint> roles_expire;  // the links of the roles
@@ -85,6 +89,7 @@ struct Host::Impl {
     std::vector<wire::Visitor> visitor_figures;
     bool ended_figure = false;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
+    std::vector<HostFigures::Certificate> certificate_figures;
     std::string name;
     const TimePoint begun = steady_now();
 
@@ -128,6 +133,12 @@ struct Host::Impl {
 
     void open(const HostOptions& options, const capture::Progress& progress);
     void audit_beginning();
+    // Throws Error with one sentence about options that do not fit together.
+    net::Access open_access(const HostOptions& options);
+    // When the server has its port.
+    void note_link(const HostOptions& options, const net::Access& access);
+    const net::Certificate& linked_certificate() const;
+    void note_certificates();
     // Reads all links, for the session and for the door.
     std::vector<session::Admission::Token> load_tokens();
     std::string token_of(wire::Role role) const;

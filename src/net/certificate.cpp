@@ -7,7 +7,9 @@
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509.h>
+#include <openssl/x509v3.h>
 
+#include <ctime>
 #include <memory>
 
 #include "base/error.h"
@@ -25,6 +27,7 @@ struct Deleter {
 };
 using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY_free>>;
 using X509Ptr = std::unique_ptr<X509, Deleter<X509_free>>;
+using Extension = std::unique_ptr<X509_EXTENSION, Deleter<X509_EXTENSION_free>>;
 using Bio = std::unique_ptr<BIO, Deleter<BIO_free_all>>;
 
 std::string hex(const unsigned char* bytes, std::size_t count) {
@@ -56,6 +59,14 @@ bool complete(Certificate& c) {
         return false;
     c.fingerprint = certificate_fingerprint(x509.get());
     return true;
+}
+
+// OpenSSL writes every time of a certificate in UTC.
+files::UtcSeconds utc_of(const ASN1_TIME* time) {
+    std::tm parts{};
+    if (!time || ASN1_TIME_to_tm(time, &parts) != 1)
+        throw Error("The certificate names no time of its end.");
+    return timegm(&parts);
 }
 
 std::string content(BIO* bio) {
@@ -94,6 +105,11 @@ Certificate make_certificate() {
     X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC,
                                reinterpret_cast<const unsigned char*>("theatron"), -1, -1, 0);
     X509_set_issuer_name(x509.get(), name);
+    // Proxies that compare names look for them only here.
+    const Extension names(
+        X509V3_EXT_conf_nid(nullptr, nullptr, NID_subject_alt_name, "DNS:theatron"));
+    if (!names || X509_add_ext(x509.get(), names.get(), -1) != 1)
+        throw Error("Cannot name the certificate for TLS.");
     if (!X509_sign(x509.get(), key.get(), EVP_sha256()))
         throw Error("Cannot sign the certificate for TLS.");
 
@@ -135,14 +151,40 @@ Certificate read_certificate(const std::filesystem::path& certificate,
             return *std::move(text);
         throw Error("There is no file '" + file.string() + "'; name one with PEM blocks.");
     };
-    Certificate c{read(certificate, Privacy::readable), read(key, Privacy::secret), ""};
-    if (!complete(c))
-        throw Error("'" + certificate.string() + "' and '" + key.string() +
-                    "' are no certificate with its key, both in PEM; the key must have no "
-                    "passphrase.");
-    if (X509_cmp_current_time(X509_get0_notAfter(first_of(c.certificate_pem).get())) < 0)
+    Certificate c{read(certificate, Privacy::readable), "", ""};
+    if (key.empty()) {
+        const X509Ptr x509 = first_of(c.certificate_pem);
+        if (!x509)
+            throw Error("'" + certificate.string() + "' is no certificate in PEM.");
+        c.fingerprint = certificate_fingerprint(x509.get());
+    } else {
+        c.private_key_pem = read(key, Privacy::secret);
+        if (!complete(c))
+            throw Error("'" + certificate.string() + "' and '" + key.string() +
+                        "' are no certificate with its key, both in PEM; the key must have no "
+                        "passphrase.");
+    }
+    const Validity validity = validity_of(c);
+    const files::UtcSeconds now = files::utc_now();
+    if (now > validity.ends)
         throw Error("The certificate '" + certificate.string() + "' has expired; renew it.");
+    if (now < validity.begins)
+        throw Error("The certificate '" + certificate.string() + "' is valid only from " +
+                    files::utc_text(validity.begins) + " on; wait, or set this machine's clock.");
     return c;
+}
+
+Validity validity_of(const Certificate& certificate) {
+    const X509Ptr x509 = first_of(certificate.certificate_pem);
+    if (!x509)
+        throw Error("The certificate is damaged.");
+    return {utc_of(X509_get0_notBefore(x509.get())), utc_of(X509_get0_notAfter(x509.get()))};
+}
+
+bool is_for(const Certificate& certificate, const std::string& name) {
+    const X509Ptr x509 = first_of(certificate.certificate_pem);
+    return x509 && (X509_check_ip_asc(x509.get(), name.c_str(), 0) == 1 ||
+                    X509_check_host(x509.get(), name.data(), name.size(), 0, nullptr) == 1);
 }
 
 std::string random_token() {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "files/utc_text.h"
+
 struct x509_st;  // OpenSSL's X509
 
 namespace theatron::net {
@@ -29,9 +31,19 @@ Certificate load_or_make_certificate(const std::filesystem::path& folder);
 
 // Reads a certificate, perhaps followed by those of its issuers, and its key, both in PEM: those of
 // an organisation, which browsers trust. Throws Error naming the file that is missing, damaged,
-// expired, or open to others.
+// expired, not valid yet, or open to others. Without a key (empty): a certificate that another
+// program shows.
 Certificate read_certificate(const std::filesystem::path& certificate,
                              const std::filesystem::path& key);
+
+struct Validity {
+    files::UtcSeconds begins = 0, ends = 0;
+};
+// Throws Error if the certificate is damaged.
+Validity validity_of(const Certificate& certificate);
+
+// True if the certificate is one for this DNS name or IP address.
+bool is_for(const Certificate& certificate, const std::string& name);
 
 // 128 random bits as 32 hex digits.
 std::string random_token();

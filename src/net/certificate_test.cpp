@@ -114,6 +114,25 @@ TEST_F(OwnCertificate, WhoseFilesAreMissingDamagedOrOfDifferentKeysIsRefusedByNa
     EXPECT_THAT(problem(), HasSubstr("no certificate with its key"));
 }
 
+TEST_F(OwnCertificate, HasATimeAndAName) {
+    const Validity validity = validity_of(made);
+    const files::UtcSeconds now = files::utc_now(), day = 24 * 3600;
+    EXPECT_NEAR(double(validity.begins), double(now - day), 60);
+    EXPECT_NEAR(double(validity.ends), double(now + 3650 * day), 60);
+    EXPECT_TRUE(is_for(made, "theatron"));
+    EXPECT_FALSE(is_for(made, "or-3"));
+    EXPECT_FALSE(is_for(made, "127.0.0.1"));
+    EXPECT_THROW((void)validity_of({"no PEM", "", ""}), Error);
+}
+
+TEST_F(OwnCertificate, OfAnotherProgramIsReadWithoutItsKey) {
+    const Certificate read = read_certificate(folder.path() / "crt", {});
+    EXPECT_EQ(read.fingerprint, made.fingerprint);
+    EXPECT_TRUE(read.private_key_pem.empty());
+    write("crt", "no PEM");
+    EXPECT_THROW((void)read_certificate(folder.path() / "crt", {}), Error);
+}
+
 TEST_F(OwnCertificate, WhoseKeyOthersMayReadIsRefused) {
     fs::permissions(folder.path() / "key", fs::perms::group_read, fs::perm_options::add);
     EXPECT_THAT(problem(), HasSubstr("key"));

@@ -104,6 +104,30 @@ TEST(Connection, RefusesAnotherCertificate) {
     EXPECT_NE(end.why.find("another certificate"), std::string::npos);
 }
 
+TEST(Connection, AnotherCertificateIsShownFromNowOnAndWhoIsInStaysIn) {
+    TestServer server({});
+    const Certificate other = make_certificate();
+    const Link old_link = server.link();
+    Link new_link = old_link;
+    new_link.fingerprint = other.fingerprint;
+    const auto end_of = [](const Link& link, const std::function<void(Client&)>& connected) {
+        Client::Handler h = client_handler();
+        Client* self = nullptr;
+        h.connected = [&] { connected(*self); };
+        Client client(link, h);
+        self = &client;
+        return client.run();
+    };
+    const Client::End kept = end_of(old_link, [&](Client& first) {
+        server.server.set_certificate(other);
+        EXPECT_EQ(end_of(new_link, [](Client& second) { second.stop(); }).why, "");
+        EXPECT_TRUE(end_of(old_link, [](Client&) { ADD_FAILURE(); }).final);
+        first.stop();
+    });
+    EXPECT_EQ(kept.why, "");
+    EXPECT_THROW(server.server.set_certificate({"no PEM", "no PEM", ""}), Error);
+}
+
 TEST(Connection, SaysWhenNobodyAnswers) {
     Link link{"127.0.0.1", 1, "t", std::string(64, '0')};
     const Client::End end = Client(link, client_handler()).run();

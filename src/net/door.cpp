@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "net/places.h"
@@ -33,6 +34,45 @@ constexpr Duration handshake_pause = std::chrono::milliseconds(10);
 constexpr int niceness = 5;
 
 constexpr std::string_view websocket_path = "/connection";
+
+constexpr char plain_http_answer[] =
+    "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\n"
+    "Cache-Control: no-store\r\nConnection: close\r\n\r\n"
+    "This port speaks only HTTPS; write https:// before the address.\n";
+
+// A TLS connection begins with the byte 22, a request without TLS with the name of a method.
+bool begins_http(char first) {
+    return first >= 'A' && first <= 'Z';
+}
+
+std::string_view view(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+// All headers of this name as one.
+std::string joined(const http::fields& headers, std::string_view name) {
+    std::string result;
+    const auto [begin, end] = headers.equal_range({name.data(), name.size()});
+    for (auto header = begin; header != end; ++header)
+        result += (result.empty() ? "" : ",") + std::string(view(header->value()));
+    return result;
+}
+
+std::shared_ptr<asio::ssl::context> make_tls(const Certificate& certificate) {
+    auto tls = std::make_shared<asio::ssl::context>(asio::ssl::context::tls_server);
+    beast::error_code error;
+    tls->use_certificate_chain(asio::buffer(certificate.certificate_pem), error);
+    if (!error)
+        tls->use_private_key(asio::buffer(certificate.private_key_pem), asio::ssl::context::pem,
+                             error);
+    if (error)
+        throw Error("The certificate cannot be used for TLS (" + error.message() +
+                    "); ask for one with a key of at least 2048 bits RSA or 256 bits ECDSA.");
+    SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_3_VERSION);
+    // Nobody resumes a TLS session here, so tickets would be sent for nothing.
+    SSL_CTX_set_num_tickets(tls->native_handle(), 0);
+    return tls;
+}
 
 void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
     beast::error_code error;
@@ -72,11 +112,13 @@ void require_free(const Endpoint& endpoint) {
 struct Door::Impl {
     asio::io_context io{1};
     asio::io_context& inside;
-    asio::ssl::context tls{asio::ssl::context::tls_server};
+    std::shared_ptr<asio::ssl::context> tls;  // of handshakes that begin now
     tcp::acceptor acceptor{io};
     asio::steady_timer accept_again{io}, handshakes_again{io};
+    Access access;
     Events events;
     Places places;
+    bool told_of_silent_proxy = false;
 
     class Stranger;
     std::map<Places::Id, std::shared_ptr<Stranger>> strangers;
@@ -142,14 +184,26 @@ public:
                             beast::error_code error;
                             if (raw_.available(error) == 0 || error)
                                 return leave("went away");
+                            char first = 0;
+                            raw_.receive(asio::buffer(&first, 1), tcp::socket::message_peek, error);
+                            if (!error && begins_http(first))
+                                return answer_plain_http();
                             door_.places.want_handshake(id_);
                             door_.begin_handshakes();
                         }));
     }
 
+    // It is this connection's turn: see Places::next_handshake().
+    void proceed() {
+        if (has_request_)
+            guarded([&] { decide(); });
+        else
+            handshake();
+    }
+
     void handshake() {
         guarded([&] {
-            stream_.emplace(std::move(raw_), door_.tls);
+            stream_.emplace(std::move(raw_), *door_.tls);
             stream_->async_handshake(asio::ssl::stream_base::server,
                                      step([this] { read_request(); }));
         });
@@ -176,30 +230,87 @@ private:
         });
     }
 
+    // One sentence instead of a failed handshake. The rest of the request is read before the
+    // connection closes, since unread bytes would destroy the answer on its way.
+    void answer_plain_http() {
+        asio::async_write(raw_, asio::buffer(plain_http_answer, sizeof(plain_http_answer) - 1),
+                          step([this] {
+                              beast::error_code ignored;
+                              raw_.shutdown(tcp::socket::shutdown_send, ignored);
+                              discard_plain(0);
+                          }));
+    }
+
+    void discard_plain(std::size_t discarded) {
+        raw_.async_read_some(incoming_.prepare(max_request_bytes),
+                             door_.here([this, self = shared_from_this(), discarded](
+                                            beast::error_code error, std::size_t count) {
+                                 if (gone_)
+                                     return;
+                                 if (error || discarded + count > max_plain_bytes)
+                                     return leave("spoke HTTP without TLS");
+                                 guarded([&] { discard_plain(discarded + count); });
+                             }));
+    }
+
     void read_request() {
         parser_.header_limit(max_request_bytes);
-        parser_.body_limit(0);
-        http::async_read(*stream_, incoming_, parser_, step([this] {
-            const auto& request = parser_.get();
-            extend(first_message_deadline, "did not join in time");
-            if (!websocket::is_upgrade(request)) {
-                const std::string authorization(request[http::field::authorization]);
-                HttpAnswer answered =
-                    door_.events.http({std::string(request.target()), authorization,
-                                       std::string(request[http::field::accept_encoding])});
-                if (answered.status == 401 && !authorization.empty())
-                    door_.places.note_wrong_token(address_group(address_), steady_now());
-                return answer(std::move(answered));
-            }
-            if (path_of(std::string_view(request.target().data(), request.target().size())) !=
-                websocket_path)
-                return answer({.status = 404, .body = "There is nothing here.\n"});
-            const auto origin = request[http::field::origin], host = request[http::field::host];
-            if (!is_own_origin({origin.data(), origin.size()}, {host.data(), host.size()}))
-                return answer(
-                    {.status = 403, .body = "Pages of other hosts may not connect here.\n"});
-            upgrade();
+        // No request that is answered has a body; one of others is not read.
+        parser_.skip(true);
+        http::async_read_header(*stream_, incoming_, parser_, step([this] {
+            has_request_ = true;
+            if (door_.access.proxies.contains(address_))
+                find_client();
+            else
+                decide();
         }));
+    }
+
+    // Limits hold for the client of a proxy, not for the proxy.
+    void find_client() {
+        const auto client =
+            door_.access.proxies.client_of(joined(parser_.get(), "X-Forwarded-For"));
+        if (!client) {
+            if (!std::exchange(door_.told_of_silent_proxy, true))
+                log::warning("net", "the proxy names no client in X-Forwarded-For",
+                             {{"proxy", address_}});
+            return decide();
+        }
+        address_ = *client;
+        if (const auto evicted = door_.places.act_for(id_, address_group(address_)))
+            door_.turn_away(*evicted, "had to go for others");
+        extend(first_message_deadline, "asked too often");
+        door_.places.want_handshake(id_);
+        door_.begin_handshakes();
+    }
+
+    void decide() {
+        extend(first_message_deadline, "did not join in time");
+        const auto& request = parser_.get();
+        const std::string_view host = view(request[http::field::host]);
+        const auto& name = door_.access.name;
+        if (name && !is_named(host, name->name))
+            return answer(
+                {.status = 421, .body = "This host has another name; open the link as it is.\n"});
+        if (request.method() != http::verb::get && request.method() != http::verb::head)
+            return answer({.status = 405,
+                           .body = "Only GET and HEAD are answered here.\n",
+                           .headers = {{"Allow", "GET, HEAD"}}});
+        if (!websocket::is_upgrade(request)) {
+            const std::string authorization(request[http::field::authorization]);
+            HttpAnswer answered =
+                door_.events.http({std::string(request.target()), authorization,
+                                   std::string(request[http::field::accept_encoding])});
+            if (answered.status == 401 && !authorization.empty())
+                door_.places.note_wrong_token(address_group(address_), steady_now());
+            return answer(std::move(answered));
+        }
+        if (path_of(view(request.target())) != websocket_path)
+            return answer({.status = 404, .body = "There is nothing here.\n"});
+        const std::string_view origin = view(request[http::field::origin]);
+        if (!is_own_origin(origin, host) && !(name && origin == origin_of(*name)))
+            return answer({.status = 403, .body = "Pages of other hosts may not connect here.\n"});
+        upgrade();
     }
 
     // For requests without a WebSocket, for example of a browser.
@@ -214,17 +325,25 @@ private:
         response_.set("X-Content-Type-Options", "nosniff");
         if (answer_.status == 401)
             response_.set(http::field::www_authenticate, "Bearer");
+        if (door_.access.insists_on_https)
+            response_.set(http::field::strict_transport_security,
+                          "max-age=" + std::to_string(std::int64_t(to_seconds(https_only))));
         for (const auto& [name, value] : answer_.headers)
             response_.set(name, value);
         response_.keep_alive(false);
         response_.body() = {body.data(), body.size()};
         response_.prepare_payload();
-        http::async_write(*stream_, response_, step([this] {
+        auto end = step([this] {
             stream_->async_shutdown(door_.here([self = shared_from_this()](beast::error_code) {
                 if (!self->gone_)
                     self->leave("");
             }));
-        }));
+        });
+        serializer_.emplace(response_);
+        if (parser_.get().method() == http::verb::head)
+            http::async_write_header(*stream_, *serializer_, std::move(end));
+        else
+            http::async_write(*stream_, *serializer_, std::move(end));
     }
 
     void upgrade() {
@@ -269,8 +388,9 @@ private:
     friend struct Door::Impl;
     Impl& door_;
     const Places::Id id_;
-    const std::string address_;
+    std::string address_;
     bool gone_ = false;
+    bool has_request_ = false;
     tcp::socket raw_;  // until the first byte; then the one or the other:
     std::optional<TlsStream> stream_;
     std::optional<WebSocket> web_;
@@ -279,6 +399,7 @@ private:
     http::request_parser<http::empty_body> parser_;
     HttpAnswer answer_;  // owns the body of:
     http::response<http::span_body<const char>> response_;
+    std::optional<http::response_serializer<http::span_body<const char>>> serializer_;
 };
 
 void Door::Impl::turn_away(Places::Id id, const std::string& why) {
@@ -319,7 +440,9 @@ void Door::Impl::take_in(tcp::socket socket) {
     if (error)
         return;
     const std::string address = endpoint.address().to_string();
-    const auto entered = places.enter(address_group(address));
+    const auto entered = access.proxies.contains(address)
+                             ? places.enter_of_proxy(address_group(address))
+                             : places.enter(address_group(address));
     if (entered.evicted)
         turn_away(*entered.evicted, "had to go for others");
     try {
@@ -337,7 +460,7 @@ void Door::Impl::take_in(tcp::socket socket) {
 void Door::Impl::begin_handshakes() {
     while (const auto id = places.next_handshake(steady_now()))
         if (const auto found = strangers.find(*id); found != strangers.end())
-            found->second->handshake();
+            found->second->proceed();
     if (!places.handshakes_wait())
         return;
     handshakes_again.expires_after(handshake_pause);
@@ -348,14 +471,11 @@ void Door::Impl::begin_handshakes() {
 }
 
 Door::Door(asio::io_context& inside, const Endpoint& endpoint, const Certificate& certificate,
-           Events events)
+           Access access, Events events)
     : impl_(std::make_unique<Impl>(inside)) {
+    impl_->access = std::move(access);
     impl_->events = std::move(events);
-    impl_->tls.use_certificate_chain(asio::buffer(certificate.certificate_pem));
-    impl_->tls.use_private_key(asio::buffer(certificate.private_key_pem), asio::ssl::context::pem);
-    SSL_CTX_set_min_proto_version(impl_->tls.native_handle(), TLS1_3_VERSION);
-    // Nobody resumes a TLS session here, so tickets would be sent for nothing.
-    SSL_CTX_set_num_tickets(impl_->tls.native_handle(), 0);
+    impl_->tls = make_tls(certificate);
     listen(impl_->acceptor, endpoint);
 }
 
@@ -363,6 +483,11 @@ Door::~Door() = default;
 
 std::uint16_t Door::port() const {
     return impl_->acceptor.local_endpoint().port();
+}
+
+void Door::set_certificate(const Certificate& certificate) {
+    // Connections keep the context that they began with.
+    asio::post(impl_->io, [impl = impl_.get(), tls = make_tls(certificate)] { impl->tls = tls; });
 }
 
 void Door::run() {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "base/bytes.h"
+#include "net/access.h"
 #include "net/certificate.h"
 #include "net/connection.h"
 #include "net/http.h"
@@ -30,6 +31,10 @@ public:
     static constexpr std::size_t large_answer = 64 * 1024;
     // Largest head of an HTTP request.
     static constexpr std::size_t max_request_bytes = 8 * 1024;
+    // Bytes of an HTTP request without TLS that are read, so that its answer arrives.
+    static constexpr std::size_t max_plain_bytes = 64 * 1024;
+    // For which browsers keep that a name has only HTTPS.
+    static constexpr Duration https_only = std::chrono::hours(365 * 24);
     // Receive buffers of sockets before and after the token was shown. Linux doubles them.
     static constexpr int stranger_receive_buffer = 16 * 1024;
     static constexpr int participant_receive_buffer = 64 * 1024;
@@ -38,7 +43,7 @@ public:
 
     struct Visitor {
         WebSocket socket;
-        std::string address;
+        std::string address;   // behind a trusted proxy that of the proxy's client
         Bytes first;           // its first control message
         bool invited = false;  // that is a Join with the token
     };
@@ -53,12 +58,16 @@ public:
     };
 
     // Begins to listen. Sockets belong to `inside`, whose thread takes them over. Throws Error
-    // if the address or port cannot be had.
+    // if the address or port cannot be had, or OpenSSL refuses the certificate.
     Door(boost::asio::io_context& inside, const Endpoint& endpoint, const Certificate& certificate,
-         Events events);
+         Access access, Events events);
     ~Door();
 
     std::uint16_t port() const;
+
+    // For connections from now on; from any thread. Throws Error if OpenSSL refuses it; then
+    // nothing changes.
+    void set_certificate(const Certificate& certificate);
 
     // Serves until stop(); on a thread of the caller.
     void run();

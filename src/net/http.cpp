@@ -2,6 +2,9 @@
 #include "net/http.h"
 
 #include <algorithm>
+#include <charconv>
+
+#include "base/error.h"
 
 namespace theatron::net {
 namespace {
@@ -26,6 +29,23 @@ std::string decoded(std::string_view text) {
     }
     return result;
 }
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(), [](char c) { return lower(c); });
+    return result;
+}
+
+bool has_only(std::string_view text, std::string_view allowed) {
+    return text.find_first_not_of(allowed) == text.npos;
+}
+
+constexpr std::string_view digits = "0123456789";
+constexpr std::uint16_t https_port = 443;
 
 }  // namespace
 
@@ -71,6 +91,49 @@ bool accepts_encoding(std::string_view accept_encoding, std::string_view coding)
 bool is_own_origin(std::string_view origin, std::string_view host) {
     constexpr std::string_view scheme = "https://";
     return origin.empty() || (origin.starts_with(scheme) && origin.substr(scheme.size()) == host);
+}
+
+PublicName parse_public_name(std::string_view text, std::uint16_t usual_port) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    PublicName result{lower(text.substr(0, colon)), usual_port};
+    bool is_right = !result.name.empty() && result.name.front() != '.' &&
+                    has_only(result.name, "abcdefghijklmnopqrstuvwxyz0123456789.-");
+    if (colon < text.size()) {
+        const std::string_view port = text.substr(colon + 1);
+        const auto [end, error] =
+            std::from_chars(port.data(), port.data() + port.size(), result.port);
+        is_right = is_right && error == std::errc{} && end == port.data() + port.size() &&
+                   result.port != 0;
+    }
+    if (!is_right)
+        throw Error("'" + std::string(text) +
+                    "' is no public name; write NAME or NAME:PORT, for example "
+                    "or-3.hospital.example.");
+    return result;
+}
+
+std::string origin_of(const PublicName& name) {
+    return "https://" + name.name +
+           (name.port == https_port ? "" : ":" + std::to_string(name.port));
+}
+
+bool is_named(std::string_view host, std::string_view public_name) {
+    if (host.starts_with('[')) {
+        const std::size_t end = host.find(']');
+        if (end == host.npos || !has_only(host.substr(1, end - 1), "0123456789abcdefABCDEF:."))
+            return false;
+        const std::string_view rest = host.substr(end + 1);
+        return rest.empty() || (rest[0] == ':' && has_only(rest.substr(1), digits));
+    }
+    const std::size_t colon = std::min(host.find(':'), host.size());
+    if (!has_only(host.substr(std::min(colon + 1, host.size())), digits))
+        return false;
+    std::string name = lower(host.substr(0, colon));
+    if (name.ends_with('.'))
+        name.pop_back();
+    const bool is_address =
+        has_only(name, "0123456789.") && std::count(name.begin(), name.end(), '.') == 3;
+    return name == public_name || name == "localhost" || is_address;
 }
 
 }  // namespace theatron::net

@@ -2,6 +2,7 @@
 // HTTP requests without a WebSocket, from browsers and monitoring systems, and their parsing.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -41,5 +42,22 @@ bool accepts_encoding(std::string_view accept_encoding, std::string_view coding)
 // True if a page of `origin` (that header; empty: no browser) may connect to `host` (that header).
 // Only pages that this host itself served may.
 bool is_own_origin(std::string_view origin, std::string_view host);
+
+// The name and port under which people reach a host, through a proxy or directly.
+struct PublicName {
+    std::string name;  // lower case, a DNS name or an IPv4 address
+    std::uint16_t port = 0;
+};
+
+// "NAME" or "NAME:PORT". Throws Error with one sentence about the problem.
+PublicName parse_public_name(std::string_view text, std::uint16_t usual_port);
+
+// The origin of the pages that are served under this name.
+std::string origin_of(const PublicName& name);
+
+// True if the header Host means the host with this public name: by that name, as localhost or by an
+// IP address, with any port. Only those: another name that leads here may be that of a page which
+// tries to pass for the host's own (DNS rebinding). Safe for untrusted input.
+bool is_named(std::string_view host, std::string_view public_name);
 
 }  // namespace theatron::net

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+
 namespace theatron::net {
 namespace {
 
@@ -34,6 +36,29 @@ TEST(Http, OnlyPagesOfTheHostItselfAreItsOwn) {
     for (const char* origin : {"https://elsewhere", "http://or-3:4400", "null", "https://or-3:44",
                                "https://or-3:4400.elsewhere"})
         EXPECT_FALSE(is_own_origin(origin, "or-3:4400")) << origin;
+}
+
+TEST(Http, APublicNameHasAPortOrTheUsualOne) {
+    EXPECT_EQ(parse_public_name("OR-3.Hospital.example", 443).name, "or-3.hospital.example");
+    EXPECT_EQ(parse_public_name("or-3", 443).port, 443);
+    EXPECT_EQ(parse_public_name("10.1.2.3:8443", 443).port, 8443);
+    EXPECT_EQ(origin_of({"or-3", 443}), "https://or-3");
+    EXPECT_EQ(origin_of({"or-3", 8443}), "https://or-3:8443");
+    for (const char* text : {"", ":443", "or-3:", "or-3:0", "or-3:65536", "or-3:44x", "or 3",
+                             "https://or-3", "or-3/", "[::1]", ".or-3", "or-3:1:2"})
+        EXPECT_THROW(parse_public_name(text, 443), Error) << text;
+}
+
+TEST(Http, AHostIsNamedByItsPublicNameOrAnAddress) {
+    for (const char* host :
+         {"or-3.example", "OR-3.Example", "or-3.example:443", "or-3.example.", "or-3.example.:4400",
+          "localhost:4400", "127.0.0.1", "10.1.2.3:4400", "[::1]", "[fd00::1]:4400"})
+        EXPECT_TRUE(is_named(host, "or-3.example")) << host;
+    for (const char* host : {"", ":", ":443", "or-3", "evil.example", "or-3.example.evil.example",
+                             "or-3.example@evil.example", "or-3.example:443.evil.example", "[",
+                             "[]x", "[evil.example]", "1.2.3", "127.0.0.1.evil.example",
+                             "or-3.example:4 4", "or-3.example..", "user:or-3.example"})
+        EXPECT_FALSE(is_named(host, "or-3.example")) << host;
 }
 
 }  // namespace

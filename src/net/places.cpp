@@ -20,17 +20,43 @@ void Places::Budget::fill(double per_second, TimePoint now) {
     filled = now;
 }
 
-Places::Entered Places::enter(const std::string& address) {
-    const bool known = is_known(address);
+Places::Entered Places::take(Entry entry) {
+    Entered entered{Id{next_id_++}, make_room(entry.known)};
+    entries_[entered.id] = std::move(entry);
+    return entered;
+}
+
+std::optional<Places::Id> Places::make_room(bool known) {
     const auto same = std::size_t(std::ranges::count_if(
         entries_, [&](const auto& entry) { return entry.second.known == known; }));
-    Entered entered{Id{next_id_++}, {}};
-    if (same >= max_pending) {
-        entered.evicted = longest_of_the_largest(known);
-        leave(*entered.evicted);
-    }
-    entries_[entered.id] = {address, known, false};
-    return entered;
+    if (same < max_pending)
+        return std::nullopt;
+    const auto evicted = longest_of_the_largest(known);
+    leave(*evicted);
+    return evicted;
+}
+
+Places::Entered Places::enter(const std::string& address) {
+    return take({.address = address, .known = is_known(address)});
+}
+
+Places::Entered Places::enter_of_proxy(const std::string& address) {
+    return take({.address = address, .known = true, .is_of_proxy = true});
+}
+
+std::optional<Places::Id> Places::act_for(Id id, const std::string& address) {
+    const auto found = entries_.find(id);
+    if (found == entries_.end())
+        return std::nullopt;
+    const bool known = is_known(address);
+    std::optional<Id> evicted;
+    // A known address and a proxy's own connections share their places.
+    if (!known)
+        evicted = make_room(known);
+    found->second.address = address;
+    found->second.known = known;
+    found->second.is_of_proxy = false;
+    return evicted;
 }
 
 void Places::leave(Id id) {
@@ -89,6 +115,7 @@ void Places::want_handshake(Id id) {
 void Places::refill(TimePoint now) {
     strangers_.fill(handshakes_per_second, now);
     regulars_.fill(handshakes_per_second, now);
+    proxies_.fill(handshakes_per_second, now);
     for (auto& [address, budget] : by_address_)
         budget.fill(handshakes_per_second_and_address, now);
     if (by_address_.size() > max_budgets)
@@ -109,7 +136,7 @@ std::optional<Places::Id> Places::next_handshake(TimePoint now) {
         for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
             if (!entry->second.waits || entry->second.known != known)
                 continue;
-            Budget& own = by_address_[entry->second.address];
+            Budget& own = entry->second.is_of_proxy ? proxies_ : by_address_[entry->second.address];
             if (own.filled == TimePoint{})
                 own.fill(handshakes_per_second_and_address, now);
             if (own.left >= 1 && (!budget || own.left > budget->left)) {

@@ -44,6 +44,14 @@ public:
     Entered enter(const std::string& address);
     void leave(Id id);
 
+    // The same for a connection of a trusted proxy, which brings those of many people: it has a
+    // place as a known address has, and its handshakes are not counted against its address.
+    Entered enter_of_proxy(const std::string& address);
+    // A connection of a proxy turned out to be one from `address` and counts as such from now on.
+    // Returns the connection to close for it, if any. Its answer waits as a handshake does: see
+    // want_handshake().
+    std::optional<Id> act_for(Id id, const std::string& address);
+
     // The connection that would be evicted next.
     std::optional<Id> next_to_go() const;
 
@@ -55,7 +63,7 @@ public:
     // behind it, and guesses from there are still limited by handshakes_per_second_and_address.
     void note_wrong_token(const std::string& address, TimePoint now);
 
-    // `id` waits for its handshake.
+    // `id` waits for its handshake, or for the answer to a request that a proxy forwarded.
     void want_handshake(Id id);
     // The connection whose handshake may begin now: known addresses first, then the address with
     // the fewest recent handshakes, and of its connections the one that waits longest.
@@ -75,14 +83,18 @@ private:
         std::string address;
         bool known = false;
         bool waits = false;
+        bool is_of_proxy = false;
     };
+    Entered take(Entry entry);
+    // Makes a place among known addresses or strangers. Returns the connection that lost its own.
+    std::optional<Id> make_room(bool known);
 
     std::map<Id, Entry> entries_;  // oldest first
     std::uint64_t next_id_ = 1;
     std::size_t waiting_ = 0;
     std::map<std::string, std::uint64_t> known_;  // when heard of last, as a count
     std::uint64_t heard_ = 0;
-    Budget strangers_, regulars_;
+    Budget strangers_, regulars_, proxies_;
     std::map<std::string, Budget> by_address_;
 
     std::optional<Id> longest_of_the_largest(bool known) const;

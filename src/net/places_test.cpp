@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -149,6 +150,50 @@ TEST(Places, ManyWrongTokensHoldUpAnAddressForTwoSecondsAtMost) {
     places.want_handshake(honest.id);
     EXPECT_TRUE(handshakes(places, start, 1s).empty());
     EXPECT_EQ(handshakes(places, start + 1s, 1s), std::vector{honest.id});
+}
+
+TEST(Places, BehindAProxyEachClientHasTheLimitOfItsOwnAddress) {
+    Places places;
+    // One client floods, and one comes alone, both through the proxy.
+    for (std::size_t i = 0; i + 1 < Places::max_pending; ++i) {
+        const auto id = places.enter_of_proxy("10.0.0.1").id;
+        EXPECT_FALSE(places.act_for(id, "192.0.2.1"));
+        places.want_handshake(id);
+    }
+    const auto alone = places.enter_of_proxy("10.0.0.1").id;
+    EXPECT_FALSE(places.act_for(alone, "192.0.2.2"));
+    places.want_handshake(alone);
+    const auto begun = handshakes(places, start, 100ms);
+    EXPECT_LE(begun.size(), 1 + 0.2 * Places::handshakes_per_second_and_address + 1);
+    EXPECT_NE(std::find(begun.begin(), begun.begin() + 3, alone), begun.begin() + 3);
+    // A further one displaces one of those that flood.
+    const auto next = places.enter_of_proxy("10.0.0.1").id;
+    const auto evicted = places.act_for(next, "192.0.2.3");
+    ASSERT_TRUE(evicted);
+    EXPECT_NE(*evicted, alone);
+    EXPECT_NE(*evicted, next);
+    EXPECT_EQ(places.pending(), Places::max_pending);
+}
+
+TEST(Places, TheHandshakesOfAProxyAreNotCountedAgainstItsAddress) {
+    Places places;
+    for (std::size_t i = 0; i < Places::max_pending; ++i)
+        places.want_handshake(places.enter_of_proxy("10.0.0.1").id);
+    places.note_wrong_token("10.0.0.1", start);
+    EXPECT_GT(handshakes(places, start, 1000ms).size(),
+              Places::handshakes_per_second_and_address * 1.5);
+}
+
+TEST(Places, AWrongTokenThroughAProxyCostsOnlyTheClient) {
+    Places places;
+    places.note_wrong_token("192.0.2.1", start);
+    const auto guesser = places.enter_of_proxy("10.0.0.1").id;
+    const auto other = places.enter_of_proxy("10.0.0.1").id;
+    (void)places.act_for(guesser, "192.0.2.1");
+    (void)places.act_for(other, "192.0.2.2");
+    places.want_handshake(guesser);
+    places.want_handshake(other);
+    EXPECT_EQ(handshakes(places, start, 100ms), std::vector{other});
 }
 
 }  // namespace

@@ -115,10 +115,12 @@ void Server::Impl::enter(Door::Visitor visitor) {
         connection->end("it met a fault here");
 }
 
-Server::Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler)
+Server::Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler,
+               Access access)
     : impl_(std::make_unique<Impl>()) {
     impl_->handler = std::move(handler);
-    impl_->door = std::make_unique<Door>(impl_->io, endpoint, certificate, impl_->door_events());
+    impl_->door = std::make_unique<Door>(impl_->io, endpoint, certificate, std::move(access),
+                                         impl_->door_events());
 }
 
 Server::~Server() {
@@ -148,6 +150,10 @@ void Server::run() {
     impl_->door->stop();
     door.join();
     impl_->ended = true;
+}
+
+void Server::set_certificate(const Certificate& certificate) {
+    impl_->door->set_certificate(certificate);
 }
 
 void Server::stop() {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "net/access.h"
 #include "net/certificate.h"
 #include "net/http.h"
 #include "net/link.h"
@@ -59,8 +60,10 @@ public:
         std::function<void()> alarm;     // see set_alarm()
     };
 
-    // Begins to listen. Throws Error if the address or port cannot be had.
-    Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler);
+    // Begins to listen. Throws Error if the address or port cannot be had, or OpenSSL refuses the
+    // certificate.
+    Server(const Endpoint& endpoint, const Certificate& certificate, Handler handler,
+           Access access = {});
     ~Server();
 
     std::uint16_t port() const;
@@ -72,6 +75,8 @@ public:
     // From any thread.
     void stop();
     void post(std::function<void()> work);  // runs `work` on the server's thread
+    // For connections from now on. Throws Error if OpenSSL refuses it; then nothing changes.
+    void set_certificate(const Certificate& certificate);
 
     // On the server's thread only. A peer that is gone is ignored.
     void send_control(PeerId peer, ByteView control);

@@ -107,8 +107,11 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         message ? std::visit([](const auto& m) { return kind_of(m); }, *message) : Kind::other;
     switch (participant->budget.ask(kind, now)) {
         case RequestBudget::Answer::granted:
-            if (message && !participant->may(
-                               std::visit([](const auto& m) { return needed_right(m); }, *message)))
+            // By the answer those who wait know that the connection has not frozen.
+            if (message && kind == Kind::ping && participant->waits())
+                carry_out(id, std::get<wire::Ping>(*message), now);
+            else if (message && !participant->may(std::visit(
+                                    [](const auto& m) { return needed_right(m); }, *message)))
                 deny(id, *message);
             else if (message)
                 std::visit([&](const auto& m) { carry_out(id, m, now); }, *message);

@@ -296,6 +296,9 @@ TEST_F(AskedPeople, WhoKnocksGetsNothingUntilAnOperatorAdmits) {
     tell(bob, wire::ChooseCodecs{"raw", "", {}});
     EXPECT_TRUE(to<wire::Settings>(bob).empty());
     EXPECT_FALSE(session_->allow(bob, Right::see));
+    // Only this, so that it notices a frozen connection.
+    tell(bob, wire::Ping{now});
+    EXPECT_EQ(to<wire::Pong>(bob).size(), 1u);
     now += std::chrono::minutes(10);
     session_->on_tick(now);
     EXPECT_TRUE(actions_of<action::Close>(session_->take_actions()).empty());

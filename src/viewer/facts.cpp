@@ -85,8 +85,10 @@ std::string drawing_text(const Facts& facts) {
 // Frames come much faster than this machine draws them.
 bool drawing_is_slow(const Facts& facts) {
     constexpr double slow_fps = 10;
+    const double received = facts.received.live_frames_per_second();
+    const double wanted = std::min(received, facts.most_drawn_per_second.value_or(received));
     return facts.has_picture && facts.drawn_per_second < slow_fps &&
-           facts.drawn_per_second < facts.received.live_frames_per_second() / 2;
+           facts.drawn_per_second < wanted / 2;
 }
 
 // The one that the keys decide on, and the number of the others.
@@ -178,7 +180,7 @@ std::string warning_of(const Facts& facts) {
     if (const std::string text = not_live_text(facts.received); !text.empty())
         return text;
     if (drawing_is_slow(facts))
-        return facts.renderer_chosen_by == Facts::ChosenBy::person
+        return facts.renderer_chosen_by == Facts::ChosenBy::person && !facts.most_drawn_per_second
                    ? "This computer draws too slowly; press M until \"auto\" appears"
                    : "This computer draws too slowly; the connection is not the cause";
     return {};

@@ -108,6 +108,16 @@ TEST(Overlay, BlamesTheComputerThatDrawsTooSlowlyAndNotTheConnection) {
     EXPECT_EQ(overlay(facts).warning, "");
 }
 
+TEST(Overlay, DoesNotBlameTheComputerForDrawingFewPicturesByChoice) {
+    Facts facts = healthy();
+    facts.most_drawn_per_second = 5;
+    facts.drawn_per_second = 4;
+    EXPECT_EQ(overlay(facts).warning, "");
+    EXPECT_FALSE(fact(overlay(facts), "Drawn").warning);
+    facts.drawn_per_second = 1;
+    EXPECT_THAT(overlay(facts).warning, HasSubstr("connection is not the cause"));
+}
+
 TEST(Overlay, HidesTheLineOfFactsButNotItsWarnings) {
     Facts facts = healthy();
     facts.line = false;

@@ -282,13 +282,13 @@ def _read_head(stream):
 
 
 class RawPeer(WebSocket):
-    """A participant after its handshakes. `headers` are further lines of its request."""
+    """A participant after its handshakes. `headers` are further lines of its request, `name` what its header Host says."""
 
-    def __init__(self, link, *, path="/connection", headers=(), **options):
+    def __init__(self, link, *, path="/connection", headers=(), name=None, **options):
         self.link = Link.parse(link) if isinstance(link, str) else link
         stream = connect_tls(self.link, **options)
         try:
-            lines = [f"GET {path} HTTP/1.1", f"Host: {self.link.host}", "Upgrade: websocket", "Connection: Upgrade",
+            lines = [f"GET {path} HTTP/1.1", f"Host: {name or self.link.host}", "Upgrade: websocket", "Connection: Upgrade",
                      "Sec-WebSocket-Version: 13",
                      "Sec-WebSocket-Key: " + base64.b64encode(os.urandom(16)).decode(), *headers]
             stream.sendall("".join(line + "\r\n" for line in lines).encode() + b"\r\n")
@@ -310,17 +310,24 @@ class RawPeer(WebSocket):
         self.send(bytes([ACKNOWLEDGEMENT]) + struct.pack("<QI", taken, 0))
 
 
-def https_get(link, target, *, headers=(), **options):
-    """One plain request: the status, the body."""
+def https_request(link, method, target, *, headers=(), name=None, body=b"", **options):
+    """One plain request: the status, the headers with names in lower case, the body."""
     link = Link.parse(link) if isinstance(link, str) else link
     with connect_tls(link, **options) as stream:
-        lines = [f"GET {target} HTTP/1.1", f"Host: {link.host}", *headers]
-        stream.sendall("".join(line + "\r\n" for line in lines).encode() + b"\r\n")
+        lines = [f"{method} {target} HTTP/1.1", f"Host: {name or link.host}", "Connection: close", *headers]
+        stream.sendall("".join(line + "\r\n" for line in lines).encode() + b"\r\n" + body)
         answer, body = _read_head(stream)
         with contextlib.suppress(ssl.SSLError):
             while more := stream.recv(1 << 16):
                 body += more
-    return int(answer[0].split()[1]), body
+    received = {key.lower(): value.strip() for key, _, value in (line.partition(":") for line in answer[1:])}
+    return int(answer[0].split()[1]), received, body
+
+
+def https_get(link, target, **options):
+    """The same for GET: the status, the body."""
+    status, _, body = https_request(link, "GET", target, **options)
+    return status, body
 
 
 # A host.

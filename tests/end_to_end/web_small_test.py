@@ -30,6 +30,16 @@ BESIDE = """[...document.querySelectorAll("button, input, select, p, h1, h2, li,
     (e.getBoundingClientRect().left < 0 || e.getBoundingClientRect().right > innerWidth + 0.5))
     .map(e => e.id || e.textContent)"""
 
+# Elements that lie over the corners and the middle of the 2D view's picture, which fills the canvas in one direction.
+COVERED = """(() => {
+    const canvas = document.getElementById("flat"), box = canvas.getBoundingClientRect();
+    const scale = Math.min(box.width / canvas.width, box.height / canvas.height);
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    const [w, h] = [canvas.width * scale / 2 - 2, canvas.height * scale / 2 - 2];
+    return [[0, 0], [-w, -h], [w, -h], [-w, h], [w, h]].map(([dx, dy]) => document.elementFromPoint(x + dx, y + dy))
+        .filter(e => e !== canvas).map(e => e?.id || e?.outerHTML || "nothing");
+})()"""
+
 
 @unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
 @unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
@@ -70,6 +80,9 @@ class WebSmall(unittest.TestCase):
             page.wait_for("document.getElementById('drawing_text').innerText.includes('too slowly')")
             self.assertGreater(page.wait_for(f"{COLORS} > 20 && {COLORS}"), 20)
             self.picture(page, "flat")
+            # Five pictures a second are its choice, and no panel covers them.
+            page.wait_for("theatron.state.drawn_per_second > 0 && theatron.state.overlay.warning === ''")
+            self.assertEqual(page.evaluate(COVERED), [])
             # The choice is the person's; then nothing changes by itself.
             page.evaluate("document.getElementById('other_way').click()")
             page.wait_for("theatron.state.renderer === 'mesh' && theatron.state.pictures > 3")

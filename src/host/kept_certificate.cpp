@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/kept_certificate.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace theatron::host {
+namespace {
+
+constexpr files::UtcSeconds day = 24 * 3600;
+
+}  // namespace
+
+KeptCertificate::KeptCertificate(net::Certificate own, const std::filesystem::path& folder)
+    : current_(std::move(own)),
+      validity_(net::validity_of(current_)),
+      what_("The host's own certificate"),
+      advice_("delete host.crt and host.key in '" + folder.string() +
+              "' and start the host again, after which old links no longer work.") {}
+
+KeptCertificate::KeptCertificate(net::CertificateFiles files)
+    : files_(std::move(files)),
+      current_(files_->read()),
+      validity_(net::validity_of(current_)),
+      what_("The certificate '" + files_->certificate().string() + "'"),
+      advice_("put a new one into its place.") {}
+
+bool KeptCertificate::follow(const std::function<void(const net::Certificate&)>& use) {
+    if (!files_)
+        return false;
+    try {
+        auto fresh = files_->changed();
+        if (!fresh)
+            return false;
+        const net::Validity validity = net::validity_of(*fresh);
+        use(*fresh);
+        unused_.clear();
+        const bool is_other = fresh->fingerprint != current_.fingerprint;
+        current_ = *std::move(fresh);
+        validity_ = validity;
+        return is_other;
+    } catch (const Error& error) {
+        unused_ = std::string(error.what()) + " Until then the certificate that expires at " +
+                  files::utc_text(validity_.ends) + " stays in use.";
+        return false;
+    }
+}
+
+std::string KeptCertificate::end_text(files::UtcSeconds now) const {
+    const std::string end = files::utc_text(validity_.ends);
+    const files::UtcSeconds days = (validity_.ends - now) / day;
+    if (now > validity_.ends)
+        return what_ + " expired at " + end + "; " + advice_;
+    return what_ + " expires at " + end + ", in " +
+           (days == 0   ? "less than a day; "
+            : days == 1 ? "1 day; "
+                        : std::to_string(days) + " days; ") +
+           advice_;
+}
+
+std::string KeptCertificate::problem(files::UtcSeconds now, const std::string& name) const {
+    if (!unused_.empty())
+        return unused_;
+    const files::UtcSeconds notice =
+        std::min(longest_notice, (validity_.ends - validity_.begins) / 3);
+    if (now > validity_.ends - notice)
+        return end_text(now);
+    if (files_ && !name.empty() && !net::is_for(current_, name))
+        return what_ + " is not one for '" + name +
+               "', the name in the links, so browsers warn; ask for one with that name, or "
+               "change the name with --public-name.";
+    return "";
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/kept_certificate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "files/private_file.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::host {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr files::UtcSeconds day = 24 * 3600;
+
+class KeptCertificateTest : public ::testing::Test {
+protected:
+    KeptCertificateTest() { write(first, first); }
+    void write(const net::Certificate& certificate, const net::Certificate& key) {
+        files::write_private_file(folder.path() / "crt", certificate.certificate_pem);
+        files::write_private_file(folder.path() / "key", key.private_key_pem);
+    }
+    net::CertificateFiles files() const { return {folder.path() / "crt", folder.path() / "key"}; }
+    // The files stay as they are for one look.
+    static bool settle(KeptCertificate& kept) {
+        const auto use = [](const net::Certificate&) {};
+        const bool at_once = kept.follow(use);
+        EXPECT_FALSE(at_once) << "a file was just changed, the other one may follow";
+        return kept.follow(use);
+    }
+
+    const net::Certificate first = net::make_certificate(), second = net::make_certificate();
+    const testing::TemporaryFolder folder;
+    const files::UtcSeconds now = files::utc_now();
+};
+
+TEST_F(KeptCertificateTest, FollowsItsFiles) {
+    KeptCertificate kept(files());
+    EXPECT_FALSE(settle(kept));
+    write(second, second);
+    EXPECT_TRUE(settle(kept));
+    EXPECT_EQ(kept.current().fingerprint, second.fingerprint);
+    EXPECT_EQ(kept.current().private_key_pem, second.private_key_pem);
+    EXPECT_EQ(kept.problem(now, "theatron"), "");
+}
+
+TEST_F(KeptCertificateTest, KeepsTheOldOneAndSaysSoUntilTheFilesAreRight) {
+    KeptCertificate kept(files());
+    write(second, first);
+    EXPECT_FALSE(settle(kept));
+    EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("no certificate with its key"));
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("stays in use"));
+    std::filesystem::remove(folder.path() / "crt");
+    EXPECT_FALSE(settle(kept));
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("There is no file"));
+    write(second, second);
+    EXPECT_TRUE(settle(kept));
+    EXPECT_EQ(kept.problem(now, "theatron"), "");
+}
+
+TEST_F(KeptCertificateTest, APermissionThatIsMendedIsNoticed) {
+    KeptCertificate kept(files());
+    write(second, second);
+    namespace fs = std::filesystem;
+    fs::permissions(folder.path() / "key", fs::perms::group_read, fs::perm_options::add);
+    EXPECT_FALSE(settle(kept));
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("chmod 600"));
+    fs::permissions(folder.path() / "key", fs::perms::group_read, fs::perm_options::remove);
+    EXPECT_TRUE(settle(kept));
+}
+
+TEST_F(KeptCertificateTest, OneThatCannotBeUsedStaysOut) {
+    KeptCertificate kept(files());
+    write(second, second);
+    const auto refuse = [](const net::Certificate&) { throw Error("Too short a key."); };
+    (void)kept.follow(refuse);
+    EXPECT_FALSE(kept.follow(refuse));
+    EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("Too short a key."));
+}
+
+TEST_F(KeptCertificateTest, WarnsThreeWeeksBeforeItsEnd) {
+    const KeptCertificate kept(files());
+    const files::UtcSeconds end = kept.validity().ends;
+    EXPECT_EQ(kept.problem(end - 22 * day, "theatron"), "");
+    EXPECT_THAT(kept.problem(end - 20 * day, "theatron"), HasSubstr(", in 20 days;"));
+    EXPECT_THAT(kept.problem(end - 3600, "theatron"), HasSubstr("less than a day"));
+    EXPECT_THAT(kept.problem(end + 1, "theatron"), HasSubstr("expired at"));
+}
+
+TEST_F(KeptCertificateTest, TheHostsOwnOneIsNotForANameButHasAnEnd) {
+    KeptCertificate kept(first, "/state");
+    EXPECT_FALSE(kept.follow([](const net::Certificate&) { FAIL(); }));
+    EXPECT_EQ(kept.problem(now, "or-3"), "");
+    EXPECT_THAT(kept.problem(kept.validity().ends, "or-3"), HasSubstr("'/state'"));
+}
+
+TEST_F(KeptCertificateTest, OneForAnotherNameIsToldOf) {
+    EXPECT_THAT(KeptCertificate(files()).problem(now, "or-3"), HasSubstr("not one for 'or-3'"));
+}
+
+}  // namespace
+}  // namespace theatron::host
