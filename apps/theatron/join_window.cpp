@@ -14,6 +14,7 @@ namespace theatron::app {
 
 void join_in_window(const JoinFlags& flags) {
     ViewerWindow shown{.join = participant_options(flags)};
+    shown.join.shows_patient = true;
     shown.seconds = flags.seconds;
     shown.save_to = flags.save_to;
     shown.viewer.view = viewer::parse_view(flags.view);

@@ -148,7 +148,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     client::Participant::Options options;
     options.link = link;
     options.name = name;
-    options.keeps_room = options.keeps_cases = true;
+    options.keeps_room = options.keeps_cases = options.shows_patient = true;
     options.person = bytes_of_hex(person);
     options.voice = [](ParticipantId speaker, ByteView packet) {
         give_voice(unsigned(speaker), packet.data(), int(packet.size()));

@@ -184,6 +184,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     if (!room_.cases().empty())
         tell_cases(id);
     tell_playback(id);
+    tell_patient();
     if (participant.may(Right::manage))
         tell_operators();
 }
@@ -241,6 +242,7 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, 
 
 void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
     room_.on_request(id, request);
+    tell_patient();
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {
@@ -260,11 +262,13 @@ void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent,
     room_.set_person(id, facts_of(person));
 }
 
-void HostSession::set_cases(std::vector<CaseFacts> cases) {
+void HostSession::set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients) {
     room_.set_cases(std::move(cases));
+    patients_ = std::move(patients);
     for (const auto& [id, participant] : admission_.participants())
         if (participant.takes_part())
             tell_cases(id);
+    tell_patient();
 }
 
 void HostSession::tell_cases(ParticipantId id) {
@@ -327,7 +331,7 @@ void HostSession::on_tick(TimePoint now) {
 }
 
 void HostSession::resynchronise(ParticipantId id) {
-    const Participant* participant = admission_.find(id);
+    Participant* participant = admission_.find(id);
     if (!participant || !participant->takes_part())
         return;
     describe_session(id);
@@ -337,6 +341,10 @@ void HostSession::resynchronise(ParticipantId id) {
     if (!room_.cases().empty())
         tell_cases(id);
     tell_playback(id);
+    // Its last message may be lost: an empty one, too.
+    if (participant->has(wire::Feature::patient))
+        send(id, participant->patient = {});
+    tell_patient();
     if (participant->may(Right::manage))
         tell_operators();
 }
