@@ -390,6 +390,12 @@ EMSCRIPTEN_KEEPALIVE void theatron_speak(unsigned number, double age_us, int pau
     page().participant()->send_voice(bytes);
 }
 
+// The person agrees that others record the voice (1), or does not (0), in this visit.
+EMSCRIPTEN_KEEPALIVE void theatron_allow_voice_recording(int agrees) {
+    if (page().participant())
+        page().participant()->allow_voice_recording(agrees != 0);
+}
+
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.
 EMSCRIPTEN_KEEPALIVE void theatron_key(const char* key, const char* code) {
     if (const auto press = web::pressed(key, code))
