@@ -14,11 +14,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t max_characters = 200;  // of one text, as on the wire
+constexpr std::size_t max_patient_characters = 200;  // of one text, as on the wire
 // Each of 16 series has at most 32 texts of 64 bytes.
 constexpr std::size_t max_identifiers_bytes = 256 * 1024;
 
-std::string trimmed(std::string text) {
+std::string without_blanks(std::string text) {
     text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
@@ -27,11 +27,11 @@ std::string trimmed(std::string text) {
 // A name in DICOM has three spellings between '=', and up to five parts between '^': family name,
 // given name, middle name, prefix, suffix.
 std::string readable_name(std::string name) {
-    name = trimmed(name.substr(0, name.find('=')));
+    name = without_blanks(name.substr(0, name.find('=')));
     std::string text;
     for (std::size_t begin = 0, part = 0; begin <= name.size(); ++part) {
         const std::size_t end = std::min(name.find('^', begin), name.size());
-        const std::string one = trimmed(name.substr(begin, end - begin));
+        const std::string one = without_blanks(name.substr(begin, end - begin));
         if (!one.empty() && !text.empty())
             text += part == 1 ? ", " : " ";
         text += one;
@@ -51,7 +51,7 @@ std::string readable_date(const std::string& date) {
 std::string text_of(const json& series, const char* name) {
     const auto found = series.find(name);
     return found != series.end() && found->is_string()
-               ? trimmed(clean_text(found->get<std::string>(), max_characters))
+               ? without_blanks(clean_text(found->get<std::string>(), max_patient_characters))
                : "";
 }
 

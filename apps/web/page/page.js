@@ -132,9 +132,11 @@ function run({ client, voice, module, flat }) {
             client.leave();
         if (event.key.toLowerCase() === "l" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey)
             voice.toggle_microphone();
-        if (event.repeat || !["F7", "F8"].includes(event.key))
+        if (!["F7", "F8"].includes(event.key))
             return;
         event.preventDefault();  // F7 is the browser's, too
+        if (event.repeat)
+            return;
         if (event.key === "F7")
             change_push_to_talk(voice);
         else if (page.state.voice_may_record !== null)
