@@ -78,7 +78,7 @@ int delay_samples(const Ears& ears) {
 // The power of a frequency, in dB.
 double level_at(const std::vector<float>& samples, double hz) {
     double real = 0, imaginary = 0, sum = 0;
-    // Blocks are averaged, since noise differs from window to window.
+    // Many windows are averaged, since noise differs from one to the next.
     constexpr std::size_t window = 480;
     for (std::size_t begin = 0; begin + window <= samples.size(); begin += window) {
         real = imaginary = 0;
