@@ -69,7 +69,7 @@ class Patient(unittest.TestCase):
             anna = stack.enter_context(member(links["operator"], "Anna"))
             anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 4, 20)
             self.assertFalse(olga.knows_any(), "no case is open")
-            with Process("record", links["expert"], recording, "--seconds", "1") as recorder:
+            with Process("record", links["expert"], recording, "--seconds", "2") as recorder:
                 anna.wait_for(lambda f: len(f["room"]["people"]) == 5, 20)
                 anna.say("case open Made liver")
                 anna.wait_for(has_all, 10)

@@ -289,8 +289,8 @@ function hold_to_talk(element, voice) {
     if (!is_button)
         return;
     element.addEventListener("pointerdown", event => {
-        element.setPointerCapture(event.pointerId);
         hold(true);
+        element.setPointerCapture(event.pointerId);
     });
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
         element.addEventListener(end, () => hold(false));
