@@ -13,6 +13,7 @@
 
 #include "base/camera_names.h"
 #include "base/error.h"
+#include "base/outside_text.h"
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "capture/camera.h"
@@ -30,6 +31,7 @@
 #include "people_lines.h"
 #include "playback_lines.h"
 #include "region_text.h"
+#include "session/permissions.h"
 #include "viewer/renderer_text.h"
 
 namespace theatron::app {
@@ -50,7 +52,7 @@ struct Flags {
     std::string summary;
     std::string places;
     std::string audit, admit = "all";
-    std::string cases;
+    std::string cases, identifiers_for = "operator";
     std::string certificate, key, proxy_certificate;
     double seconds = 0;
     double link_hours = 0;
@@ -129,11 +131,29 @@ void say_unregistered(const std::vector<std::string>& unregistered, std::size_t 
                  names.c_str());
 }
 
+// "operator,expert", or "nobody".
+std::vector<wire::Role> parse_patient_roles(const std::string& text) {
+    std::vector<wire::Role> roles;
+    if (text == "nobody")
+        return roles;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) {
+        const auto role = wire::parse_role(word);
+        if (!role || !session::may_know_patient(*role))
+            throw Error("'" + clean_text(word, 40) +
+                        "' in --identifiers-for is none of operator, expert and publisher" +
+                        (role ? ": observers never learn who the patient is." : ", or nobody."));
+        roles.push_back(*role);
+    }
+    return roles;
+}
+
 void run(Flags& flags) {
     flags.options.listen = net::parse_endpoint(flags.listen);
     flags.options.state = flags.state;
     flags.options.places = flags.places;
     flags.options.cases = flags.cases;
+    flags.options.patient_for = parse_patient_roles(flags.identifiers_for);
     flags.options.certificate = flags.certificate;
     flags.options.key = flags.key;
     flags.options.proxy_certificate = flags.proxy_certificate;
@@ -255,6 +275,11 @@ void add_host_command(CLI::App& app) {
     command->add_option("--cases", flags->cases,
                         "A folder of cases (docs/cases.md): each case that lies there, or is put "
                         "there later, can be opened in the room");
+    command
+        ->add_option("--identifiers-for", flags->identifiers_for,
+                     "The roles that see the name, date of birth and number of the open case's "
+                     "patient: operator, expert and publisher, with commas, or nobody")
+        ->capture_default_str();
     command
         ->add_option(
             "--filter", flags->options.filters,

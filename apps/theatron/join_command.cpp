@@ -185,7 +185,7 @@ void run(const JoinFlags& flags) {
     options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or("guest");
     VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
-                     parse_cleaning(flags.echo_cancellation)});
+                     parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
     voice.hear_by(options);
     const auto publisher = open_own_cameras(flags, options);
 
@@ -231,6 +231,8 @@ void run(const JoinFlags& flags) {
             break;
         voice.hold(false, steady_now());
         room.on_tick(participant);
+        if (const auto& head = room.head())
+            voice.place(*head, participant);
         print_managed(participant);
         const TimePoint now = steady_now();
         // Nothing more is to come from a host without cameras.
@@ -408,6 +410,12 @@ void add_join_command(CLI::App& app) {
         ->add_option("--echo-cancellation", flags->echo_cancellation,
                      "Take echo of the loudspeaker, noise and differences of loudness out of your "
                      "microphone: on, off, or auto, which is on for devices and off for files")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "on", "off"}));
+    command
+        ->add_option("--spatial-voices", flags->spatial_voices,
+                     "Hear people from where they stand, as with headphones (HRTF): on, off, or "
+                     "auto, which is on for devices and off for files. A file is stereo then")
         ->capture_default_str()
         ->check(CLI::IsMember({"auto", "on", "off"}));
     command->add_flag("--push-to-talk", flags->push_to_talk,

@@ -91,4 +91,9 @@ VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {
     return text == "on" ? Cleaning::on : text == "off" ? Cleaning::off : Cleaning::automatic;
 }
 
+VoiceLine::Options::Spatial parse_spatial(const std::string& text) {
+    using Spatial = VoiceLine::Options::Spatial;
+    return text == "on" ? Spatial::on : text == "off" ? Spatial::off : Spatial::automatic;
+}
+
 }  // namespace theatron::app

@@ -43,7 +43,7 @@ struct JoinFlags {
     bool may_record = false;
     bool voice_may_record = false;
     bool push_to_talk = false;
-    std::string echo_cancellation = "auto";
+    std::string echo_cancellation = "auto", spatial_voices = "auto";
     bool list_devices = false;
     bool or_screen = false;
     std::string render_scale = "auto";
@@ -67,5 +67,6 @@ client::Participant::Options participant_options(const JoinFlags& flags);
 std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flags,
                                                            client::Participant::Options& options);
 VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
+VoiceLine::Options::Spatial parse_spatial(const std::string& text);
 
 }  // namespace theatron::app

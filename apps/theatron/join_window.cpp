@@ -14,6 +14,7 @@ namespace theatron::app {
 
 void join_in_window(const JoinFlags& flags) {
     ViewerWindow shown{.join = participant_options(flags)};
+    shown.join.shows_patient = true;
     shown.seconds = flags.seconds;
     shown.save_to = flags.save_to;
     shown.viewer.view = viewer::parse_view(flags.view);
@@ -49,7 +50,8 @@ void join_in_window(const JoinFlags& flags) {
         VoiceLine voice({device(flags.microphone, shown.settings.speaks),
                          device(flags.speaker, shown.settings.hears), flags.voice_frame_ms,
                          flags.push_to_talk || shown.settings.push_to_talk,
-                         parse_cleaning(flags.echo_cancellation)});
+                         parse_cleaning(flags.echo_cancellation),
+                         parse_spatial(flags.spatial_voices)});
         ViewerWindow now = shown;
         now.join.voice_may_record = flags.voice_may_record || shown.settings.voice_may_record;
         now.keep = [&shown](const client::Settings& settings) {
@@ -79,7 +81,7 @@ void join_as_or_screen(const JoinFlags& flags) {
         options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or(or_screen_name);
     VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
-                     parse_cleaning(flags.echo_cancellation)});
+                     parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
     voice.hear_by(options);
     cli::catch_stop_signals();
     xr::DesktopWindow window("Theatron", parse_size(flags.size));

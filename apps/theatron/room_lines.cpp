@@ -54,6 +54,7 @@ const char* RoomLines::help() {
 
 void RoomLines::stand(const Pose& room_from_head) {
     pose_.head = viewer::part_of(room_from_head);
+    room_from_head_ = room_from_head;
 }
 
 bool RoomLines::obey(const std::string& line, client::Participant& participant) {
@@ -84,7 +85,10 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
             return needs_places;
         if (length(at - place) < same_place_m)
             return "The two places are the same.";
-        (what == "stand" ? pose_.head : pose_.right_hand) = viewer::part_of(towards(place, at));
+        if (what == "stand")
+            stand(towards(place, at));
+        else
+            pose_.right_hand = viewer::part_of(towards(place, at));
         pose_.points = pose_.points || what == "point";
         sent_ = {};
         return "";

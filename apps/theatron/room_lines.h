@@ -25,6 +25,8 @@ public:
 
     // Gives the participant a head. Metres; y up, -z forward.
     void stand(const Pose& room_from_head);
+    // That head; nullopt: none yet.
+    const std::optional<Pose>& head() const { return room_from_head_; }
 
     // Call it several times a second: repeats the poses, so that they do not become stale.
     void on_tick(client::Participant& participant);
@@ -47,6 +49,7 @@ private:
     void print_refusals(client::Participant& participant, TimePoint now);
 
     wire::PersonPose pose_;
+    std::optional<Pose> room_from_head_;
     TimePoint calls_until_, sent_, refusals_printed_;
     std::uint64_t refused_ = 0;  // not yet printed
     std::string refusal_;        // the newest of these

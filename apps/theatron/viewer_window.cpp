@@ -258,6 +258,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             continue;
 
         const bool scene = viewer.step(window.pixels(), now);
+        // The eye's pose has y down.
+        if (options.voice && viewer.first_picture_at() != TimePoint{})
+            options.voice->place(viewer.told_eye() * Pose{Quat{0, 1, 0, 0}, {}}, participant);
         bool texts_changed = false;
         if (now >= next_texts || !input.keys.empty()) {
             const viewer::Facts facts = viewer.facts(now);

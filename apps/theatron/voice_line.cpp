@@ -42,18 +42,72 @@ void VoiceLine::use_speaker(const std::string& name) {
         return;
     }
     const auto open = [this](const std::string& wanted) {
-        return sound::open_speaker(wanted, [this](std::span<float> out) {
-            {
-                const std::lock_guard lock(mixer_mutex_);
-                mixer_.pull(out, steady_now());
-            }
-            if (cleans_)
-                canceller_->played(out);
-        });
+        using Spatial = Options::Spatial;
+        const bool in_space = options_.spatial == Spatial::on ||
+                              (options_.spatial == Spatial::automatic && !sound::is_file(wanted));
+        if (!in_space)
+            return sound::open_speaker(wanted, [this](std::span<float> out) { play(out); });
+        {
+            const std::lock_guard lock(mixer_mutex_);
+            if (!spatial_)
+                spatial_ = std::make_unique<sound::SpatialVoices>();
+        }
+        constexpr int ears = 2;
+        return sound::open_speaker(
+            wanted, [this](std::span<float> out) { play_in_space(out); }, ears);
     };
     speaker_ = std::make_unique<sound::KeptDevice>("loudspeaker", name, open,
                                                    [](const std::string& text) { log::say(text); });
     plays_ = true;
+}
+
+void VoiceLine::play(std::span<float> out) {
+    {
+        const std::lock_guard lock(mixer_mutex_);
+        mixer_.pull(out, steady_now());
+    }
+    if (cleans_)
+        canceller_->played(out);
+}
+
+void VoiceLine::play_in_space(std::span<float> out) {
+    // A voice whose place is not known is heard from ahead.
+    constexpr Vec3 ahead{0, 0, -sound::full_loudness_m};
+    const TimePoint now = steady_now();
+    played_.resize(out.size() / 2);
+    {
+        const std::lock_guard lock(mixer_mutex_);
+        if (head_from_room_) {
+            std::vector<sound::SpatialVoices::Voice> voices;
+            for (const voice::Mixer::Heard& heard : mixer_.pull_each(played_.size(), now)) {
+                const auto place = heads_.find(heard.speaker);
+                voices.push_back({heard.speaker,
+                                  place != heads_.end() ? *head_from_room_ * place->second : ahead,
+                                  heard.samples});
+            }
+            spatial_->mix(voices, out);
+        } else {
+            mixer_.pull(played_, now);
+            for (std::size_t i = 0; i < played_.size(); ++i)
+                out[2 * i] = out[2 * i + 1] = played_[i];
+        }
+    }
+    for (std::size_t i = 0; i < played_.size(); ++i)
+        played_[i] = (out[2 * i] + out[2 * i + 1]) / 2;
+    if (cleans_)
+        canceller_->played(played_);
+}
+
+void VoiceLine::place(const Pose& room_from_head, const client::Participant& participant) {
+    std::map<ParticipantId, Vec3> heads;
+    for (const auto& [id, pose] : participant.poses())
+        if (pose.head) {
+            const auto& [x, y, z] = pose.head->position;
+            heads[id] = {x, y, z};
+        }
+    const std::lock_guard lock(mixer_mutex_);
+    head_from_room_ = inverse(room_from_head);
+    heads_ = std::move(heads);
 }
 
 void VoiceLine::hear_by(client::Participant::Options& options) {
@@ -271,6 +325,9 @@ nlohmann::json VoiceLine::json() const {
              {"longest_concealed_ms", to_ms_of(speaker.figures.longest_concealed)}});
     }
     result["unreadable"] = mixer_.unreadable();
+    result["space"] = !spatial_                                    ? "off"
+                      : spatial_->way() == sound::SpatialWay::hrtf ? "hrtf"
+                                                                   : "panning";
     return result;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "client/participant.h"
 #include "sound/echo_canceller.h"
 #include "sound/kept_device.h"
+#include "sound/spatial_voices.h"
 #include "viewer/voices.h"
 #include "voice/mixer.h"
 #include "voice/speakers.h"
@@ -31,6 +33,9 @@ public:
         // Echo, noise and loudness of the microphone are treated (sound/echo_canceller.h).
         // automatic: of devices, not of files.
         enum class Cleaning { automatic, on, off } cleaning = Cleaning::automatic;
+        // The voices are heard from where people stand (sound/spatial_voices.h), once place() has
+        // said where. automatic: by devices, not in files.
+        enum class Spatial { automatic, on, off } spatial = Spatial::automatic;
     };
 
     // Opens the loudspeaker.
@@ -79,7 +84,12 @@ public:
     // For a window.
     viewer::Voices voices() const;
 
-    // {"microphone":"open"|"closed"|"push"|"none","talks","heard","level_db","speaker","speaking":[{"id","level_db"}],
+    // The head of this person (y up, -z ahead), and those of the others by the participant. Call it
+    // many times a second.
+    void place(const Pose& room_from_head, const client::Participant& participant);
+
+    // {"microphone":"open"|"closed"|"push"|"none","talks","heard","level_db","speaker","space"
+    // ("hrtf", "panning" or "off"),"speaking":[{"id","level_db"}],
     // "microphone_began_us","speaker_began_us" (of files, this machine's steady clock),
     // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable"}
     nlohmann::json json() const;
@@ -93,6 +103,8 @@ private:
     void use_microphone(const std::string& name);
     void use_speaker(const std::string& name);
     bool has_microphone() const;
+    void play(std::span<float> out);
+    void play_in_space(std::span<float> out);
     void apply();  // with talker_mutex_ held
     bool is_open_ = true;
     bool is_pushed_ = false;   // push to talk
@@ -102,12 +114,17 @@ private:
     bool is_heard_ = true;      // the role may speak, and nobody has muted this person
     voice::Speakers speakers_;  // under mixer_mutex_
     voice::Mixer mixer_;
+    // The rest likewise. Null until a loudspeaker plays in space.
+    std::unique_ptr<sound::SpatialVoices> spatial_;
+    std::optional<Pose> head_from_room_;
+    std::map<ParticipantId, Vec3> heads_;            // in the room
     client::Participant* participant_ = nullptr;     // of the present Talking
     std::unique_ptr<sound::KeptDevice> microphone_;  // likewise; its thread uses the talker
     void take(std::span<const float> samples);
     std::unique_ptr<sound::EchoCanceller> canceller_;  // null: off
     std::atomic<bool> cleans_ = false;                 // the present microphone is treated
     std::vector<float> uncleaned_, cleaned_;           // the microphone's thread only
+    std::vector<float> played_;                        // the loudspeaker's thread only
     std::atomic<bool> plays_ = false;                  // there is a speaker_
     std::unique_ptr<sound::KeptDevice> speaker_;       // its thread uses the mixer
 };

@@ -148,7 +148,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     client::Participant::Options options;
     options.link = link;
     options.name = name;
-    options.keeps_room = options.keeps_cases = true;
+    options.keeps_room = options.keeps_cases = options.shows_patient = true;
     options.person = bytes_of_hex(person);
     options.voice = [](ParticipantId speaker, ByteView packet) {
         give_voice(unsigned(speaker), packet.data(), int(packet.size()));
@@ -388,6 +388,12 @@ EMSCRIPTEN_KEEPALIVE void theatron_speak(unsigned number, double age_us, int pau
     Bytes bytes;
     voice::write_packet(packet, bytes);
     page().participant()->send_voice(bytes);
+}
+
+// The person agrees that others record the voice (1), or does not (0), in this visit.
+EMSCRIPTEN_KEEPALIVE void theatron_allow_voice_recording(int agrees) {
+    if (page().participant())
+        page().participant()->allow_voice_recording(agrees != 0);
 }
 
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.

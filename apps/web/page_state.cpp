@@ -101,6 +101,7 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
     for (const auto& [id, object] : room.objects)
         bricks += object.kind == session::ObjectKind::brick;
     const auto& status = facts.received.status;
+    const bool asks_consent = participant.asks_voice_consent();
     return {{"phase", client::text_of(status.phase)},
             {"problem", status.problem},
             {"host", status.host_name},
@@ -117,6 +118,9 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"is_heard",
              session::may(status.standing.role, session::Right::speak) && !status.standing.muted},
             {"is_muted", status.standing.muted},
+            // Null where the host does not ask.
+            {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},
+            {"is_recorded", !participant.recordings().empty()},
             {"bricks", bricks}};
 }
 

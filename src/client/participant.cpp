@@ -32,6 +32,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::room);
     if (options.keeps_cases)
         features.push_back(wire::Feature::cases);
+    if (options.shows_patient)
+        features.push_back(wire::Feature::patient);
     features.push_back(wire::Feature::voice_consent);
     return features;
 }
@@ -148,6 +150,7 @@ bool Participant::begin_connection(net::Client& client) {
 std::optional<Duration> Participant::end_connection(const net::Client::End& end) {
     std::unique_lock lock(shared_->mutex);
     shared_->client = nullptr;
+    shared_->patient = {};
     shared_->media_waiting = 0;
     if (shared_->stopping)
         return std::nullopt;
@@ -337,6 +340,9 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::playback:
             on_playback();
+            break;
+        case Change::patient:
+            on_patient();
             break;
         case Change::cases:
             if (cases_)

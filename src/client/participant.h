@@ -73,6 +73,8 @@ public:
         bool keeps_room = false;
         // Takes the content of the case that is open in the room; needs keeps_room.
         bool keeps_cases = false;
+        // Shows patient() to this person, and to nobody else.
+        bool shows_patient = false;
         // This person agrees that others record its voice; see allow_voice_recording().
         bool voice_may_record = false;
         // An object of the room or its pose has changed. Called from the participant's thread.
@@ -203,6 +205,9 @@ public:
     std::vector<wire::OfferedCase> cases() const;
     // See CaseKeeper::open().
     std::optional<OpenCase> open_case(std::uint64_t& version) const;
+    // The patient of the open case; empty: not known, or this person may not know it. Show
+    // it to this person alone, and keep it nowhere else: neither in files nor in figures or logs.
+    wire::Patient patient() const;
 
     // For operators, from any thread: the people who wait for admission now.
     std::vector<wire::Visitor> visitors() const;
@@ -246,6 +251,7 @@ private:
     void on_visitors();
     void on_managed();
     void on_playback();
+    void on_patient();
     std::uint32_t decide(auto decision);
     void offer_cameras();
     void on_published();

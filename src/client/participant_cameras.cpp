@@ -44,6 +44,7 @@ void Participant::on_welcome() {
     shared_->status.delivery = {};
     shared_->may_adjust = session_.has(wire::Feature::adjusting);
     shared_->playback.reset();
+    shared_->patient = {};
     shared_->renderer_word = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;

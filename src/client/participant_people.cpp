@@ -110,6 +110,19 @@ void Participant::on_playback() {
     announce();
 }
 
+void Participant::on_patient() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->patient = session_.patient();
+    }
+    announce();
+}
+
+wire::Patient Participant::patient() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->patient;
+}
+
 std::optional<wire::Playback> Participant::playback() const {
     const std::lock_guard lock(shared_->mutex);
     return shared_->playback;

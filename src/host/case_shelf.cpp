@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <set>
 
 #include "base/error.h"
@@ -34,7 +35,8 @@ std::string signature_of(const fs::path& folder) {
         std::error_code ignored;
         files.insert(entry->path().filename().string() + " " +
                      std::to_string(entry->file_size(ignored)) + " " +
-                     std::to_string(entry->last_write_time(ignored).time_since_epoch().count()));
+                     std::to_string(entry->last_write_time(ignored).time_since_epoch().count()) +
+                     " " + std::to_string(int(entry->status(ignored).permissions())));
         if (int(files.size()) >= max_watched_files)
             break;
     }
@@ -144,6 +146,7 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
     folder.is_read = true;
     const bool was_offered = folder.shared.has_value();
     folder.shared.reset();
+    folder.patient.reset();
     if (folder.signature.empty())
         return was_offered;
     std::uint64_t taken = 0;
@@ -160,11 +163,40 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " This case is not offered.");
     }
+    if (folder.shared)
+        read_patient(path, folder);
     return was_offered || folder.shared;
 }
 
+void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
+    try {
+        folder.patient = cases::read_patient_texts(path);
+    } catch (const std::exception& error) {
+        log::say(std::string(error.what()) + " Nobody is told who the patient is.");
+    }
+}
+
+// A case of this content may lie in two folders. If they name two patients, neither is known.
+void CaseShelf::add_patient(const Folder& folder, std::vector<wire::Patient>& patients) {
+    const auto& id = folder.shared->id.bytes;
+    wire::Patient patient{Bytes(id.begin(), id.end()), {}, {}, {}};
+    if (folder.patient) {
+        patient.name = folder.patient->name;
+        patient.birth_date = folder.patient->birth_date;
+        patient.id = folder.patient->id;
+    }
+    const auto known = std::find_if(patients.begin(), patients.end(), [&](const auto& other) {
+        return other.of_case == patient.of_case;
+    });
+    if (known == patients.end())
+        patients.push_back(std::move(patient));
+    else if (*known != patient)
+        *known = {known->of_case, {}, {}, {}};
+}
+
 void CaseShelf::publish() {
-    std::vector<session::CaseFacts> offered;
+    Offer offer;
+    std::vector<session::CaseFacts>& offered = offer.cases;
     std::map<std::string, int> times;  // that a name was offered
     std::map<ContentHash, std::shared_ptr<const Bytes>> content;
     for (const auto& [name, folder] : folders_)
@@ -175,12 +207,13 @@ void CaseShelf::publish() {
             if (const int before = times[own]++; before > 0)
                 offered.back().name = own + " (" + std::to_string(before + 1) + ")";
             content.insert(folder.shared->content.begin(), folder.shared->content.end());
+            add_patient(folder, offer.patients);
         }
     {
         const std::lock_guard lock(mutex_);
         content_ = std::move(content);
     }
-    changed_(std::move(offered));
+    changed_(std::move(offer));
 }
 
 }  // namespace theatron::host

@@ -15,8 +15,10 @@
 #include <vector>
 
 #include "base/time.h"
+#include "cases/patient_texts.h"
 #include "cases/share_case.h"
 #include "session/case_objects.h"
+#include "wire/control.h"
 
 namespace theatron::host {
 
@@ -28,8 +30,13 @@ public:
     // Folders of the directory that are read; the first ones by name.
     static constexpr std::size_t max_folders = 64;
 
+    // The cases, and their patients as far as they are known.
+    struct Offer {
+        std::vector<session::CaseFacts> cases;
+        std::vector<wire::Patient> patients;
+    };
     // Other cases are offered from now on. From the thread of the shelf.
-    using Changed = std::function<void(std::vector<session::CaseFacts>)>;
+    using Changed = std::function<void(Offer)>;
 
     // Throws Error with one sentence if there is no such directory.
     CaseShelf(std::filesystem::path directory, Changed changed);
@@ -40,14 +47,17 @@ public:
 
 private:
     struct Folder {
-        std::string signature;  // sizes and times of its files
+        std::string signature;  // sizes, times and rights of its files
         bool is_read = false;   // in this state of its files
         std::optional<cases::ShareableCase> shared;
+        std::optional<cases::PatientTexts> patient;
     };
     void run();
     void look();
     // True if what is offered changes.
     bool look_at(const std::string& name, Folder& folder);
+    static void read_patient(const std::filesystem::path& path, Folder& folder);
+    static void add_patient(const Folder& folder, std::vector<wire::Patient>& patients);
     void publish();
 
     const std::filesystem::path directory_;

@@ -121,6 +121,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
                                                                  : options.audit);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
+    config.patient_for = options.patient_for;
     page = options.page.empty() ? Page() : Page(options.page);
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);
@@ -157,13 +158,12 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     for (const CameraId camera : session->streams().of(session::host_publisher))
         crop(*session->streams().find(camera));
     if (!options.cases.empty())
-        cases = std::make_unique<CaseShelf>(options.cases,
-                                            [this](std::vector<session::CaseFacts> offered) {
-                                                server->post([this, offered = std::move(offered)] {
-                                                    session->set_cases(offered);
-                                                    carry_out();
-                                                });
-                                            });
+        cases = std::make_unique<CaseShelf>(options.cases, [this](CaseShelf::Offer offer) {
+            server->post([this, offer = std::move(offer)] {
+                session->set_cases(offer.cases, offer.patients);
+                carry_out();
+            });
+        });
     thread = std::thread([this] {
         name_this_thread("net");
         (void)contain("net", [this] { server->run(); });

@@ -32,6 +32,8 @@ struct HostOptions {
     std::filesystem::path audit;  // empty: audit.jsonl in the state folder
     bool is_audited = true;
     std::filesystem::path cases;  // the folder of cases that are offered; empty: none
+    // The roles that are told who the patient of the open case is; never observers.
+    std::vector<wire::Role> patient_for = {wire::Role::operator_};
     // Files of an organisation's certificate, for browsers (net::read_certificate); empty: the
     // host's own one.
     std::filesystem::path certificate, key;

@@ -73,6 +73,7 @@ public:
         bool asks_to_publish = false;            // as in wire::Join
         std::uint64_t denied = 0;                // messages that its role does not allow
         bool records = false;                    // as in wire::Join
+        wire::Patient patient;                   // that it was told; empty: none
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
         std::string renderer;                    // as it reports it; may be empty

@@ -112,6 +112,13 @@ std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomR
     return decision.refusal == Refusal::none ? camera : std::nullopt;
 }
 
+std::optional<ContentHash> HostRoom::open_case() const {
+    for (const auto& [id, object] : state_.objects())
+        if (const auto organ = decode_as<CaseOrgan>(object.kind, object.properties))
+            return organ->of_case;
+    return std::nullopt;
+}
+
 std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, std::uint32_t number,
                                                             const Request& request) {
     const auto is_of_case = [](ObjectKind kind) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "session/case_objects.h"
@@ -76,6 +77,8 @@ public:
     // One case is open at a time; another one replaces it.
     void set_cases(std::vector<CaseFacts> cases) { cases_ = std::move(cases); }
     const std::vector<CaseFacts>& cases() const { return cases_; }
+    // The case that is open; not that of a replayed recording.
+    std::optional<ContentHash> open_case() const;
 
     struct Forward {
         std::vector<ParticipantId> receivers;

@@ -191,6 +191,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     if (!room_.cases().empty())
         tell_cases(id);
     tell_playback(id);
+    tell_patient();
     if (participant.may(Right::manage))
         tell_operators();
 }
@@ -249,6 +250,7 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, 
 void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
     if (const auto ended = room_.on_request(id, request))
         end_share(*ended, id);
+    tell_patient();
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {
@@ -268,11 +270,13 @@ void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent,
     room_.set_person(id, facts_of(person));
 }
 
-void HostSession::set_cases(std::vector<CaseFacts> cases) {
+void HostSession::set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients) {
     room_.set_cases(std::move(cases));
+    patients_ = std::move(patients);
     for (const auto& [id, participant] : admission_.participants())
         if (participant.takes_part())
             tell_cases(id);
+    tell_patient();
 }
 
 void HostSession::tell_cases(ParticipantId id) {
@@ -335,7 +339,7 @@ void HostSession::on_tick(TimePoint now) {
 }
 
 void HostSession::resynchronise(ParticipantId id) {
-    const Participant* participant = admission_.find(id);
+    Participant* participant = admission_.find(id);
     if (!participant || !participant->takes_part())
         return;
     describe_session(id);
@@ -345,6 +349,10 @@ void HostSession::resynchronise(ParticipantId id) {
     if (!room_.cases().empty())
         tell_cases(id);
     tell_playback(id);
+    // Its last message may be lost: an empty one, too.
+    if (participant->has(wire::Feature::patient))
+        send(id, participant->patient = {});
+    tell_patient();
     if (participant->may(Right::manage))
         tell_operators();
 }

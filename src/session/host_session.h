@@ -42,6 +42,8 @@ public:
         Streams::Config streams;
         RoomSnapshot room;          // from the previous run
         HostRoom::Authors authors;  // of its marks
+        // Those of them that may_know_patient() are told who the patient of the open case is.
+        std::vector<Role> patient_for = {Role::operator_};
     };
 
     // Cameras of one publisher at once.
@@ -92,8 +94,9 @@ public:
     std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now) {
         return room_.replay(recorded, now);
     }
-    // The cases that can be opened from now on, in this order, at most wire::max_offered_cases.
-    void set_cases(std::vector<CaseFacts> cases);
+    // The cases that can be opened from now on, in this order, at most wire::max_offered_cases, and
+    // their patients, as far as they are known.
+    void set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients = {});
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
 
@@ -169,6 +172,7 @@ private:
     void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void tell_cases(ParticipantId id);
+    void tell_patient();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
                           const std::vector<wire::Camera>& cameras) const;
@@ -214,6 +218,7 @@ private:
     RendererWishes renderers_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;
+    std::vector<wire::Patient> patients_;  // of offered cases
     struct Adjusting {
         std::string by;
         TimePoint at;

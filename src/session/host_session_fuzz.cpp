@@ -88,7 +88,7 @@ Bytes hello(std::uint8_t choice) {
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
     wishes.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::cases,
-                       wire::Feature::screens};
+                       wire::Feature::screens, wire::Feature::patient};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
@@ -145,9 +145,19 @@ void check_screens(const HostSession& host) {
         std::abort();
 }
 
-// A participant who waits for admission gets nothing of the session.
+wire::Patient patient_of(int number) {
+    const session::CaseFacts facts = case_facts(number);
+    return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", ""};
+}
+
+// A participant who waits for admission gets nothing of the session, and only an operator learns
+// who the patient is.
 void check_sent(const HostSession& host, const session::action::Send& send) {
     const auto found = host.participants().find(send.participant);
+    const auto* patient = std::get_if<wire::Patient>(&send.message);
+    if (patient && !patient->name.empty() && found != host.participants().end() &&
+        (found->second.role != session::Role::operator_ || found->second.records))
+        std::abort();
     if (found == host.participants().end() || !found->second.waits())
         return;
     using wire::Managed, wire::Pong, wire::Published, wire::Waiting, wire::RoomDecision;
@@ -283,7 +293,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             }
             case 17: {
-                host.set_cases({case_facts(0), case_facts(choice % 3)});
+                host.set_cases({case_facts(0), case_facts(choice % 3)}, {patient_of(choice % 3)});
                 const session::Request requests[] = {
                     session::request::Create{session::ObjectKind::organ,
                                              {},

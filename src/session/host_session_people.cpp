@@ -125,6 +125,7 @@ void HostSession::begin_again() {
     has_ended_ = false;
     membership_.forget_all();
     room_.clear();
+    tell_patient();
     actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", at_the_host, config_.name}});
 }
 
@@ -145,8 +146,28 @@ void HostSession::set_role(ParticipantId id, Role role) {
         resynchronise(id);
     else
         tell_standing(id);
+    tell_patient();
     if (could_manage != person.may(Right::manage))
         tell_operators();
+}
+
+// Tells those who may know it the patient of the open case, and withdraws it from the others.
+void HostSession::tell_patient() {
+    const auto open = room_.open_case();
+    const auto found = std::find_if(patients_.begin(), patients_.end(), [&](const auto& patient) {
+        return open && to_content_hash(patient.of_case) == open;
+    });
+    const wire::Patient known = found == patients_.end() ? wire::Patient{} : *found;
+    const std::vector<Role>& roles = config_.patient_for;
+    for (auto& [id, person] : admission_.participants()) {
+        if (!person.takes_part() || !person.has(wire::Feature::patient))
+            continue;
+        const bool may_know = may_know_patient(person.role) && !person.records &&
+                              std::find(roles.begin(), roles.end(), person.role) != roles.end();
+        const wire::Patient now = may_know ? known : wire::Patient{};
+        if (now != person.patient)
+            send(id, person.patient = now);
+    }
 }
 
 void HostSession::set_tokens(std::vector<Admission::Token> tokens) {

@@ -36,6 +36,11 @@ constexpr bool may(Role role, Right right) {
     return false;
 }
 
+// Observers never learn who the patient is; a host chooses among the other roles.
+constexpr bool may_know_patient(Role role) {
+    return role != Role::observer;
+}
+
 constexpr Right needed_right(const auto&) {
     return Right::see;
 }

@@ -34,6 +34,7 @@ Bytes ViewerSession::begin() {
     goodbye_ = {};
     standing_ = {};
     playback_.reset();
+    patient_ = {};
     visitors_.clear();
     wire::Join join;
     join.token = wishes_.token;
@@ -162,6 +163,10 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
     if (auto* playback = std::get_if<wire::Playback>(&message)) {
         playback_ = std::move(*playback);
         return Change::playback;
+    }
+    if (auto* patient = std::get_if<wire::Patient>(&message)) {
+        patient_ = std::move(*patient);
+        return Change::patient;
     }
     if (auto* content = std::get_if<wire::Content>(&message)) {
         content_ = std::move(*content);

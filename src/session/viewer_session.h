@@ -55,6 +55,7 @@ public:
         cases,       // offered_cases(): all cases of the host
         content,     // content(): a piece of what this participant has asked for
         playback,    // playback(): where the recording is that the host plays
+        patient,     // patient(): who the patient of the open case is
         goodbye,     // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
@@ -105,6 +106,9 @@ public:
     const wire::Content& content() const { return content_; }
     // Empty: the host plays no recording.
     const std::optional<wire::Playback>& playback() const { return playback_; }
+    // Empty: not known, or this participant may not know it. To be shown to this person alone, and
+    // kept nowhere else.
+    const wire::Patient& patient() const { return patient_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -139,6 +143,7 @@ private:
     std::vector<wire::OfferedCase> offered_cases_;
     wire::Content content_;
     std::optional<wire::Playback> playback_;
+    wire::Patient patient_;
 };
 
 }  // namespace theatron::session

@@ -47,14 +47,14 @@ std::vector<std::string> names_of(bool captures) {
 
 class SdlDevice : public SoundDevice {
 public:
-    SdlDevice(const std::string& name, bool captures, Deliver deliver, Fill fill)
+    SdlDevice(const std::string& name, bool captures, int channels, Deliver deliver, Fill fill)
         : audio_(captures ? "a microphone" : "a loudspeaker"),
           deliver_(std::move(deliver)),
           fill_(std::move(fill)) {
         SDL_AudioSpec wanted{};
         wanted.freq = voice::sample_rate;
         wanted.format = AUDIO_F32SYS;
-        wanted.channels = 1;
+        wanted.channels = Uint8(channels);
         wanted.samples = block_samples;
         wanted.userdata = this;
         wanted.callback = [](void* self, Uint8* bytes, int size) {
@@ -109,13 +109,13 @@ DeviceList devices() {
 std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver) {
     if (is_file(name))
         return open_wav_microphone(name, std::move(deliver));
-    return std::make_unique<SdlDevice>(name, true, std::move(deliver), nullptr);
+    return std::make_unique<SdlDevice>(name, true, 1, std::move(deliver), nullptr);
 }
 
-std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill) {
+std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill, int channels) {
     if (is_file(name))
-        return open_wav_speaker(name, std::move(fill));
-    return std::make_unique<SdlDevice>(name, false, nullptr, std::move(fill));
+        return open_wav_speaker(name, std::move(fill), channels);
+    return std::make_unique<SdlDevice>(name, false, channels, nullptr, std::move(fill));
 }
 
 }  // namespace theatron::sound

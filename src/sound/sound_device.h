@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Microphones and loudspeakers: devices of this machine by SDL, or WAV files at the same pace, for
-// tests and scripts. All samples are mono, 48 kHz, -1 to 1.
+// tests and scripts. All samples are 48 kHz, -1 to 1, those of microphones mono.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace theatron::sound {
 
-// Samples in a block of both; 10 ms.
+// Samples of each channel in a block of both; 10 ms.
 inline constexpr int block_samples = 480;
 
 // Delivers or takes blocks on a thread of its own until it is destroyed.
@@ -48,7 +48,7 @@ using Fill = std::function<void(std::span<float>)>;
 std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver);
 
 // The same for a loudspeaker; a file is written, of 16 bits, and complete when the device is
-// destroyed. It must not exist yet.
-std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill);
+// destroyed. It must not exist yet. `channels`: 1, or 2 for a left and a right sample in turns.
+std::unique_ptr<SoundDevice> open_speaker(const std::string& name, Fill fill, int channels = 1);
 
 }  // namespace theatron::sound

@@ -5,7 +5,7 @@
 
 namespace theatron::sound {
 
-Bytes wav_head(std::uint32_t data_size) {
+Bytes wav_head(std::uint32_t data_size, int channels) {
     Bytes head;
     ByteWriter out(head);
     out.put_bytes(as_bytes("RIFF"));
@@ -13,10 +13,10 @@ Bytes wav_head(std::uint32_t data_size) {
     out.put_bytes(as_bytes("WAVEfmt "));
     out.put(std::uint32_t(16));
     out.put(std::uint16_t(1));  // PCM
-    out.put(std::uint16_t(1));  // channel
+    out.put(std::uint16_t(channels));
     out.put(std::uint32_t(voice::sample_rate));
-    out.put(std::uint32_t(voice::sample_rate * 2));
-    out.put(std::uint16_t(2));
+    out.put(std::uint32_t(voice::sample_rate * 2 * channels));
+    out.put(std::uint16_t(2 * channels));
     out.put(std::uint16_t(16));
     out.put_bytes(as_bytes("data"));
     out.put(data_size);

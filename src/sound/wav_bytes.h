@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WAV files of 16 bits, mono, at the sample rate of voice.
+// WAV files of 16 bits at the sample rate of voice, mono unless stated.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace theatron::sound {
 inline constexpr std::size_t wav_head_size = 44;
 
 // The head of a file with so many bytes of samples.
-Bytes wav_head(std::uint32_t data_size);
+Bytes wav_head(std::uint32_t data_size, int channels = 1);
 Bytes wav_bytes(std::span<const std::int16_t> samples);
 // The samples of a file with such a head, which is not checked.
 std::vector<std::int16_t> samples_of_wav(ByteView file);

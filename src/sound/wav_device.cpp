@@ -119,12 +119,13 @@ void write(std::ofstream& file, ByteView bytes) {
 
 class WavSpeaker : public SoundDevice {
 public:
-    WavSpeaker(const std::string& path, Fill fill) : path_(path), fill_(std::move(fill)) {
+    WavSpeaker(const std::string& path, Fill fill, int channels)
+        : path_(path), channels_(channels), fill_(std::move(fill)) {
         if (std::error_code failed;
             std::filesystem::exists(std::filesystem::symlink_status(path, failed)))
             throw Error("The sound file '" + path + "' exists already; name another file.");
         file_.open(path, std::ios::binary | std::ios::trunc);
-        write(file_, wav_head(0));
+        write(file_, wav_head(0, channels_));
         if (!file_)
             throw Error("The sound file '" + path + "' cannot be written; check its folder.");
         pace_ = std::make_unique<Pace>([this] { next(); });
@@ -132,7 +133,7 @@ public:
     ~WavSpeaker() override {
         pace_.reset();
         file_.seekp(0);
-        write(file_, wav_head(size_));
+        write(file_, wav_head(size_, channels_));
     }
 
     // A sound card plays the block before meanwhile.
@@ -140,14 +141,14 @@ public:
 
 private:
     void next() {
-        std::vector<float> block(block_samples);
+        std::vector<float> block(std::size_t(channels_ * block_samples));
         fill_(block);
         Bytes bytes;
         ByteWriter out(bytes);
         for (const float v : block)
             out.put(std::int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767)));
         // The head's sizes have 32 bits.
-        constexpr std::uint32_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 36 - 960;
+        constexpr std::uint32_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 36 - 1920;
         if (is_full_)
             return;
         write(file_, bytes);
@@ -164,6 +165,7 @@ private:
     }
 
     const std::string path_;
+    const int channels_;
     std::ofstream file_;
     bool is_full_ = false;
     const Fill fill_;
@@ -177,8 +179,8 @@ std::unique_ptr<SoundDevice> open_wav_microphone(const std::string& path, Delive
     return std::make_unique<WavMicrophone>(path, std::move(deliver));
 }
 
-std::unique_ptr<SoundDevice> open_wav_speaker(const std::string& path, Fill fill) {
-    return std::make_unique<WavSpeaker>(path, std::move(fill));
+std::unique_ptr<SoundDevice> open_wav_speaker(const std::string& path, Fill fill, int channels) {
+    return std::make_unique<WavSpeaker>(path, std::move(fill), channels);
 }
 
 }  // namespace theatron::sound

@@ -10,6 +10,6 @@ namespace theatron::sound {
 std::unique_ptr<SoundDevice> open_wav_microphone(const std::string& path, Deliver deliver);
 
 // Throws Error if the file cannot be written.
-std::unique_ptr<SoundDevice> open_wav_speaker(const std::string& path, Fill fill);
+std::unique_ptr<SoundDevice> open_wav_speaker(const std::string& path, Fill fill, int channels = 1);
 
 }  // namespace theatron::sound

@@ -29,6 +29,18 @@ std::string state_of(const CasePanelFacts& facts) {
                : megabytes(content->progress.got) + " of " + megabytes(content->progress.all);
 }
 
+// The panel is over the picture of this person alone, and in no saved picture.
+xr::PanelRow patient_row(const wire::Patient& patient) {
+    std::string detail;
+    const auto add = [&](const char* what, const std::string& text) {
+        if (!text.empty())
+            detail += (detail.empty() ? "" : ", ") + (what + text);
+    };
+    add("born ", patient.birth_date);
+    add("number ", patient.id);
+    return {patient.name.empty() ? "Patient" : "Patient: " + patient.name, detail, {}};
+}
+
 class Builder {
 public:
     Builder(RoomPanel& panel) : panel_(panel) {}
@@ -40,8 +52,9 @@ public:
     xr::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
         return button(std::move(label), ChangeCase{std::move(action)});
     }
+    void row(xr::PanelRow row) { rows_.push_back(std::move(row)); }
     void row(std::string text, std::string detail, std::vector<xr::PanelButton> buttons) {
-        rows_.push_back({std::move(text), std::move(detail), std::move(buttons)});
+        row({std::move(text), std::move(detail), std::move(buttons)});
     }
     void finish(std::string title) { panel_.panels.push_back({std::move(title), rows_}); }
 
@@ -144,6 +157,9 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
         add.row(known ? facts.content->description->name : "A case", state_of(facts),
                 {add.action("Life size", [](Participant& p) { return set_scale(p, 1); }),
                  add.action("Close", close_case)});
+        if (const wire::Patient& patient = facts.patient;
+            !patient.name.empty() || !patient.birth_date.empty() || !patient.id.empty())
+            add.row(patient_row(patient));
         const bool is_apart = facts.room->organ.explosion != 0, cut = facts.room->organ.cut;
         std::vector<xr::PanelButton> buttons{
             add.action(is_apart ? "Closer" : "Apart",

@@ -15,6 +15,7 @@ struct CasePanelFacts {
     const medical::Volume* volume = nullptr;    // whose slices the screen shows; may be null
     std::string presenter;                      // the name; empty: everybody changes the screen
     bool presents = false;                      // oneself
+    wire::Patient patient;                      // of the open case; empty: not known to this person
 };
 // Appends a panel and the commands of its buttons.
 void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel);

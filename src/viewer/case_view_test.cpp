@@ -142,5 +142,26 @@ TEST(CasePanel, ShowsPicturesSeriesAndThePresenter) {
     EXPECT_EQ(rows()["Screen"].detail, "you present");
 }
 
+TEST(CasePanel, NamesThePatientOfTheOpenCaseWhereItIsKnown) {
+    CasePanelFacts facts;
+    session::CaseInRoom room;
+    facts.room = &room;
+    const auto second_row = [&] {
+        RoomPanel panel;
+        add_case_panel(facts, panel);
+        const xr::PanelRow row = panel.panels[0].rows[1];
+        return row.text + "; " + row.detail;
+    };
+    EXPECT_EQ(second_row(), "Parts; ");
+    facts.patient = {Bytes(32), "Doe, Jane", "1961-02-03", "AB-4711"};
+    EXPECT_EQ(second_row(), "Patient: Doe, Jane; born 1961-02-03, number AB-4711");
+    facts.patient = {Bytes(32), "", "", "AB-4711"};
+    EXPECT_EQ(second_row(), "Patient; number AB-4711");
+    facts.room = nullptr;
+    RoomPanel closed;
+    add_case_panel(facts, closed);
+    EXPECT_EQ(closed.panels[0].rows.size(), 1u) << "the host offers no case";
+}
+
 }  // namespace
 }  // namespace theatron::viewer

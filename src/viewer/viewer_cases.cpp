@@ -51,7 +51,12 @@ void Viewer::add_case(RoomPanel& panel) const {
                            scene.content(),
                            scene.monitor().volume(),
                            "",
-                           false};
+                           false,
+                           {}};
+    const wire::Patient patient = participant_.patient();
+    if (of_case.room && !session::is_recorded(of_case.room->organ_id) &&
+        to_content_hash(patient.of_case) == of_case.room->organ.of_case)
+        of_case.patient = patient;
     if (of_case.room && of_case.room->screen && !session::is_recorded(of_case.room->screen->id)) {
         const ParticipantId presenter = of_case.room->screen->facts.presenter;
         of_case.presents =

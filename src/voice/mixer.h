@@ -24,6 +24,12 @@ public:
     void put(ParticipantId speaker, ByteView packet, TimePoint now);
     // Fills `out` with the sum, -1 to 1, to be heard from `now` on.
     void pull(std::span<float> out, TimePoint now);
+    struct Heard {
+        ParticipantId speaker{};
+        std::span<const float> samples;
+    };
+    // In place of pull(): the next `count` samples of each speaker, valid until the next call.
+    std::vector<Heard> pull_each(std::size_t count, TimePoint now);
 
     struct Speaker {
         ParticipantId id{};
@@ -39,9 +45,9 @@ private:
         Decoder decoder;
         Playout playout{decoder};
         TimePoint newest;  // arrival
+        std::vector<float> samples;
     };
     std::map<ParticipantId, std::unique_ptr<Voice>> voices_;
-    std::vector<float> one_;
     std::uint64_t unreadable_ = 0;
 };
 

@@ -25,14 +25,21 @@ void Mixer::put(ParticipantId speaker, ByteView bytes, TimePoint now) {
 
 void Mixer::pull(std::span<float> out, TimePoint now) {
     std::fill(out.begin(), out.end(), 0.0f);
-    one_.resize(out.size());
-    for (const auto& [id, voice] : voices_) {
-        voice->playout.pull(one_, now);
+    for (const Heard& heard : pull_each(out.size(), now))
         for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] += one_[i];
-    }
+            out[i] += heard.samples[i];
     for (float& v : out)
         v = std::clamp(v, -1.0f, 1.0f);
+}
+
+std::vector<Mixer::Heard> Mixer::pull_each(std::size_t count, TimePoint now) {
+    std::vector<Heard> all;
+    for (const auto& [id, voice] : voices_) {
+        voice->samples.resize(count);
+        voice->playout.pull(voice->samples, now);
+        all.push_back({id, voice->samples});
+    }
+    return all;
 }
 
 std::vector<Mixer::Speaker> Mixer::speakers() const {

@@ -185,6 +185,9 @@ bool is_sound(const OfferedCase& offered) {
 bool is_sound(const Content& content) {
     return content.hash.size() == content_hash_size;
 }
+bool is_sound(const Patient& patient) {
+    return patient.of_case.empty() || patient.of_case.size() == content_hash_size;
+}
 bool is_sound(const Managed& answer) {
     return answer.refusal <= ManageRefusal::nothing_to_play;
 }

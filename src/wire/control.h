@@ -53,11 +53,13 @@ enum class Feature : std::uint16_t {
     adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
     playback = 7,       // is told where the host's recording is, and may play it
     screens = 8,        // is told with ShareEnded that others have ended its screens
+    patient = 11,       // shows who the patient of the open case is, to a person who may know it
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
 inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
 inline constexpr std::size_t max_offered_cases = 64;
+inline constexpr std::size_t max_patient_text = 200;             // of a patient's name, of an id
 inline constexpr std::size_t max_adjustment_size = 64;           // bytes of one camera's
 inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
@@ -689,6 +691,22 @@ struct ShareEnded {
     }
 };
 
+// The texts that identify the patient of the open case. The host sends them apart from all content,
+// to people who may know them, and withdraws them with an empty message. Receivers keep them in
+// memory only.
+struct Patient {
+    Bytes of_case;  // as in OfferedCase; empty: withdrawn
+    std::string name, birth_date, id;
+    bool operator==(const Patient&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.of_case, content_hash_size);
+        field(m.name, max_patient_text);
+        field(m.birth_date, max_patient_text);
+        field(m.id, max_patient_text);
+    }
+};
+
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
                             Unpublish, CameraState, RoomRequest, Manage, RequestContent,
@@ -697,7 +715,7 @@ using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
                  CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
                  RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed, OfferedCases,
-                 Content, CameraChanged, Playback, ShareEnded>;
+                 Content, CameraChanged, Playback, ShareEnded, Patient>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

@@ -373,6 +373,11 @@ TEST(Control, EveryMessageRoundTrips) {
     const ShareEnded ended = round_trip(ShareEnded{{CameraId{3}, CameraId{9}}, "Dora"});
     EXPECT_EQ(ended.cameras, (std::vector{CameraId{3}, CameraId{9}}));
     EXPECT_EQ(ended.by, "Dora");
+    const Patient patient{numbered(content_hash_size), "Doe, Jane", "1961-02-03", "AB-4711"};
+    EXPECT_EQ(round_trip(patient), patient);
+    EXPECT_EQ(round_trip(Patient{}), Patient{});
+    EXPECT_EQ(decode_to_participant(encode(Patient{Bytes(31), "", "", ""})).error(),
+              theatron::Status::malformed);
     CameraChanged change;
     change.camera.id = CameraId{3};
     change.camera.adjustment = Bytes(33);
@@ -399,8 +404,9 @@ TEST(Control, EveryMessageRoundTrips) {
 
 // Programs of the same protocol may be older and know fewer kinds.
 TEST(Control, AMessageOfAnUnknownKindIsToldFromDamage) {
-    // The last kind there is.
-    const Bytes known = encode(ShareEnded{});
+    using LastKind =
+        std::variant_alternative_t<std::variant_size_v<ToParticipant> - 1, ToParticipant>;
+    const Bytes known = encode(LastKind{});
     const auto kind = std::byte(std::variant_size_v<ToParticipant>);
     int unknown = 0;
     for (std::size_t at = 0; at < known.size(); ++at) {

@@ -95,7 +95,7 @@ def case_host(folder, cases):
     lens = {"width": 160, "height": 120, "fx": 130, "fy": 130, "cx": 80, "cy": 60}
     pose = {"quaternion": [0, 1, 0, 0], "translation": [0, 1.3, 1]}
     (recording / "calibration.json").write_text(json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
-    return lambda: host(folder / "state", f"folder:{recording},loop=1,preload=1", options=("--cases", cases))
+    return lambda *options: host(folder / "state", f"folder:{recording},loop=1,preload=1", options=("--cases", cases, *options))
 
 
 class Case(unittest.TestCase):

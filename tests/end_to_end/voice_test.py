@@ -45,6 +45,15 @@ def read_wav(path):
         return samples
 
 
+def read_ears(path):
+    """The samples of the left and the right ear."""
+    with wave.open(str(path), "rb") as file:
+        assert (file.getframerate(), file.getnchannels(), file.getsampwidth()) == (RATE, 2, 2)
+        samples = array.array("h")
+        samples.frombytes(file.readframes(file.getnframes()))
+        return samples[::2], samples[1::2]
+
+
 def loudness(samples, block=480):
     return [math.sqrt(sum(v * v for v in samples[i:i + block]) / block)
             for i in range(0, len(samples) - block + 1, block)]
@@ -147,6 +156,28 @@ class Voice(unittest.TestCase):
                 ben.say("microphone on")
                 ada.wait_for(lambda f: f["voice"]["speaking"], 10)
                 self.assertEqual(ben.wait_for(lambda f: f["voice"]["talks"], 10)["voice"]["microphone"], "open")
+
+    def test_a_voice_is_heard_from_where_the_speaker_stands(self):
+        with self.start() as a_host:
+            link = a_host.greeting["links"]["expert"]
+            with self.member(link, "Ada", "--speaker", self.folder / "ada.wav", "--spatial-voices", "on") as ada, \
+                    self.member(link, "Ben", "--microphone", self.folder / "said.wav") as ben:
+                ada.say("stand 0 1.7 0 0 1.7 -1")
+                ben.say("stand -1.5 1.7 0 0 1.7 0")  # at Ada's left
+                there = ada.wait_for(lambda f: f["voice"]["speaking"] and any(p.get("head") for p in f["room"]["people"] if p["name"] == "Ben"), 20)
+                self.assertEqual(there["voice"]["space"], "hrtf")
+                # The end of the file is surely from there.
+                ada.wait_for(lambda f: f["session_us"] > there["session_us"] + 2e6, 10)
+                for member in (ada, ben):
+                    member.say("quit")
+                    self.assertEqual(member.end(), 0, member.errors)
+        left, right = (ear[-RATE:] for ear in read_ears(self.folder / "ada.wav"))
+        self.assertGreater(sum(v * v for v in left), 3 * sum(v * v for v in right))
+
+        def likeness(delay):
+            return sum(left[i] * right[i + delay] for i in range(0, RATE - 100, 7))
+
+        self.assertIn(max(range(0, 60), key=likeness), range(20, 50), "samples of 1/48 ms")
 
     def test_devices_are_listed_and_exchanged_while_they_run(self):
         code, out, errors = run("join", "--list-devices", "--json",

@@ -31,6 +31,38 @@ LISTEN = """(() => {
 })()"""
 
 
+# heard_frames(count): the frames that were sent of the newest `count` ones of the microphone, once there were so many since
+# the last answer; -1 before.
+COUNT = """(() => {
+    const { voice } = theatron, send = voice.send, sent = [];
+    voice.send = (number, ...facts) => {
+        sent.push(number);
+        send(number, ...facts);
+    };
+    let asked = voice.number;
+    theatron.heard_frames = count => {
+        if (voice.number < asked + count)
+            return -1;
+        asked = voice.number;
+        return sent.filter(number => number >= asked - count).length;
+    };
+})()"""
+
+
+def press(page, key, kind="keydown"):
+    page.evaluate(f"document.getElementById('view').dispatchEvent(new KeyboardEvent('{kind}', {{ key: '{key}', bubbles: true }}))")
+
+
+def mouse(page, kind, element):
+    x, y = page.evaluate(f"""(() => {{
+        const element = document.getElementById("{element}");
+        element.scrollIntoView();
+        const {{ left, top, width, height }} = element.getBoundingClientRect();
+        return [left + width / 2, top + height / 2];
+    }})()""")
+    page.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+
 def pitches(samples):
     """Of each 20 ms in Hz, 97 to 200, by the delay after which 40 ms are most like themselves; 0 in silence."""
     rate = RATE // 8
@@ -110,6 +142,37 @@ class WebVoice(unittest.TestCase):
             spoken = ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 8, 40)
             ada = [person["id"] for person in spoken["room"]["people"] if person["name"] == "Ada"]
             self.assertEqual([voice["id"] for voice in spoken["voice"]["voices"]], ada)
+        with self.subTest("the person agrees to be recorded, and no longer, and sees both"):
+            def agrees(is_agreed):
+                ben.wait_for(lambda f: [p["voice_recorded"] for p in f["room"]["people"] if p["name"] == "Ada"] == [is_agreed], 10)
+
+            recorded = "document.getElementById('voice_recorded').textContent"
+            agrees(False)
+            self.assertEqual(page.evaluate(recorded), "", "nobody records")
+            with Process("record", self.links["expert"], self.folder / "session.mkv", "--seconds", "60") as recorder:
+                page.wait_for(f"{recorded}.includes('without your voice')")
+                page.evaluate("document.getElementById('voice_recording').click()")
+                agrees(True)
+                page.wait_for(f"{recorded}.includes('Your voice is recorded')")
+                press(page, "F8")
+                agrees(False)
+                page.wait_for(f"{recorded}.includes('without your voice')")
+                recorder.process.kill()
+        with self.subTest("push to talk: only what is said while the key or the button is held is sent"):
+            page.evaluate(COUNT)
+            press(page, "F7")
+            self.assertTrue(page.evaluate("theatron.voice.pushes"))
+            # The last word goes on for a moment.
+            page.wait_for("theatron.heard_frames(30) === 0")
+            for hold, release in ((lambda: press(page, "Enter"), lambda: press(page, "Enter", "keyup")),
+                                  (lambda: mouse(page, "mousePressed", "talk"), lambda: mouse(page, "mouseReleased", "talk"))):
+                hold()
+                page.wait_for("theatron.heard_frames(30) > 0")
+                release()
+                page.wait_for("theatron.heard_frames(30) === 0")
+            page.evaluate("document.getElementById('push_to_talk').click()")
+            self.assertFalse(page.evaluate("theatron.voice.pushes"))
+            page.wait_for("theatron.heard_frames(30) > 0")
         with self.subTest("muted, the page says so and is silent"):
             ben.say("mute Ada")
             page.wait_for("document.getElementById('voice_hint').textContent.includes('muted you')")

@@ -69,6 +69,7 @@ async function load_client() {
         headset_wish: ["number", numbers(1)],
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
+        allow_voice_recording: [null, numbers(1)],
     };
     const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
@@ -91,7 +92,7 @@ async function load_client() {
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
 const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null, workers: [],
-    graphics: "card", way: "room", headset_kinds: {}, Patience };
+    graphics: "card", way: "room", headset_kinds: {}, voice_may_record: false, Patience };
 
 function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
@@ -116,6 +117,14 @@ function run({ client, voice, module, flat }) {
         next_texts = 0;
     });
     $("microphone").addEventListener("click", () => voice.toggle_microphone());
+    $("push_to_talk").addEventListener("click", () => change_push_to_talk(voice));
+    const change_voice_recording = () => {
+        allow_voice_recording(client, page.state.voice_may_record === false);
+        next_texts = 0;
+    };
+    $("voice_recording").addEventListener("click", change_voice_recording);
+    hold_to_talk($("talk"), voice);
+    hold_to_talk(canvas, voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
     $("side").addEventListener("click", event => event.detail > 0 && canvas.focus({ preventScroll: true }));
     canvas.addEventListener("keydown", event => {
@@ -123,6 +132,15 @@ function run({ client, voice, module, flat }) {
             client.leave();
         if (event.key.toLowerCase() === "l" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey)
             voice.toggle_microphone();
+        if (!["F7", "F8"].includes(event.key))
+            return;
+        event.preventDefault();  // F7 is the browser's, too
+        if (event.repeat)
+            return;
+        if (event.key === "F7")
+            change_push_to_talk(voice);
+        else if (page.state.voice_may_record !== null)
+            change_voice_recording();
     });
     $("full_screen").addEventListener("click", () =>
         document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
@@ -197,6 +215,7 @@ function run({ client, voice, module, flat }) {
     const headset = page.headset = new Headset({
         canvas, module, client,
         after_frame: now => {
+            voice.hands_free = true;
             show_texts(now);
             prepare_room(now);
             wait_for_picture();
@@ -207,6 +226,7 @@ function run({ client, voice, module, flat }) {
                 headset.leave();
         },
         ended: () => {
+            voice.hands_free = false;
             client.redraw();
             if (page.state.phase !== "left")
                 requestAnimationFrame(draw);
@@ -248,6 +268,41 @@ function run({ client, voice, module, flat }) {
     };
 }
 
+function change_push_to_talk(voice) {
+    voice.set_push_to_talk(!voice.pushes);
+    store("pushes", voice.pushes ? "yes" : "no");
+}
+
+// Push to talk with Enter on this element; a button's also by the pointer and the space bar.
+function hold_to_talk(element, voice) {
+    const is_button = element.tagName === "BUTTON";
+    const is_key = ({ key }) => key === "Enter" || (is_button && key === " ");
+    // The other element may be held when this one loses the focus.
+    let is_held = false;
+    const hold = now => {
+        if (is_held !== now)
+            voice.talk(is_held = now);
+    };
+    element.addEventListener("keydown", event => is_key(event) && hold(true));
+    element.addEventListener("keyup", event => is_key(event) && hold(false));
+    element.addEventListener("blur", () => hold(false));
+    if (!is_button)
+        return;
+    element.addEventListener("pointerdown", event => {
+        hold(true);
+        element.setPointerCapture(event.pointerId);
+    });
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+        element.addEventListener(end, () => hold(false));
+    element.addEventListener("contextmenu", event => event.preventDefault());  // of a long touch
+}
+
+// In this visit; the next one asks again, since several people may use one browser.
+function allow_voice_recording(client, agrees) {
+    page.voice_may_record = agrees;
+    client.allow_voice_recording(agrees ? 1 : 0);
+}
+
 // In the 2D view nobody has a place: all are heard from ahead.
 function place_voices(voice, { ear, people }) {
     const others = people.filter(({ self }) => !self);
@@ -277,6 +332,7 @@ function enter(client) {
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
     (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id());
+    allow_voice_recording(client, page.voice_may_record);
 }
 
 function leave(voice, problem) {
@@ -316,6 +372,7 @@ async function main() {
     }
     $("way").value = ["room", "flat"].includes(stored("way")) ? stored("way") : "auto";
     $("speaks").checked = stored("speaks") === "yes";
+    $("pushes").checked = stored("pushes") === "yes";
     let begin;
     $("join").addEventListener("submit", async event => {
         event.preventDefault();
@@ -326,7 +383,10 @@ async function main() {
             const program = await loading, { client, voice } = program;
             store("name", name);
             store("speaks", $("speaks").checked ? "yes" : "no");
+            store("pushes", $("pushes").checked ? "yes" : "no");
             page.voice = voice;
+            page.voice_may_record = $("may_record").checked;
+            voice.set_push_to_talk($("pushes").checked);
             $("problem").textContent = "";
             $("lobby").hidden = true;
             store("way", $("way").value);

@@ -90,11 +90,20 @@ function fill_facts(place, facts) {
 }
 
 // The microphone's button and state, and who speaks at present.
-export function show_voices(voice, { people = [], is_heard, is_muted }) {
+export function show_voices(voice, { people = [], is_heard, is_muted, is_recorded, voice_may_record = null }) {
     const button = $("microphone");
     const is_open = voice.microphone === "open";
     set_text(button, text(is_open ? "microphone_close" : "microphone_open"));
     button.setAttribute("aria-pressed", String(is_open));
+    $("push_to_talk").setAttribute("aria-pressed", String(voice.pushes));
+    $("talk").hidden = !is_open || !voice.pushes || voice.hands_free;
+    $("talk").setAttribute("aria-pressed", String(voice.is_held));
+    $("voice_recording").hidden = voice_may_record === null;
+    $("voice_recording").setAttribute("aria-pressed", String(voice_may_record === true));
+    const recorded = !is_open || !is_heard || !is_recorded || voice_may_record === null ? ""
+        : text(voice_may_record ? "voice_is_recorded" : "voice_is_not_recorded");
+    set_text($("voice_recorded"), recorded);
+    $("voice_recorded").classList.toggle("warning", voice_may_record === true);
     const hint = !voice.constructor.is_supported() ? "no_voice"
         : voice.microphone === "denied" ? "microphone_denied"
         : voice.microphone === "missing" ? "microphone_missing"

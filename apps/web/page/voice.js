@@ -6,6 +6,7 @@ const sample_rate = 48000;
 const header_size = 16, version = 1;
 const speech_db = -50;              // a frame of this level counts as speech
 const hang_over_ms = 400;           // speech goes on for so long behind the last such frame
+const release_ms = 200;             // the key of push to talk is released before the last word ends
 const most_speakers = 32;           // the one that was silent for longest makes room for another
 const longest_silence_ms = 60_000;  // of a speaker that is kept
 
@@ -87,6 +88,10 @@ export class Voice {
     // "off", "asking", "open", "denied" or "missing": of the microphone. `unreadable` packets were skipped.
     microphone = "off";
     unreadable = 0;
+    pushes = false;      // push to talk: an open microphone is heard only while talk(true) holds
+    hands_free = false;  // no key can be held: as if there were no push to talk
+    is_held = false;
+    released_ms = -Infinity;
     speakers = new Map();  // participant -> Speaker
 
     // `send(number, age_us, pauses, level_db, opus)` sends a frame whose first sample is so old; `changed()` follows a
@@ -204,6 +209,25 @@ export class Voice {
         return this.microphone === "open" || this.microphone === "asking" ? this.close_microphone() : this.open_microphone();
     }
 
+    set_push_to_talk(pushes) {
+        this.pushes = pushes;
+        this.changed();
+    }
+
+    // The key or button of push to talk is held, or was released.
+    talk(is_held) {
+        if (this.is_held === is_held)
+            return;
+        this.is_held = is_held;
+        if (!is_held)
+            this.released_ms = performance.now();
+        this.changed();
+    }
+
+    talks(now) {
+        return !this.pushes || this.hands_free || this.is_held || now - this.released_ms < release_ms;
+    }
+
     stop_stream() {
         this.stream?.getTracks().forEach(track => track.stop());
         this.stream = null;
@@ -238,10 +262,13 @@ export class Voice {
     // Silence is not sent; its frames are counted on, and the first one says that a pause begins.
     encode(samples) {
         const now = performance.now(), number = this.number++;
+        const talks = this.talks(now);
+        if (!talks)
+            samples.fill(0);
         const level_db = level_of(samples);
         if (level_db > speech_db)
             this.spoke_ms = now;
-        const is_voice = now - this.spoke_ms < hang_over_ms;
+        const is_voice = talks && now - this.spoke_ms < hang_over_ms;
         if (!is_voice && !this.is_sending)
             return;
         this.is_sending = is_voice;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/patient_texts.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "cases/case_folder.h"
+#include "files/private_file.h"
+
+namespace theatron::cases {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t max_patient_characters = 200;  // of one text, as on the wire
+// Each of 16 series has at most 32 texts of 64 bytes.
+constexpr std::size_t max_identifiers_bytes = 256 * 1024;
+
+std::string without_blanks(std::string text) {
+    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+// A name in DICOM has three spellings between '=', and up to five parts between '^': family name,
+// given name, middle name, prefix, suffix.
+std::string readable_name(std::string name) {
+    name = without_blanks(name.substr(0, name.find('=')));
+    std::string text;
+    for (std::size_t begin = 0, part = 0; begin <= name.size(); ++part) {
+        const std::size_t end = std::min(name.find('^', begin), name.size());
+        const std::string one = without_blanks(name.substr(begin, end - begin));
+        if (!one.empty() && !text.empty())
+            text += part == 1 ? ", " : " ";
+        text += one;
+        begin = end + 1;
+    }
+    return text;
+}
+
+// "19610203" as "1961-02-03"; any other text as it is.
+std::string readable_date(const std::string& date) {
+    const bool has_digits = date.size() == 8 && std::all_of(date.begin(), date.end(), [](char c) {
+                                return c >= '0' && c <= '9';
+                            });
+    return has_digits ? date.substr(0, 4) + "-" + date.substr(4, 2) + "-" + date.substr(6) : date;
+}
+
+std::string text_of(const json& series, const char* name) {
+    const auto found = series.find(name);
+    return found != series.end() && found->is_string()
+               ? without_blanks(clean_text(found->get<std::string>(), max_patient_characters))
+               : "";
+}
+
+}  // namespace
+
+std::optional<PatientTexts> parse_patient_texts(const std::string& text) {
+    const json all = json::parse(text, nullptr, false);
+    if (!all.is_object() || !all.contains("series") || !all["series"].is_array())
+        return std::nullopt;
+    PatientTexts patient;
+    const auto take = [](std::string& known, std::string found) {
+        if (known.empty())
+            known = std::move(found);
+    };
+    for (const json& series : all["series"]) {
+        if (!series.is_object())
+            continue;
+        take(patient.name, readable_name(text_of(series, "PatientName")));
+        take(patient.birth_date, readable_date(text_of(series, "PatientBirthDate")));
+        take(patient.id, text_of(series, "PatientID"));
+    }
+    return patient == PatientTexts{} ? std::nullopt : std::optional(std::move(patient));
+}
+
+std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& folder) {
+    std::error_code failed;
+    const auto status = std::filesystem::symlink_status(folder / identifiers_name, failed);
+    if (!std::filesystem::exists(status))
+        return std::nullopt;
+    if (!std::filesystem::is_regular_file(status))
+        throw Error("'" + clean_text((folder / identifiers_name).string(), 300) +
+                    "' is not a regular file; replace it with one, or remove it.");
+    const auto text = files::read_private_file(folder / identifiers_name, files::Privacy::secret,
+                                               max_identifiers_bytes);
+    return text ? parse_patient_texts(*text) : std::nullopt;
+}
+
+}  // namespace theatron::cases
