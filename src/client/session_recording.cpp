@@ -106,6 +106,8 @@ public:
                 on_described();
         }
         on_room(true);
+        if (is_connected())
+            intake_.pass_time(now());
     }
 
     record::Intake& intake() override { return intake_; }
@@ -420,7 +422,7 @@ private:
             return;
         room_recorded_ = local;
         if (const auto part = room_.take(now);
-            part && !intake_.take_room(part->bytes, part->key, part->begin, now))
+            part && !intake_.take_room(part->bytes, part->key, part->begin, {local, {now, utc_now()}}))
             room_.want_key();
     }
 
