@@ -37,8 +37,8 @@ std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, st
 }
 
 // Throws Error if there is no such camera.
-const record::CameraContent& require_camera(const record::RecordingFile& recording, std::size_t camera,
-                                            const std::string& file) {
+const record::CameraContent& require_camera(const record::RecordingFile& recording,
+                                            std::size_t camera, const std::string& file) {
     const std::size_t count = recording.cameras().size();
     if (camera < count)
         return recording.cameras()[camera];

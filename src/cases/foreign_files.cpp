@@ -169,7 +169,8 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
     constexpr std::uintmax_t least_bytes = 132;  // before the first element
     std::error_code unknown;
     if (fs::file_size(file, unknown) < least_bytes)
-        throw Error(quoted_path(file) + " is too short for a DICOM file; take it out of the folder.");
+        throw Error(quoted_path(file) +
+                    " is too short for a DICOM file; take it out of the folder.");
     input_->load(file);
     try {
         if (!child_) {

@@ -115,7 +115,8 @@ void add_part(const fs::path& file, Part part, Mesh mesh, const ImportOptions& o
     const std::size_t before = mesh.triangles.size();
     finish(mesh, options.max_triangles);
     if (mesh.triangles.empty()) {
-        remarks.push_back("The surface '" + part.name + "'" + in_file + " has no area and is left out.");
+        remarks.push_back("The surface '" + part.name + "'" + in_file +
+                          " has no area and is left out.");
         return;
     }
     if (mesh.triangles.size() < before * 9 / 10)
@@ -171,8 +172,7 @@ LabelMap read_label_map(const fs::path& file) {
     const Bytes bytes = files::read_file(file, max_label_file_bytes);
     ParsedLabels parsed = is_nrrd_file(file) ? parse_nrrd(bytes) : parse_nifti(bytes);
     if (!parsed.problem.empty())
-        throw Error("The label map " + quoted_path(file) + " " + parsed.problem +
-                    ".");
+        throw Error("The label map " + quoted_path(file) + " " + parsed.problem + ".");
     return std::move(parsed.value);
 }
 

@@ -77,10 +77,9 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
             continue;
         }
         if (first && !may_be_one_patient(*first, *slice))
-            throw Error(
-                "The images are of more than one patient: " + quoted_path(first_file) +
-                " is of another one than " + quoted_path(files[i]) +
-                "; import those of each patient by themselves.");
+            throw Error("The images are of more than one patient: " + quoted_path(first_file) +
+                        " is of another one than " + quoted_path(files[i]) +
+                        "; import those of each patient by themselves.");
         if (!first) {
             first = *slice;
             first->samples.clear();

@@ -65,7 +65,8 @@ ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uin
         auto bytes = take(file);
         const auto mesh = medical::decode_mesh(*bytes);
         if (!mesh || mesh->triangles.empty())
-            throw Error(quoted_path(file) + " is no mesh that can be drawn; import the case again.");
+            throw Error(quoted_path(file) +
+                        " is no mesh that can be drawn; import the case again.");
         extend(box, medical::box_of(*mesh));
         about.parts.push_back({part.name, part.role, part.color,
                                std::uint8_t(std::lround(std::clamp(part.opacity, 0.0, 1.0) * 255)),

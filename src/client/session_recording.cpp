@@ -422,7 +422,8 @@ private:
             return;
         room_recorded_ = local;
         if (const auto part = room_.take(now);
-            part && !intake_.take_room(part->bytes, part->key, part->begin, {local, {now, utc_now()}}))
+            part &&
+            !intake_.take_room(part->bytes, part->key, part->begin, {local, {now, utc_now()}}))
             room_.want_key();
     }
 

@@ -215,8 +215,8 @@ bool Intake::take_room(ByteView part, bool key, TimePoint begins, const Now& now
     wire::write_media_header(header, message->data());
     message->insert(message->end(), part.begin(), part.end());
     ++room_parts_;
-    const bool is_taken = recorder_->add(header, std::move(message), now.clock.session) ==
-                          Recorder::Added::taken;
+    const bool is_taken =
+        recorder_->add(header, std::move(message), now.clock.session) == Recorder::Added::taken;
     room_segment_ = is_taken ? segments_begun_ : 0;
     return is_taken;
 }

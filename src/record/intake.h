@@ -164,7 +164,7 @@ private:
     std::map<StreamId, Entry> entries_;
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
-    TimePoint waits_since_;  // for a picture of pending_, on the machine's own clock
+    TimePoint waits_since_;               // for a picture of pending_, on the machine's own clock
     bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;
@@ -173,7 +173,7 @@ private:
     std::vector<RecordedVoice> agreed_;
     std::vector<VoiceLane> voices_;          // by track
     std::map<ParticipantId, Voice> spoken_;  // in earlier segments; drops also of this one
-    TimePoint filled_until_;  // of the voices, without the patience
+    TimePoint filled_until_;                 // of the voices, without the patience
 };
 
 }  // namespace theatron::record

@@ -29,8 +29,8 @@ protected:
     void pass(Duration time) {
         for (const Duration end = passed_ + time; passed_ < end; passed_ += 100ms) {
             const bool key = std::exchange(wants_key_, false) || taken_ % 20 == 0;
-            const bool taken = intake_.take_room(Bytes(30, std::byte(key)), key, now() - 5ms,
-                                                 at_once(now()));
+            const bool taken =
+                intake_.take_room(Bytes(30, std::byte(key)), key, now() - 5ms, at_once(now()));
             taken_ += taken;
             wants_key_ = !taken;
             intake_.pass_time(at_once(now()));
@@ -42,8 +42,8 @@ protected:
     }
     void picture(int number) {
         for (const StreamId stream : {depth, color}) {
-            const Message m = message(stream, FrameNumber(number), passed_ - 10ms, 500,
-                                      FrameNumber(number));
+            const Message m =
+                message(stream, FrameNumber(number), passed_ - 10ms, 500, FrameNumber(number));
             (void)intake_.take(m.header, m.bytes, "", at_once(now()));
         }
     }

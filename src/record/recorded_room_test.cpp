@@ -129,7 +129,8 @@ TEST_F(RecordedRoom, EachSegmentBeginsWithAKeyPart) {
     const StreamId depth = depth_stream(CameraId{0});
     intake.describe(cameras(1), settings, true, TimePoint(1s));
     TimePoint at = picture(depth, 0);
-    EXPECT_FALSE(intake.take_room(part_of(0), false, at, at_once(at))) << "a segment begins with a key part";
+    EXPECT_FALSE(intake.take_room(part_of(0), false, at, at_once(at)))
+        << "a segment begins with a key part";
     EXPECT_TRUE(intake.take_room(part_of(1), true, at, at_once(at)));
     EXPECT_TRUE(intake.take_room(part_of(2), false, at, at_once(at)));
     intake.begin_segment();

@@ -402,7 +402,8 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
     std::unique_ptr<RecordingFile> recording(new RecordingFile);
     for (std::optional<SegmentChain::Member> member; (member = chain->take());) {
         const bool is_first = recording->segments_.empty();
-        if (is_first && cameras_of(member->head).empty() && !(member->info && has_room(member->head)))
+        if (is_first && cameras_of(member->head).empty() &&
+            !(member->info && has_room(member->head)))
             return Status::unsupported;
         recording->add_segment(*std::move(member), *chain);
     }

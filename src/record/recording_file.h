@@ -100,8 +100,8 @@ struct Segment {
     std::string file;  // empty: bytes in memory
     std::uint64_t bytes = 0;
     SegmentInfo info;
-    bool has_info = false;     // false: of format version 1, without a session time
-    UtcTime begin_utc;         // of its first frame; the epoch: not known
+    bool has_info = false;  // false: of format version 1, without a session time
+    UtcTime begin_utc;      // of its first frame; the epoch: not known
     // Its first block, and its last picture, or without any its last block: since the recording's
     // first block.
     Duration begin{}, end{};
