@@ -120,7 +120,7 @@ TEST_F(RecordedMeeting, ACameraThatComesLaterBeginsASegmentAndOneThatGoesToo) {
     EXPECT_EQ(recording->segments()[1].frames, 40u);
     EXPECT_EQ(recording->segments()[2].frames, 0u);
     ASSERT_EQ(recording->cameras().size(), 1u);
-    // What was before the picture stays before it.
+    // The room before the picture stays before it.
     EXPECT_NEAR(to_seconds(recording->cameras()[0].depth.frames.front().time()), 2.0, 0.15);
     const auto said = speech(*recording);
     ASSERT_EQ(said.size(), 1u);
