@@ -139,6 +139,11 @@ void run(const Flags& flags) {
         throw Error("'" + flags.file + "' has no camera " + std::to_string(*flags.camera) +
                     ": it has " + std::to_string(recording->cameras().size()) +
                     ", counted from 0.");
+    const bool wants_pictures = !flags.ply.empty() || !flags.png.empty() || !flags.k4a.empty();
+    if (wants_pictures && recording->cameras().empty())
+        throw Error("'" + flags.file +
+                    "' has no pictures: no camera was there. Its room and voices are exported with "
+                    "--room and --voices.");
     const std::vector<std::string> filters = filters_of(*recording, flags.camera);
     std::size_t calibrations = 1;
     for (const record::CameraContent& camera : recording->cameras())

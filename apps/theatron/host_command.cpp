@@ -57,6 +57,7 @@ struct Flags {
     double seconds = 0;
     double link_hours = 0;
     bool json = false;
+    bool prints_links = false;
 };
 
 // All parts that are given for a camera make its region.
@@ -115,6 +116,24 @@ void obey(host::Host& host, InputLines& input) {
             std::fprintf(stderr, "%s\n", error.what());
         }
     }
+}
+
+// A link lets its bearer in, so it goes only to a terminal or where it was asked for: a service's
+// output is kept in a journal that others read.
+void print_links(const host::Host& host) {
+    std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
+              << "in a browser, or with: theatron join '" << host.link() << "'\n\n"
+              << "With these\n";
+    for (const auto& [role, may] : others)
+        std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
+}
+
+void print_address(const host::Host& host, const std::string& state) {
+    const std::string link = host.link(), in_state = state.empty() ? "" : " --state " + state;
+    std::cout << "Listening at " << link.substr(0, link.find('#')) << "\n"
+              << "This is no terminal, and others may read it, so the links that let people in are "
+                 "not printed here.\n'theatron link --show expert"
+              << in_state << "' prints one, and --print-links prints them here.\n";
 }
 
 // The picture of a single camera is right without a registration.
@@ -184,11 +203,10 @@ void run(Flags& flags) {
                                        {"cameras", host.camera_names()}})
                   << std::endl;
     } else {
-        std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
-                  << "in a browser, or with: theatron join '" << host.link() << "'\n\n"
-                  << "With these\n";
-        for (const auto& [role, may] : others)
-            std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
+        if (flags.prints_links || isatty(STDOUT_FILENO))
+            print_links(host);
+        else
+            print_address(host, flags.state);
         std::cout << "Links for one person, with an end, and as QR codes: theatron link --help\n"
                   << (flags.options.cameras.empty()
                           ? "No camera is streamed (--camera): people meet in an empty room.\n"
@@ -350,6 +368,9 @@ void add_host_command(CLI::App& app) {
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->add_option("--summary", flags->summary,
                         "Write what went on as JSON to this file at the end");
+    command->add_flag("--print-links", flags->prints_links,
+                      "Print the links also where the output is no terminal, but a file or the "
+                      "journal of a service, where others may read them");
     command->add_flag("--json", flags->json, "Print one JSON line with the link instead of text");
     command->callback([flags] { run(*flags); });
 }

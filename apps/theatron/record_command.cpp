@@ -322,7 +322,7 @@ void run(const Flags& flags) {
     record::Recorder* recorder = intake.recorder();
     if (!recorder)
         throw Error(intake.problem().empty()
-                        ? "Stopped before the first picture came, so nothing was recorded."
+                        ? "Stopped before anything came, so nothing was recorded."
                         : intake.problem());
     recorder->finish();
     if (live_line)

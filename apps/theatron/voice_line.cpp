@@ -256,15 +256,15 @@ std::string VoiceLine::toggle_microphone() {
 
 void VoiceLine::note(const wire::Standing& standing) {
     const bool may_speak = session::may(standing.role, session::Right::speak);
-    const bool is_heard = may_speak && !standing.muted;
     const bool has = has_microphone();
     const std::lock_guard lock(talker_mutex_);
-    if (!has || is_heard == std::exchange(is_heard_, is_heard))
+    is_heard_ = may_speak && !standing.muted;
+    // The participant says who is muted.
+    if (!has || may_speak == std::exchange(may_speak_, may_speak))
         return;
-    log::say(is_heard    ? "The others hear you."
-             : may_speak ? "An operator has muted you: nobody hears you."
-                         : "Nobody hears you, because observers do not speak; an operator can give "
-                           "you another role.");
+    log::say(may_speak ? "The others hear you."
+                       : "Nobody hears you, because observers do not speak; an operator can give "
+                         "you another role.");
 }
 
 std::set<ParticipantId> VoiceLine::speaking() const {

@@ -111,6 +111,7 @@ private:
     bool talks_ = false;       // its key is held, or was until just now
     bool line_holds_ = false;  // by a line
     TimePoint held_at_;
+    bool may_speak_ = true;     // the role, as it was said last
     bool is_heard_ = true;      // the role may speak, and nobody has muted this person
     voice::Speakers speakers_;  // under mixer_mutex_
     voice::Mixer mixer_;

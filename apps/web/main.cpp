@@ -23,6 +23,7 @@
 #include "page_state.h"
 #include "render/gl_driver.h"
 #include "voice/packet.h"
+#include "xr/input_queue.h"
 #include "xr/scaled_picture.h"
 
 // `post_work` is set by page/decoding.js, `post_reply` by page/decoder.js.
@@ -90,7 +91,7 @@ struct Page {
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
     std::unique_ptr<Visit> visit;     // this
     std::unique_ptr<FlatVisit> flat;  // or this, or none
-    xr::WindowInput input;            // since the last picture
+    xr::InputQueue input;             // since the last picture
     std::string problem;              // why the visit ended; a sentence
     std::string text;                 // that the last function returned
     Bytes bytes;                      // that the script writes for the next function
@@ -177,12 +178,7 @@ void draw(Visit& visit, Size size) {
     if (visit.drawing)
         return;
     const TimePoint now = steady_now();
-    const xr::WindowInput input = std::exchange(page().input, {});
-    page().input.pointer = input.pointer;
-    page().input.aims_teleport = input.aims_teleport;
-    page().input.points = input.points;
-    page().input.steering.fly = input.steering.fly;
-    page().input.steering.fast = input.steering.fast;
+    const xr::WindowInput input = page().input.take();
     visit.viewer.on_input(
         input, input.grabbed ? visit.picture.distance_at(*input.grabbed) : std::nullopt, size, now);
     const bool changed = visit.viewer.step(size, now);
@@ -399,35 +395,37 @@ EMSCRIPTEN_KEEPALIVE void theatron_allow_voice_recording(int agrees) {
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.
 EMSCRIPTEN_KEEPALIVE void theatron_key(const char* key, const char* code) {
     if (const auto press = web::pressed(key, code))
-        page().input.keys.push_back(*press);
+        page().input.press(*press);
 }
 EMSCRIPTEN_KEEPALIVE void theatron_hold(double right, double up, double ahead, int fast,
                                         int teleport, int points) {
-    page().input.steering.fly = {right, up, ahead};
-    page().input.steering.fast = fast != 0;
-    page().input.aims_teleport = teleport != 0;
-    page().input.points = points != 0;
+    xr::WindowInput& input = page().input.newest();
+    input.steering.fly = {right, up, ahead};
+    input.steering.fast = fast != 0;
+    input.aims_teleport = teleport != 0;
+    input.points = points != 0;
 }
 EMSCRIPTEN_KEEPALIVE void theatron_point(double x, double y) {
-    page().input.pointer = Vec2{x, y};
+    page().input.newest().pointer = Vec2{x, y};
 }
 EMSCRIPTEN_KEEPALIVE void theatron_grab(double x, double y, int left) {
-    page().input.pointer = page().input.grabbed = Vec2{x, y};
-    page().input.grabbed_left = left != 0;
+    page().input.grab({x, y}, left != 0);
+    page().input.newest().pointer = Vec2{x, y};
 }
 EMSCRIPTEN_KEEPALIVE void theatron_release() {
-    page().input.released = true;
+    page().input.release();
 }
 EMSCRIPTEN_KEEPALIVE void theatron_drag(double x, double y, int turns) {
-    Vec2& way = turns ? page().input.steering.turn : page().input.steering.slide;
+    xr::Steering& steering = page().input.newest().steering;
+    Vec2& way = turns ? steering.turn : steering.slide;
     way = {way.x + x, way.y + y};
 }
 EMSCRIPTEN_KEEPALIVE void theatron_wheel(double clicks) {
-    page().input.steering.approach += clicks;
+    page().input.newest().steering.approach += clicks;
 }
 // The canvas has lost its content.
 EMSCRIPTEN_KEEPALIVE void theatron_redraw() {
-    page().input.redraw = true;
+    page().input.newest().redraw = true;
 }
 
 // Decoding workers are ready; before theatron_join().

@@ -3,28 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/test_recording.h"
+
 namespace theatron::capture {
 namespace {
-
-// Frames at given times; the depth of each is its index.
-class FakeRecording final : public Recording {
-public:
-    explicit FakeRecording(std::vector<Duration> offsets) : offsets_(std::move(offsets)) {}
-
-    std::optional<Duration> offset() override {
-        return next_ < offsets_.size() ? std::optional(offsets_[next_]) : std::nullopt;
-    }
-    void skip() override { ++next_; }
-    void rewind() override { next_ = 0; }
-    void read(Frame& out) override {
-        out.depth.resize({1, 1});
-        out.depth.pixels[0] = std::uint16_t(next_++);
-    }
-
-private:
-    std::vector<Duration> offsets_;
-    std::size_t next_ = 0;
-};
 
 constexpr TimePoint begin = from_us(5'000'000);
 
@@ -51,7 +33,7 @@ Shown show(Playback& playback, Duration now) {
 const Shown nothing{0, {}, -1};
 
 TEST(Playback, FirstFrameIsDueAtOnceAndTheOthersByTheirOffsets) {
-    FakeRecording recording({0ms, 30ms, 70ms});
+    NumberedRecording recording({0ms, 30ms, 70ms});
     Playback playback(recording, 33ms, false, 0);
     EXPECT_EQ(show(playback, 0ms), (Shown{0, 0ms, 0}));
     EXPECT_EQ(show(playback, 0ms), (Shown{1, 30ms, 1}));
@@ -61,7 +43,7 @@ TEST(Playback, FirstFrameIsDueAtOnceAndTheOthersByTheirOffsets) {
 }
 
 TEST(Playback, AskingTwiceChangesNothing) {
-    FakeRecording recording({0ms, 30ms});
+    NumberedRecording recording({0ms, 30ms});
     Playback playback(recording, 30ms, false, 0);
     show(playback, 0ms);
     EXPECT_EQ(playback.upcoming(begin + 1ms)->number, 1u);
@@ -69,7 +51,7 @@ TEST(Playback, AskingTwiceChangesNothing) {
 }
 
 TEST(Playback, SkipsFramesMoreThanOnePeriodLateAndCountsThem) {
-    FakeRecording recording({0ms, 10ms, 20ms, 30ms, 40ms});
+    NumberedRecording recording({0ms, 10ms, 20ms, 30ms, 40ms});
     Playback playback(recording, 10ms, false, 0);
     show(playback, 0ms);
     EXPECT_EQ(show(playback, 20ms), (Shown{1, 10ms, 1})) << "one period late is not too late";
@@ -77,7 +59,7 @@ TEST(Playback, SkipsFramesMoreThanOnePeriodLateAndCountsThem) {
 }
 
 TEST(Playback, LoopsWithOnePeriodBetweenLastAndFirst) {
-    FakeRecording recording({0ms, 10ms});
+    NumberedRecording recording({0ms, 10ms});
     Playback playback(recording, 10ms, true, 0);
     for (int n = 0; n < 6; ++n)
         EXPECT_EQ(show(playback, n * 10ms), (Shown{FrameNumber(n), n * 10ms, n % 2}));
@@ -85,27 +67,27 @@ TEST(Playback, LoopsWithOnePeriodBetweenLastAndFirst) {
 }
 
 TEST(Playback, OneFrameLoops) {
-    FakeRecording recording({0ms});
+    NumberedRecording recording({0ms});
     Playback playback(recording, 200ms, true, 0);
     EXPECT_EQ(show(playback, 0ms), (Shown{0, 0ms, 0}));
     EXPECT_EQ(show(playback, 0ms), (Shown{1, 200ms, 0}));
 }
 
 TEST(Playback, StartsAtTheFrameAskedFor) {
-    FakeRecording recording({0ms, 10ms, 20ms});
+    NumberedRecording recording({0ms, 10ms, 20ms});
     Playback playback(recording, 10ms, true, 2);
     EXPECT_EQ(show(playback, 0ms), (Shown{0, 0ms, 2}));
     EXPECT_EQ(show(playback, 0ms), (Shown{1, 10ms, 0}));
 }
 
 TEST(Playback, EmptyRecordingsEndEvenInALoop) {
-    FakeRecording recording({});
+    NumberedRecording recording({});
     Playback playback(recording, 10ms, true, 3);
     EXPECT_EQ(show(playback, 0ms), nothing);
 }
 
 TEST(MemoryRecording, PlaysWhatItRead) {
-    FakeRecording source({0ms, 10ms});
+    NumberedRecording source({0ms, 10ms});
     double done = 0;
     MemoryRecording memory(source, 2, [&](std::string_view, double d) { done = d; });
     EXPECT_EQ(done, 1);

@@ -36,6 +36,19 @@ std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, st
     return parts;
 }
 
+// Throws Error if there is no such camera.
+const record::CameraContent& require_camera(const record::RecordingFile& recording,
+                                            std::size_t camera, const std::string& file) {
+    const std::size_t count = recording.cameras().size();
+    if (camera < count)
+        return recording.cameras()[camera];
+    if (count == 0)
+        throw Error("'" + file + "' holds no camera, only the room and its voices.");
+    throw Error("'" + file + "' holds " + std::to_string(count) +
+                (count == 1 ? " camera" : " cameras") +
+                ", numbered from 0, so camera=" + std::to_string(camera) + " is none of them.");
+}
+
 // The end of `part`'s frames: the first frame of the next segment.
 std::size_t end_of(const record::CameraContent& camera, const record::CameraPart& part) {
     for (const record::CameraPart& other : camera.parts)
@@ -78,14 +91,10 @@ const Bytes& calibration_at(const record::CameraContent& camera, Duration positi
 RecordedFrames::RecordedFrames(std::shared_ptr<const record::RecordingFile> recording,
                                std::size_t camera, std::string file, std::size_t part)
     : recording_(std::move(recording)),
-      content_(recording_->cameras()[std::min(camera, recording_->cameras().size() - 1)]),
+      content_(require_camera(*recording_, camera, file)),
       file_(std::move(file)),
       parts_(parts_of(content_, part)) {
     const std::string name = "'" + file_ + "'";
-    if (const std::size_t count = recording_->cameras().size(); camera >= count)
-        throw Error(name + " holds " + std::to_string(count) +
-                    (count == 1 ? " camera" : " cameras") +
-                    ", numbered from 0, so camera=" + std::to_string(camera) + " is none of them.");
     if (parts_.empty())
         throw Error("Camera " + std::to_string(camera) + " in " + name + " has no calibration " +
                     std::to_string(part) + ".");

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "base/steady_clock.h"
-#include "capture/playback.h"
+#include "capture/test_recording.h"
 
 namespace theatron::capture {
 namespace {
@@ -56,29 +56,20 @@ TEST(Transport, GoesRoundInALoop) {
     EXPECT_FALSE(transport.state(begin + 25s).at_end);
 }
 
-// 60 frames of 10 ms; the depth of each is its index.
-class Numbered final : public Recording {
-public:
-    std::optional<Duration> offset() override {
-        return next_ < 60 ? std::optional(10ms * next_) : std::nullopt;
-    }
-    void skip() override { ++next_; }
-    void rewind() override { next_ = 0; }
-    void read(Frame& out) override {
-        out.depth.resize({1, 1});
-        out.depth.pixels[0] = std::uint16_t(next_++);
-    }
-
-private:
-    int next_ = 0;
-};
+// 60 frames, 10 ms apart.
+std::unique_ptr<Recording> numbered() {
+    std::vector<Duration> offsets;
+    for (int i = 0; i < 60; ++i)
+        offsets.push_back(10ms * i);
+    return std::make_unique<NumberedRecording>(std::move(offsets));
+}
 
 class Played : public ::testing::Test {
 protected:
     Played() {
         CameraInfo info;
         info.frames_per_second = 100;
-        camera = make_recorded_camera(info, std::make_unique<Numbered>(), {});
+        camera = make_recorded_camera(info, numbered(), {});
         camera->follow(transport);
     }
     // The next frame's index; -1 at the end.

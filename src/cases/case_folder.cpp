@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
 #include "medical/picture.h"
@@ -24,14 +25,10 @@ constexpr std::size_t max_picture_bytes =
     64 + 3 * std::size_t(medical::max_picture_side) * medical::max_picture_side;
 constexpr std::size_t max_volume_bytes = (std::size_t(1) << 30) + medical::volume_header_size;
 
-std::string in_quotes(const fs::path& path) {
-    return "'" + clean_text(path.string(), 300) + "'";
-}
-
 template <class T>
 T require(Result<T> result, const fs::path& file, const char* what) {
     if (!result)
-        throw Error(in_quotes(file) + " is " +
+        throw Error(quoted_path(file) + " is " +
                     (result.error() == Status::malformed ? "no " + std::string(what)
                                                          : std::string(to_text(result.error()))) +
                     "; import the case again.");
@@ -43,10 +40,10 @@ fs::path file_in(const fs::path& folder, const std::string& name) {
     fs::path file = folder / name;
     const fs::file_status status = fs::symlink_status(file);
     if (status.type() == fs::file_type::not_found)
-        throw Error("The case in " + in_quotes(folder) + " lacks the file '" + name +
+        throw Error("The case in " + quoted_path(folder) + " lacks the file '" + name +
                     "', which its manifest names.");
     if (status.type() != fs::file_type::regular)
-        throw Error(in_quotes(file) + " is not a regular file.");
+        throw Error(quoted_path(file) + " is not a regular file.");
     return file;
 }
 
@@ -54,7 +51,7 @@ fs::path part_file(const fs::path& folder, const std::string& name, const char* 
                    const char* what) {
     fs::path file = file_in(folder, name);
     if (file.extension() != extension)
-        throw Error(in_quotes(file) + " is no " + what + " of a finished case (*" + extension +
+        throw Error(quoted_path(file) + " is no " + what + " of a finished case (*" + extension +
                     "): make one with 'theatron case import " + clean_text(folder.string(), 200) +
                     " CASE'.");
     return file;
@@ -204,16 +201,16 @@ private:
 Case read_manifest(const fs::path& folder) {
     std::error_code failed;
     if (!fs::is_directory(folder, failed))
-        throw Error("There is no folder " + in_quotes(folder) + ".");
+        throw Error("There is no folder " + quoted_path(folder) + ".");
     const fs::path file = folder / manifest_name;
     if (!fs::exists(file, failed))
-        throw Error(in_quotes(folder) + " is no case: it lacks '" + manifest_name +
+        throw Error(quoted_path(folder) + " is no case: it lacks '" + manifest_name +
                     "'; make a case with 'theatron case import'.");
     const Bytes bytes = files::read_file(file_in(folder, manifest_name), max_manifest_bytes);
     ParsedManifest parsed =
         parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!parsed.problem.empty())
-        throw Error("The manifest " + in_quotes(file) + " " + parsed.problem + ".");
+        throw Error("The manifest " + quoted_path(file) + " " + parsed.problem + ".");
     return std::move(parsed.value);
 }
 
@@ -234,7 +231,7 @@ ColorImage read_picture(const fs::path& file) {
 Case read_finished_manifest(const fs::path& folder) {
     Case manifest = read_manifest(folder);
     if (manifest.unit != medical::Unit::mm || manifest.axes != medical::Axes::lps)
-        throw Error("The case in " + in_quotes(folder) +
+        throw Error("The case in " + quoted_path(folder) +
                     " is not finished: make one of it with 'theatron case import'.");
     return manifest;
 }

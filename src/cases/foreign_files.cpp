@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/foreign_answer.h"
+#include "cases/quoted_path.h"
 #include "medical/picture.h"
 
 namespace theatron::cases {
@@ -25,10 +26,6 @@ constexpr std::size_t picture_area_bytes =
     64 + 3 * std::size_t(medical::max_picture_side) * medical::max_picture_side;
 constexpr std::size_t slice_area_bytes =
     max_slice_head + 2 * std::size_t(medical::max_volume_side) * medical::max_volume_side;
-
-std::string in_quotes(const fs::path& path) {
-    return "'" + clean_text(path.string(), 300) + "'";
-}
 
 class Descriptor {
 public:
@@ -60,12 +57,12 @@ std::string in_gigabytes(std::uintmax_t bytes) {
 void require_size(const fs::path& file, std::size_t limit, const char* advice) {
     std::error_code failed;
     if (!fs::is_regular_file(file, failed))
-        throw Error(in_quotes(file) + " is not a regular file.");
+        throw Error(quoted_path(file) + " is not a regular file.");
     const std::uintmax_t size = fs::file_size(file, failed);
     if (failed)
-        throw Error("The size of " + in_quotes(file) + " cannot be found out.");
+        throw Error("The size of " + quoted_path(file) + " cannot be found out.");
     if (size > limit)
-        throw Error(in_quotes(file) + " is " + in_gigabytes(size) + " large, and at most " +
+        throw Error(quoted_path(file) + " is " + in_gigabytes(size) + " large, and at most " +
                     std::to_string(limit >> 20) + " MiB are read; " + advice + ".");
 }
 
@@ -82,7 +79,7 @@ void require_announced(int file, const fs::path& path) {
         double count = 0;
         if (words >> word && word == "element" && words >> element >> count &&
             count > double(bytes))
-            throw Error(in_quotes(path) +
+            throw Error(quoted_path(path) +
                         " announces more than it has bytes for: it is cut off or damaged.");
     }
 }
@@ -137,20 +134,20 @@ public:
     void load(const fs::path& path) {
         const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
         if (file.get() < 0 || ftruncate(memory_.get(), 0) != 0)
-            throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+            throw Error("Cannot open " + quoted_path(path) + ": " + std::strerror(errno) + ".");
         buffer_.resize(1 << 20);
         std::size_t done = 0;
         while (true) {
             const ssize_t count = ::read(file.get(), buffer_.data(), buffer_.size());
             if (count < 0)
-                throw Error("Cannot read " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+                throw Error("Cannot read " + quoted_path(path) + ": " + std::strerror(errno) + ".");
             if (count == 0)
                 return;
             done += std::size_t(count);
             // It may grow while it is read.
             if (done > max_dicom_file_bytes ||
                 write(memory_, buffer_.data(), std::size_t(count), done - std::size_t(count)))
-                throw Error("Cannot take " + in_quotes(path) + " into memory.");
+                throw Error("Cannot take " + quoted_path(path) + " into memory.");
         }
     }
 
@@ -172,7 +169,8 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
     constexpr std::uintmax_t least_bytes = 132;  // before the first element
     std::error_code unknown;
     if (fs::file_size(file, unknown) < least_bytes)
-        throw Error(in_quotes(file) + " is too short for a DICOM file; take it out of the folder.");
+        throw Error(quoted_path(file) +
+                    " is too short for a DICOM file; take it out of the folder.");
     input_->load(file);
     try {
         if (!child_) {
@@ -188,12 +186,12 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         if (reply.what == Answer::no_image)
             return std::nullopt;
         if (reply.what != Answer::content)
-            throw Error(in_quotes(file) + " " + reason_of(reply.what) + ".");
+            throw Error(quoted_path(file) + " " + reason_of(reply.what) + ".");
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<DicomSlice> slice = decode_dicom_slice(copy);
         if (!slice)
             throw Error(
-                in_quotes(file) +
+                quoted_path(file) +
                 " describes an image whose size, place or scale of values cannot be; export "
                 "it again.");
         return std::move(*slice);
@@ -201,7 +199,7 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         // The child does not know which file it had.
         const std::string text = error.what();
         if (text.size() > subject.size() && text.compare(1, subject.size() - 1, subject, 1) == 0)
-            throw Error("The DICOM file " + in_quotes(file) + text.substr(subject.size()));
+            throw Error("The DICOM file " + quoted_path(file) + text.substr(subject.size()));
         throw;
     }
 }
@@ -224,7 +222,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
     require_size(path, max_mesh_file_bytes, "simplify the surface in the program that wrote it");
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() < 0)
-        throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+        throw Error("Cannot open " + quoted_path(path) + ": " + std::strerror(errno) + ".");
     if (lower_extension(path) == ".ply")
         require_announced(file.get(), path);
     sandbox::Limits limits;
@@ -232,7 +230,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
     limits.area_bytes = mesh_area_bytes;
     limits.cpu_seconds = 60;
     limits.answer = 120s;
-    sandbox::Child child("mesh", file.get(), "the file " + in_quotes(path), limits);
+    sandbox::Child child("mesh", file.get(), "the file " + quoted_path(path), limits);
     child.send(as_bytes(lower_extension(path).substr(1)));
 
     std::vector<NamedMesh> meshes;
@@ -241,7 +239,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         if (reply.what == Answer::end)
             break;
         if (reply.what != Answer::content)
-            throw Error(in_quotes(path) + " " +
+            throw Error(quoted_path(path) + " " +
                         (reply.what == Answer::unreadable ? "is damaged or no mesh"
                                                           : reason_of(reply.what)) +
                         ".");
@@ -249,14 +247,14 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<NamedMesh> mesh = decode_named_mesh(copy);
         if (!mesh)
-            throw Error(in_quotes(path) +
+            throw Error(quoted_path(path) +
                         " has vertices or triangles that cannot be; export it again.");
         meshes.push_back(std::move(*mesh));
         const std::byte next{1};
         child.send({&next, 1});
     }
     if (meshes.empty())
-        throw Error(in_quotes(path) + " holds no triangles.");
+        throw Error(quoted_path(path) + " holds no triangles.");
     return meshes;
 }
 
@@ -269,17 +267,17 @@ ColorImage read_picture_file(const fs::path& path) {
     require_size(path, max_picture_file_bytes, "save it with fewer pixels");
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() < 0)
-        throw Error("Cannot open " + in_quotes(path) + ": " + std::strerror(errno) + ".");
+        throw Error("Cannot open " + quoted_path(path) + ": " + std::strerror(errno) + ".");
     sandbox::Limits limits;
     limits.memory_bytes = max_reader_memory_bytes;
     limits.area_bytes = picture_area_bytes;
     limits.answer = 60s;
-    sandbox::Child child("picture", file.get(), "the picture " + in_quotes(path), limits);
+    sandbox::Child child("picture", file.get(), "the picture " + quoted_path(path), limits);
     const std::byte request{1};
     child.send({&request, 1});
     const Reply reply = reply_of(child);
     if (reply.what != Answer::content)
-        throw Error(in_quotes(path) + " " +
+        throw Error(quoted_path(path) + " " +
                     (reply.what == Answer::unreadable ? "is damaged or neither PNG nor JPEG"
                                                       : reason_of(reply.what)) +
                     ".");

@@ -11,6 +11,7 @@
 #include "cases/import_parts.h"
 #include "cases/new_folder.h"
 #include "cases/patient_words.h"
+#include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "files/private_file.h"
 #include "medical/picture.h"
@@ -125,8 +126,8 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     std::vector<ImportedPicture> pictures =
         import_pictures(files.pictures, manifest, report.remarks, progress);
     if (parts.empty() && all_series.empty() && pictures.empty())
-        throw Error("'" + clean_text(source.string(), 300) +
-                    "' holds neither images nor surfaces nor pictures that could be shown.");
+        throw Error(quoted_path(source) +
+                    " holds neither images nor surfaces nor pictures that could be shown.");
 
     Case& result = report.manifest;
     PatientWords words;

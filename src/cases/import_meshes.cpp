@@ -10,6 +10,7 @@
 #include "cases/import_parts.h"
 #include "cases/label_surface.h"
 #include "cases/manifest.h"
+#include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
 #include "medical/mesh_shaping.h"
@@ -102,21 +103,24 @@ const Part* named_in(const std::optional<Case>& manifest, const fs::path& file) 
     return nullptr;
 }
 
-void add_part(Part part, Mesh mesh, const ImportOptions& options, std::vector<ImportedPart>& parts,
-              std::vector<std::string>& remarks) {
+void add_part(const fs::path& file, Part part, Mesh mesh, const ImportOptions& options,
+              std::vector<ImportedPart>& parts, std::vector<std::string>& remarks) {
+    const std::string in_file = " in " + quoted_path(file);
     if (parts.size() == max_parts)
-        throw Error("The source holds more than " + std::to_string(max_parts) + " surfaces.");
+        throw Error("The source holds more than " + std::to_string(max_parts) +
+                    " surfaces; the next one is" + in_file + ".");
     if (!is_near(mesh))
-        throw Error("The surface '" + part.name +
-                    "' lies more than 100 m away; give its unit with --unit.");
+        throw Error("The surface '" + part.name + "'" + in_file +
+                    " lies more than 100 m away; give its unit with --unit.");
     const std::size_t before = mesh.triangles.size();
     finish(mesh, options.max_triangles);
     if (mesh.triangles.empty()) {
-        remarks.push_back("The surface '" + part.name + "' has no area and is left out.");
+        remarks.push_back("The surface '" + part.name + "'" + in_file +
+                          " has no area and is left out.");
         return;
     }
     if (mesh.triangles.size() < before * 9 / 10)
-        remarks.push_back("The surface '" + part.name + "' was simplified from " +
+        remarks.push_back("The surface '" + part.name + "'" + in_file + " was simplified from " +
                           std::to_string(before) + " to " + std::to_string(mesh.triangles.size()) +
                           " triangles.");
     parts.push_back({std::move(part), std::move(mesh)});
@@ -156,7 +160,7 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
             if (const Part* known = named_in(manifest, files[i]); known && alone)
                 part = *known;
             to_patient(named.mesh, frame);
-            add_part(std::move(part), std::move(named.mesh), options, parts, remarks);
+            add_part(files[i], std::move(part), std::move(named.mesh), options, parts, remarks);
         }
     }
     progress("Reading surfaces", 1);
@@ -168,8 +172,7 @@ LabelMap read_label_map(const fs::path& file) {
     const Bytes bytes = files::read_file(file, max_label_file_bytes);
     ParsedLabels parsed = is_nrrd_file(file) ? parse_nrrd(bytes) : parse_nifti(bytes);
     if (!parsed.problem.empty())
-        throw Error("The label map '" + clean_text(file.string(), 300) + "' " + parsed.problem +
-                    ".");
+        throw Error("The label map " + quoted_path(file) + " " + parsed.problem + ".");
     return std::move(parsed.value);
 }
 
@@ -180,7 +183,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     const LabelMap map = read_label_map(file);
     const std::vector<LabelCount> labels = labels_in(map);
     if (labels.size() > max_parts)
-        throw Error("The label map '" + clean_text(file.string(), 300) + "' has more than " +
+        throw Error("The label map " + quoted_path(file) + " has more than " +
                     std::to_string(max_parts) + " labels.");
     std::vector<ImportedPart> parts;
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "cases/foreign_files.h"
 #include "cases/import_parts.h"
 #include "cases/manifest.h"
+#include "cases/quoted_path.h"
 #include "cases/series_builder.h"
 
 namespace theatron::cases {
@@ -55,12 +56,17 @@ bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
     return !differ(name_a, name_b) && !differ(born_a, born_b);
 }
 
-using SlicesOfSeries = std::map<std::string, std::vector<DicomSlice>>;
+struct Slices {
+    fs::path first;  // file
+    std::vector<DicomSlice> slices;
+};
+using SlicesOfSeries = std::map<std::string, Slices>;
 
 SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::string>& remarks,
                            const Progress& progress) {
     SlicesOfSeries series;
     std::optional<DicomSlice> first;  // without its samples
+    fs::path first_file;
     DicomFiles reader;
     std::size_t samples = 0, without_image = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -71,17 +77,22 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
             continue;
         }
         if (first && !may_be_one_patient(*first, *slice))
-            throw Error(
-                "The images are of more than one patient; import those of each patient by "
-                "themselves.");
+            throw Error("The images are of more than one patient: " + quoted_path(first_file) +
+                        " is of another one than " + quoted_path(files[i]) +
+                        "; import those of each patient by themselves.");
         if (!first) {
             first = *slice;
             first->samples.clear();
+            first_file = files[i];
         }
         samples += slice->samples.size();
         if (samples > medical::max_volume_samples)
-            throw Error("The source holds more images than are read at once; import one series.");
-        series[slice->series_uid].push_back(std::move(*slice));
+            throw Error("The source holds more images than are read at once, from " +
+                        quoted_path(files[i]) + " on; import one series.");
+        Slices& same = series[slice->series_uid];
+        if (same.slices.empty())
+            same.first = files[i];
+        same.slices.push_back(std::move(*slice));
     }
     progress("Reading images", 1);
     if (without_image > 0)
@@ -99,7 +110,9 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
     std::vector<ImportedSeries> imported;
     std::vector<std::string> problems;
     std::map<std::string, int> count;
-    for (auto& [uid, slices] : read_slices(files, remarks, progress)) {
+    for (auto& [uid, read] : read_slices(files, remarks, progress)) {
+        std::vector<DicomSlice>& slices = read.slices;
+        const std::string begins = " The series begins with " + quoted_path(read.first) + ".";
         ImportedSeries one;
         one.series.modality = modality_of(slices.front());
         one.identifiers = slices.front().identifiers;
@@ -107,13 +120,13 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
                                        [](const DicomSlice& slice) { return slice.deidentified; });
         BuiltSeries built = build_series(slices);
         if (!built.problem.empty()) {
-            problems.push_back(built.problem);
+            problems.push_back(built.problem + begins);
             continue;
         }
         if (!built.missing_slices.empty())
             remarks.push_back("The series lacks " + std::to_string(built.missing_slices.size()) +
                               " of " + std::to_string(built.volume.grid.slices) +
-                              " slices, which stay empty.");
+                              " slices, which stay empty." + begins);
         const int number = ++count[one.series.modality];
         one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
         one.series.missing_slices = std::move(built.missing_slices);

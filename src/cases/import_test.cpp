@@ -207,7 +207,9 @@ TEST_F(Import, Monochrome1IsShownTheOtherWayRound) {
 TEST_F(Import, MissingSlicesAreReported) {
     write_series(source(), 8);
     fs::remove(source() / "image3.dcm");
-    EXPECT_THAT(import().remarks, ElementsAre(HasSubstr("lacks 1 of 8 slices")));
+    const auto remarks = import().remarks;
+    EXPECT_THAT(remarks, ElementsAre(HasSubstr("lacks 1 of 8 slices")));
+    EXPECT_THAT(remarks, ElementsAre(HasSubstr("image0.dcm'")));
     EXPECT_THAT(read_manifest(target()).series.at(0).missing_slices, ElementsAre(3));
 }
 
@@ -217,13 +219,18 @@ TEST_F(Import, MixedOrientationsAreRefused) {
     turned.right = {0, 1, 0};
     turned.down = {0, 0, -1};
     write_image(source() / "turned.dcm", turned, 7);
-    EXPECT_THAT(refusal(), HasSubstr("mixed orientations"));
+    const std::string text = refusal();
+    EXPECT_THAT(text, HasSubstr("mixed orientations"));
+    EXPECT_THAT(text, HasSubstr("image0.dcm'"));
 }
 
 TEST_F(Import, ImagesOfTwoPatientsAreRefused) {
     write_series(source());
     write_image(source() / "image2.dcm", image(2), 2, "Mustermann^Erika", "4712");
-    EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
+    const std::string text = refusal();
+    EXPECT_THAT(text, HasSubstr("more than one patient"));
+    EXPECT_THAT(text, HasSubstr("image0.dcm'"));
+    EXPECT_THAT(text, HasSubstr("image2.dcm'"));
     DicomSlice other = image(0);
     other.series_uid = "1.2.3.9";
     write_image(source() / "image2.dcm", image(2), 2);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/outside_text.h"
 #include "cases/case_folder.h"
+#include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
 #include "medical/picture.h"
@@ -16,10 +16,6 @@ namespace theatron::cases {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string in_quotes(const fs::path& path) {
-    return "'" + clean_text(path.string(), 300) + "'";
-}
 
 void extend(std::optional<medical::Box>& all, const medical::Box& box) {
     if (!all) {
@@ -38,14 +34,14 @@ void extend(std::optional<medical::Box>& all, const medical::Box& box) {
 ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uint64_t max_bytes) {
     const medical::Case manifest = read_finished_manifest(folder);
     if (manifest.parts.empty() && manifest.series.empty() && manifest.pictures.empty())
-        throw Error("The case in " + in_quotes(folder) +
+        throw Error("The case in " + quoted_path(folder) +
                     " has neither parts nor series nor pictures.");
     ShareableCase shared;
     const auto take = [&](const fs::path& file) {
         std::error_code failed;
         const auto size = fs::file_size(file, failed);
         if (failed || size > max_bytes - shared.bytes)
-            throw Error("The case in " + in_quotes(folder) +
+            throw Error("The case in " + quoted_path(folder) +
                         " is too large to be offered beside the others: there is room for " +
                         std::to_string(max_bytes >> 20) + " MiB.");
         auto bytes = std::make_shared<const Bytes>(
@@ -69,7 +65,8 @@ ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uin
         auto bytes = take(file);
         const auto mesh = medical::decode_mesh(*bytes);
         if (!mesh || mesh->triangles.empty())
-            throw Error(in_quotes(file) + " is no mesh that can be drawn; import the case again.");
+            throw Error(quoted_path(file) +
+                        " is no mesh that can be drawn; import the case again.");
         extend(box, medical::box_of(*mesh));
         about.parts.push_back({part.name, part.role, part.color,
                                std::uint8_t(std::lround(std::clamp(part.opacity, 0.0, 1.0) * 255)),
@@ -80,7 +77,7 @@ ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uin
         auto bytes = take(file);
         const auto volume = medical::decode_volume(*bytes);
         if (!volume)
-            throw Error(in_quotes(file) + " is no series of images; import the case again.");
+            throw Error(quoted_path(file) + " is no series of images; import the case again.");
         if (!shared.window) {
             const auto range = medical::slice_range(volume->grid, medical::Orientation::axial);
             shared.window = volume->window;
@@ -95,7 +92,7 @@ ShareableCase share_case(const fs::path& folder, const HashOf& hash_of, std::uin
         const fs::path file = file_of(folder, picture);
         auto bytes = take(file);
         if (!medical::decode_picture(*bytes))
-            throw Error(in_quotes(file) + " is no picture of a case; import the case again.");
+            throw Error(quoted_path(file) + " is no picture of a case; import the case again.");
         about.pictures.push_back({picture.name, keep(std::move(bytes))});
     }
     if (box)

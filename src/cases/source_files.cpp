@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/outside_text.h"
 #include "cases/foreign_files.h"
 #include "cases/import_case.h"
+#include "cases/quoted_path.h"
 
 namespace theatron::cases {
 namespace {
@@ -46,7 +46,7 @@ bool is_nrrd_file(const fs::path& file) {
 }
 
 SourceFiles find_source_files(const fs::path& source) {
-    const std::string name = "'" + clean_text(source.string(), 300) + "'";
+    const std::string name = quoted_path(source);
     SourceFiles files;
     std::error_code failed;
     if (fs::is_regular_file(source, failed)) {

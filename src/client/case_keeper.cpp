@@ -15,10 +15,12 @@ namespace {
 
 using Failure = session::ContentFetch::Failure;
 
-std::string text_of(Failure failure) {
+std::string text_of(Failure failure, bool is_recorded) {
     switch (failure) {
         case Failure::not_there:
-            return "The host does not offer this case any more.";
+            return is_recorded ? "The recording does not hold the case that was open, and the host "
+                                 "does not offer it: a host offers cases with --cases DIR."
+                               : "The host does not offer this case any more.";
         case Failure::wrong_size:
         case Failure::wrong_bytes:
             break;
@@ -26,15 +28,21 @@ std::string text_of(Failure failure) {
     return "The host sent other content than it announced, which was discarded.";
 }
 
-std::optional<ContentHash> open_case(const session::RoomObjects& objects) {
-    std::optional<ContentHash> open;
+struct FoundCase {
+    ContentHash hash;
+    bool is_recorded = false;
+    bool operator==(const FoundCase&) const = default;
+};
+
+std::optional<FoundCase> open_case(const session::RoomObjects& objects) {
+    std::optional<FoundCase> open;
     for (const auto& [id, object] : objects)
         if (object.kind == session::ObjectKind::organ)
             if (const auto organ =
                     session::decode_as<session::CaseOrgan>(object.kind, object.properties)) {
-                open = organ->of_case;
+                open = FoundCase{organ->of_case, session::is_recorded(id)};
                 // The present case comes before that of a recording.
-                if (!session::is_recorded(id))
+                if (!open->is_recorded)
                     break;
             }
     return open;
@@ -87,12 +95,15 @@ void CaseKeeper::on_offer(std::vector<wire::OfferedCase> cases) {
 }
 
 void CaseKeeper::on_room(const session::RoomObjects& objects) {
-    const auto open = open_case(objects);
+    const auto found = open_case(objects);
+    const auto open = found ? std::optional(found->hash) : std::nullopt;
+    const bool is_recorded = found && found->is_recorded;
     {
         const std::lock_guard lock(mutex_);
-        if (open == open_)
+        if (open == open_ && is_recorded == is_recorded_)
             return;
         open_ = open;
+        is_recorded_ = is_recorded;
         ++version_;
         waiting_.clear();
         want();
@@ -264,7 +275,7 @@ std::optional<OpenCase> CaseKeeper::open(std::uint64_t& version) const {
         return std::nullopt;
     OpenCase open{*open_, std::nullopt, {}, {}, {}, fetch_.progress(), ""};
     if (!fetch_.failures().empty())
-        open.problem = text_of(fetch_.failures().begin()->second);
+        open.problem = text_of(fetch_.failures().begin()->second, is_recorded_);
     const auto find = [&]<class T>(const ContentHash& hash, T& content) {
         const auto found = kept_.find(hash);
         if (found == kept_.end())

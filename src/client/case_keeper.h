@@ -92,6 +92,7 @@ private:
     session::ContentFetch fetch_;
     std::vector<wire::OfferedCase> offered_;
     std::optional<ContentHash> open_;
+    bool is_recorded_ = false;  // open_ is that of a recording
     std::map<ContentHash, Kept> kept_;
     std::deque<Waiting> waiting_;
     std::uint64_t version_ = 0;

@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "client/participant.h"
 #include "client/person_id.h"
+#include "client/recorded_numbers.h"
+#include "client/settled_places.h"
 #include "files/state_folder.h"
 #include "session/request_budget.h"
 #include "session/room_track.h"
@@ -22,9 +24,6 @@ constexpr Duration join_patience = std::chrono::seconds(15);
 // A host that was lost may be started again by hand.
 constexpr Duration return_patience = std::chrono::minutes(10);
 constexpr Duration said_after = std::chrono::seconds(1);
-// A camera that is being nudged begins a segment once it stays so long, or is nudged for so long.
-constexpr Duration place_stays = std::chrono::seconds(1),
-                   longest_nudging = std::chrono::seconds(10);
 constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
 // The room is known at once after the first pictures.
@@ -106,6 +105,8 @@ public:
                 on_described();
         }
         on_room(true);
+        if (is_connected())
+            intake_.pass_time(now());
     }
 
     record::Intake& intake() override { return intake_; }
@@ -164,7 +165,7 @@ private:
 
     bool settles() const {
         const std::lock_guard lock(mutex_);
-        return clock_known_ && is_settling();
+        return clock_known_ && places_.is_settling();
     }
 
     struct Early {
@@ -172,65 +173,6 @@ private:
         wire::MediaHeader header;  // as it is recorded
         std::shared_ptr<const Bytes> message;
     };
-
-    // A recording numbers its cameras from 0, a session goes on counting as cameras come and
-    // leave. The number that a camera has in the recording; none if it has none.
-    std::optional<CameraId> recorded_as(CameraId camera) const {
-        const auto found = numbers_.find(camera);
-        return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-    }
-    // Cameras that left give their numbers back, which are given again last.
-    void number_cameras(const std::vector<Participant::Camera>& cameras) {
-        std::erase_if(numbers_, [&](const auto& entry) {
-            return std::none_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
-                return camera.description.id == entry.first;
-            });
-        });
-        std::set<CameraId> used;
-        for (const auto& [camera, number] : numbers_)
-            used.insert(number);
-        for (const Participant::Camera& camera : cameras) {
-            if (numbers_.contains(camera.description.id))
-                continue;
-            for (std::size_t i = 0; i < wire::max_cameras; ++i) {
-                const auto number = CameraId((next_number_ + i) % wire::max_cameras);
-                if (!used.insert(number).second)
-                    continue;
-                numbers_[camera.description.id] = number;
-                next_number_ = std::size_t(number) + 1;
-                break;
-            }
-        }
-    }
-
-    // The mutex is held. The calibration to be recorded: while a slider moves a camera, that from
-    // before, since each one begins a segment.
-    const Bytes& settled(const wire::Camera& camera) {
-        const TimePoint local = steady_now();
-        auto [at, is_new] = settling_.try_emplace(
-            camera.id, Settling{camera.calibration, camera.calibration, {}, {}});
-        Settling& state = at->second;
-        if (camera.adjustment.empty() && state.adjustment.empty()) {
-            state = {camera.calibration, camera.calibration, {}, {}};
-            return state.recorded;
-        }
-        if (state.newest != camera.calibration) {
-            if (state.newest == state.recorded)
-                state.since = local;
-            state.newest = camera.calibration;
-            state.changed = local;
-        }
-        state.adjustment = camera.adjustment;
-        if (is_new || local - state.changed >= place_stays ||
-            local - state.since >= longest_nudging)
-            state.recorded = state.newest;
-        return state.recorded;
-    }
-    bool is_settling() const {
-        return std::any_of(settling_.begin(), settling_.end(), [](const auto& entry) {
-            return entry.second.newest != entry.second.recorded;
-        });
-    }
 
     // The mutex is held. Says once which cameras the host does not send.
     std::vector<Participant::Camera> recordable_cameras() {
@@ -263,13 +205,16 @@ private:
             agreed_.clear();  // people have other numbers now
             intake_.describe_voices({});
             room_.forget();
-            settling_.clear();
+            places_.clear();
             room_version_ = 0;
             early_.clear();
             early_bytes_ = 0;
         }
-        number_cameras(recordable_cameras());
-        std::erase_if(settling_, [&](const auto& entry) { return !recorded_as(entry.first); });
+        std::vector<CameraId> recorded;
+        for (const Participant::Camera& camera : recordable_cameras())
+            recorded.push_back(camera.description.id);
+        numbers_.set_cameras(recorded);
+        places_.keep_only([this](CameraId camera) { return numbers_.of(camera).has_value(); });
         std::vector<record::RecordedCamera> cameras;
         std::map<StreamId, SettingId> settings;
         if (describe(cameras, settings)) {
@@ -303,7 +248,7 @@ private:
         const auto sent = participant_->settings();
         for (const Participant::Camera& camera : recordable_cameras()) {
             const wire::Camera& d = camera.description;
-            const auto number = recorded_as(d.id);
+            const auto number = numbers_.of(d.id);
             if (!number)
                 continue;
             const auto codec_of = [&](StreamId id, StreamId recorded) -> std::string {
@@ -319,7 +264,7 @@ private:
             r.id = *number;
             r.name = d.name;
             r.frames_per_second = d.frames_per_second;
-            r.calibration = settled(d);
+            r.calibration = places_.settled(d.id, d.calibration, d.adjustment, steady_now());
             if (d.frame == wire::CameraFrame::person) {
                 Calibration before_person = camera.calibration;
                 before_person.person = std::uint32_t(d.publisher);
@@ -346,7 +291,7 @@ private:
             const std::lock_guard lock(mutex_);
             for (const Participant::Camera& camera : cameras) {
                 filters_[camera.description.depth_stream] = camera.state.filter;
-                const auto number = recorded_as(camera.description.id);
+                const auto number = numbers_.of(camera.description.id);
                 if (number && camera.state.condition == wire::CameraCondition::ended)
                     ended.push_back(*number);
             }
@@ -420,7 +365,8 @@ private:
             return;
         room_recorded_ = local;
         if (const auto part = room_.take(now);
-            part && !intake_.take_room(part->bytes, part->key, part->begin, now))
+            part &&
+            !intake_.take_room(part->bytes, part->key, part->begin, {local, {now, utc_now()}}))
             room_.want_key();
     }
 
@@ -432,7 +378,7 @@ private:
 
     void on_media(wire::MediaHeader header, std::shared_ptr<Bytes> message) {
         const std::lock_guard lock(mutex_);
-        const auto number = recorded_as(camera_of(header.stream));
+        const auto number = numbers_.of(camera_of(header.stream));
         if (stopped_ || !number)
             return;
         const StreamId stream = header.stream;
@@ -474,14 +420,8 @@ private:
     TimePoint clock_known_at_;
     std::vector<Early> early_;  // came before the clock and the room were known
     std::size_t early_bytes_ = 0;
-    std::map<CameraId, CameraId> numbers_;  // in the recording, by that in the session
-    std::size_t next_number_ = 0;
-    struct Settling {
-        Bytes recorded, newest;  // calibrations
-        TimePoint since, changed;
-        Bytes adjustment;
-    };
-    std::map<CameraId, Settling> settling_;
+    RecordedNumbers numbers_;
+    SettledPlaces places_;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
     session::RoomTrackWriter room_;
     std::uint64_t room_version_ = 0;

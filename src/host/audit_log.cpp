@@ -31,6 +31,18 @@ std::size_t size_of(int file) {
     return fstat(file, &info) == 0 ? std::size_t(info.st_size) : 0;
 }
 
+std::string left_out_line(const std::map<session::AuditEvent::What, std::size_t>& left_out) {
+    std::size_t all = 0;
+    nlohmann::ordered_json events;
+    for (const auto& [what, count] : left_out) {
+        events[session::text_of(what)] = count;
+        all += count;
+    }
+    return nlohmann::ordered_json{
+        {"time", utc_text(utc_now())}, {"left_out", all}, {"events", events}}
+        .dump();
+}
+
 }  // namespace
 
 std::string audit_line(const session::AuditEvent& event, const std::string& time,
@@ -86,16 +98,19 @@ void AuditLog::add(const session::AuditEvent& event, const std::string& address)
     {
         const std::lock_guard lock(mutex_);
         if (waiting_.size() >= max_waiting_lines)
-            ++left_out_;
+            ++left_out_[event.what];
         else
             waiting_.push_back(std::move(line));
     }
     changed_.notify_all();
 }
 
-void AuditLog::leave_out() {
-    const std::lock_guard lock(mutex_);
-    ++left_out_;
+void AuditLog::leave_out(session::AuditEvent::What what) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++left_out_[what];
+    }
+    changed_.notify_all();
 }
 
 void AuditLog::run() {
@@ -106,14 +121,18 @@ void AuditLog::run() {
         if (is_failing)
             changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_; });
         else
-            changed_.wait(lock, [this] { return !waiting_.empty() || stopping_; });
+            changed_.wait(lock,
+                          [this] { return !waiting_.empty() || !left_out_.empty() || stopping_; });
+        // More of them may follow, or a line.
+        if (waiting_.empty() && !left_out_.empty() && !is_failing)
+            changed_.wait_for(lock, left_out_period,
+                              [this] { return !waiting_.empty() || stopping_; });
         // Lines that could not be written are tried again before more are taken.
         if (lines.empty())
             for (const std::string& line : std::exchange(waiting_, {}))
                 lines += line + "\n";
-        if (const std::size_t count = lines.empty() ? 0 : std::exchange(left_out_, 0))
-            lines +=
-                nlohmann::json{{"time", utc_text(utc_now())}, {"left_out", count}}.dump() + "\n";
+        if (!left_out_.empty() && (!is_failing || stopping_))
+            lines += left_out_line(std::exchange(left_out_, {})) + "\n";
         const bool is_last = stopping_ && waiting_.empty();
         lock.unlock();
         const bool was_failing = std::exchange(is_failing, !lines.empty() && !write(lines));

@@ -6,10 +6,12 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "base/time.h"
 #include "session/audit_event.h"
 
 namespace theatron::host {
@@ -19,7 +21,8 @@ std::string audit_line(const session::AuditEvent& event, const std::string& time
                        const std::string& address);
 
 // An own thread writes each line to the disk before it takes the next ones. A slow or full disk
-// delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many.
+// delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many
+// of each kind, at the latest after left_out_period and at the end.
 class AuditLog {
 public:
     // A file that has become larger is renamed to NAME.1, that one to NAME.2 and so on; the
@@ -27,6 +30,7 @@ public:
     static constexpr std::size_t max_audit_bytes = 4 << 20;
     static constexpr int max_old_audits = 9;
     static constexpr std::size_t max_waiting_lines = 4096;
+    static constexpr Duration left_out_period = std::chrono::seconds(10);
 
     // Opens the file to append, readable by its owner alone, and starts the thread. Throws Error
     // with one sentence if that cannot be done.
@@ -37,7 +41,7 @@ public:
     // From any thread; never waits for the disk.
     void add(const session::AuditEvent& event, const std::string& address);
     // Counts an event that was not added, for the line about those left out.
-    void leave_out();
+    void leave_out(session::AuditEvent::What what);
 
 private:
     void run();
@@ -51,7 +55,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::string> waiting_;  // guarded by mutex_, as are the next two
-    std::size_t left_out_ = 0;
+    std::map<session::AuditEvent::What, std::size_t> left_out_;
     bool stopping_ = false;
     std::thread thread_;
 };

@@ -87,11 +87,25 @@ TEST(Audit, WhatWasLeftOutIsCounted) {
     const auto path = folder.path() / "audit.jsonl";
     {
         AuditLog log(path);
-        log.leave_out();
-        log.leave_out();
+        log.leave_out(What::waits);
+        log.leave_out(What::joined);
+        log.leave_out(What::waits);
         log.add(event(), "");
     }
-    EXPECT_EQ(lines_of(path).back()["left_out"], 2);
+    const auto last = lines_of(path).back();
+    EXPECT_EQ(last["left_out"], 3);
+    EXPECT_EQ(last["events"], (nlohmann::json{{"waits", 2}, {"joined", 1}}));
+}
+
+TEST(Audit, WhatWasLeftOutIsCountedAlsoWhereNoLineFollows) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    {
+        AuditLog log(path);
+        log.leave_out(What::waits);
+    }
+    ASSERT_EQ(lines_of(path).size(), 1u);
+    EXPECT_EQ(lines_of(path)[0]["events"]["waits"], 1);
 }
 
 TEST(Audit, AFileThatCannotBeWrittenIsNamed) {

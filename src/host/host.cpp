@@ -70,10 +70,12 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     state = options.state.empty() ? default_state_folder() : options.state;
     state_lock.emplace(state);
     net::require_free(options.listen);
+    played = find_played_recording(options.cameras);
+    const std::vector<std::string> specifications = without_room_only(played, options.cameras);
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     if (!options.places.empty())
         places = capture::load_places(options.places);
-    for (const std::string& specification : options.cameras)
+    for (const std::string& specification : specifications)
         cameras.push_back(capture::open_camera_at(specification, places, progress));
     if (!options.places.empty())
         check_places(options.places, places, cameras);
@@ -89,11 +91,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         check_background(loaded.back(), depth_sizes.back());
     }
 
-    played = find_played_recording(options.cameras);
     for (std::size_t i = 0; played && i < cameras.size(); ++i)
-        if (plays(*played, options.cameras[i])) {
+        if (plays(*played, specifications[i])) {
             cameras[i]->follow(played->transport);
-            const std::size_t number = camera_in_recording(options.cameras[i]);
+            const std::size_t number = camera_in_recording(specifications[i]);
             const Bytes& first = played->recording->cameras()[number].parts.front().calibration;
             // A camera that is placed or cropped here no longer moves as the recorded one did.
             if (const auto recorded = decode_calibration(first);
@@ -136,7 +137,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
                             check_color(usual.color_codec).codec};
     for (std::size_t i = 0; i < cameras.size(); ++i)
         config.cameras.push_back(
-            describe(cameras[i]->info(), has_room && plays(*played, options.cameras[i])));
+            describe(cameras[i]->info(), has_room && plays(*played, specifications[i])));
 
     session = std::make_unique<session::HostSession>(std::move(config));
     server =
@@ -152,7 +153,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
     for (const CameraId camera : session->streams().of(session::host_publisher))
         correct_place(*session->streams().find(camera));
-    start_lanes(options.cameras, std::move(cameras));
+    start_lanes(specifications, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
     for (const CameraId camera : session->streams().of(session::host_publisher))
@@ -174,7 +175,10 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
 
 void Host::Impl::start_replay() {
     replay = std::make_unique<RoomReplay>(
-        *played, [this, camera = played->camera] { return lanes[camera]->figures().frames > 0; },
+        *played,
+        [this, camera = played->camera] {
+            return camera >= lanes.size() || lanes[camera]->figures().frames > 0;
+        },
         [this](RoomReplay::Change change) {
             server->post([this, change = std::move(change)] { replay_room(change); });
         },

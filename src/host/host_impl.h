@@ -51,6 +51,7 @@ struct Host::Impl {
     std::vector<session::Admission::Token> tokens;  // those of the session
     std::unique_ptr<AuditLog> audit;                // may be null
     session::TokenBucket audited{1, 500};           // events; server's thread
+    session::TokenBucket audited_knocks{1, 500};    // of people who wait; likewise
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<net::Server> server;
     capture::CameraPlaces places;  // does not change once lanes run

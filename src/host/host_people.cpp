@@ -98,17 +98,20 @@ void Host::Impl::audit_beginning() {
         audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
 }
 
-// A guest that comes and goes all the time must not push everything else out of the log.
+// A guest that comes and goes all the time must not push everything else out of the log, nor hide
+// who knocks.
 void Host::Impl::carry_out(const session::action::Audit& a) {
     const session::AuditEvent& event = a.event;
     const auto found = addresses.find(net::PeerId(std::uint32_t(event.participant)));
     const std::string address = found == addresses.end() ? "" : found->second;
     const bool is_decision = !event.by.empty();
-    if (audit && (is_decision || audited.take(steady_now())))
+    const bool knocks = event.what == What::waits;
+    session::TokenBucket& budget = knocks ? audited_knocks : audited;
+    if (audit && (is_decision || budget.take(steady_now())))
         audit->add(event, address);
     else if (audit)
-        audit->leave_out();
-    if (!is_decision && event.what != What::waits)
+        audit->leave_out(event.what);
+    if (!is_decision && !knocks)
         return;
     if (const auto left_out = joins.take(session::text_of(event.what) + address, steady_now()))
         log::info("host", session::text_of(event.what),

@@ -25,16 +25,21 @@ std::optional<PlayedRecording> played_recording(const std::string& specification
     const auto& cameras = played.recording->cameras();
     const auto camera = std::size_t(options.take_int("camera", 0, 0, 1000));
     const capture::PlaybackOptions playback = capture::take_playback_options(options);
-    if (camera >= cameras.size())
-        return std::nullopt;
-    const auto& frames = cameras[camera].depth.frames;
     Duration begin{};
-    if (!frames.empty())
-        begin = frames[std::min(std::size_t(playback.start), frames.size() - 1)].time();
+    double frames_per_second = 30;
+    if (cameras.empty() && played.recording->room().present) {
+        options.require_no_problem();
+    } else if (camera < cameras.size()) {
+        const auto& frames = cameras[camera].depth.frames;
+        frames_per_second = cameras[camera].frames_per_second;
+        if (!frames.empty())
+            begin = frames[std::min(std::size_t(playback.start), frames.size() - 1)].time();
+    } else {
+        return std::nullopt;
+    }
     std::optional<Duration> round;
     if (playback.loop)
-        round = played.recording->duration() +
-                seconds_to_duration(1 / cameras[camera].frames_per_second);
+        round = played.recording->duration() + seconds_to_duration(1 / frames_per_second);
     played.transport =
         std::make_shared<capture::Transport>(played.recording->duration(), round, begin);
     return played;
@@ -54,6 +59,15 @@ std::optional<PlayedRecording> find_played_recording(
                 first = std::move(played);
         }
     return first;
+}
+
+std::vector<std::string> without_room_only(const std::optional<PlayedRecording>& played,
+                                           const std::vector<std::string>& specifications) {
+    std::vector<std::string> rest;
+    for (const std::string& specification : specifications)
+        if (!played || !played->recording->cameras().empty() || !plays(*played, specification))
+            rest.push_back(specification);
+    return rest;
 }
 
 bool plays(const PlayedRecording& played, const std::string& specification) {

@@ -22,7 +22,7 @@ namespace theatron::host {
 struct PlayedRecording {
     std::shared_ptr<const record::RecordingFile> recording;
     std::string file;        // as the camera's specification names it
-    std::size_t camera = 0;  // the first of the host's cameras that plays it
+    std::size_t camera = 0;  // the first of the host's cameras that plays it, if it has cameras
     // For all of the host's cameras that play it, and for its room.
     std::shared_ptr<capture::Transport> transport;
 };
@@ -30,6 +30,9 @@ struct PlayedRecording {
 // recorded come first. Empty if there is none. Throws Error for a file that cannot be read.
 std::optional<PlayedRecording> find_played_recording(
     const std::vector<std::string>& specifications);
+// The specifications without those of a recording that has no cameras, only a room.
+std::vector<std::string> without_room_only(const std::optional<PlayedRecording>& played,
+                                           const std::vector<std::string>& specifications);
 // True for a camera of the same recording.
 bool plays(const PlayedRecording& played, const std::string& specification);
 // The number in the recording of the camera that such a specification names.

@@ -6,28 +6,21 @@
 #include <numbers>
 
 #include "xr/imgui_pass_native.h"
+#include "xr/panel_colors_native.h"
 
 namespace theatron::or_screen {
 namespace {
 
-constexpr ImU32 ground_color = IM_COL32(11, 13, 16, 255);
-constexpr ImU32 card_color = IM_COL32(25, 29, 35, 255);
-constexpr ImU32 text_color = IM_COL32(226, 231, 236, 255);
-constexpr ImU32 label_color = IM_COL32(150, 161, 174, 255);
-constexpr ImU32 warning_color = IM_COL32(255, 184, 70, 255);
-constexpr ImU32 shade_color = IM_COL32(8, 10, 13, 190);
-constexpr ImU32 outline_color = IM_COL32(0, 0, 0, 170);
-constexpr ImU32 ink_color = IM_COL32(8, 10, 13, 255);  // on a person's colour
-constexpr ImU32 veil_color = IM_COL32(8, 10, 13, 225);
+namespace colors = xr::colors;
 
-ImU32 solid(Rgb c, int opacity = 255) {
-    return IM_COL32(c.r, c.g, c.b, opacity);
-}
+constexpr ImU32 shade_color = colors::with_opacity(colors::shade, 190);
+constexpr ImU32 outline_color = IM_COL32(0, 0, 0, 170);
 
 // A person's colour as the ground of a card, dark enough for white letters.
 ImU32 tinted(Rgb c) {
     const auto mix = [](int ground, int tint) { return ground + (tint - ground) * 26 / 100; };
-    return IM_COL32(mix(25, c.r), mix(29, c.g), mix(35, c.b), 255);
+    return IM_COL32(mix(colors::card_ground.r, c.r), mix(colors::card_ground.g, c.g),
+                    mix(colors::card_ground.b, c.b), 255);
 }
 
 ImVec2 from(const Rect& rect) {
@@ -86,7 +79,7 @@ void Painter::centred(const ImFont* font, const Rect& rect, ImU32 color, const s
 }
 
 void Painter::ground(Size screen) {
-    list_.AddRectFilled({0, 0}, {float(screen.width), float(screen.height)}, ground_color);
+    list_.AddRectFilled({0, 0}, {float(screen.width), float(screen.height)}, colors::ground);
 }
 
 void Painter::label(ImVec2 at, Rgb color, const std::string& initials, ImU32 words_color,
@@ -142,19 +135,19 @@ void Painter::badge(ImVec2 middle, Rgb color, const std::string& initials) {
     const float rounding = 0.35f * letter_, edge = 0.08f * letter_;
     list_.AddRectFilled({low.x - edge, low.y - edge}, {high.x + edge, high.y + edge}, outline_color,
                         rounding);
-    list_.AddRectFilled(low, high, solid(color), rounding);
-    text(fonts_.small, {middle.x - size.x / 2, middle.y - size.y / 2}, ink_color, initials);
+    list_.AddRectFilled(low, high, colors::with_opacity(color), rounding);
+    text(fonts_.small, {middle.x - size.x / 2, middle.y - size.y / 2}, colors::ink, initials);
 }
 
 void Painter::pointers(const std::vector<PointerMark>& pointers, const Rect& area, Size picture) {
     const double radius = 0.8 * letter_;
     for (const PointerMark& one : pointers) {
         const ImVec2 at = place_in(area, picture, one.place.pixel);
-        ring(at, solid(one.color), one.place.sight);
+        ring(at, colors::with_opacity(one.color), one.place.sight);
         there_.push_back({at.x - radius, at.y - radius, 2 * radius, 2 * radius});
     }
     for (const PointerMark& one : pointers)
-        label(place_in(area, picture, one.place.pixel), one.color, one.initials, warning_color,
+        label(place_in(area, picture, one.place.pixel), one.color, one.initials, colors::warning,
               one.place.sight == Sight::hidden ? "hidden from this camera" : "", area);
 }
 
@@ -163,7 +156,7 @@ void Painter::mark(const PictureMark& mark, const Rect& area, Size picture) {
     const auto at = [&](std::size_t i) { return place_in(area, picture, mark.points[i].pixel); };
     const auto is_shown = [&](std::size_t i) { return mark.points[i].sight != Sight::outside; };
     const auto color_at = [&](std::size_t i) {
-        return solid(mark.color, mark.points[i].sight == Sight::hidden ? 70 : 255);
+        return colors::with_opacity(mark.color, mark.points[i].sight == Sight::hidden ? 70 : 255);
     };
     for (std::size_t i = 1; i < mark.points.size(); ++i)
         if (is_shown(i - 1) && is_shown(i)) {
@@ -192,9 +185,9 @@ void Painter::camera(const Content& content, const Rect& rect,
                      const render::PictureTexture* picture) {
     const float rounding = 0.25f * letter_;
     if (!picture || picture->size().area() == 0) {
-        list_.AddRectFilled(from(rect), to(rect), card_color, rounding);
+        list_.AddRectFilled(from(rect), to(rect), colors::card, rounding);
         if (content.message.empty())
-            centred(fonts_.name, rect, label_color, "No camera picture");
+            centred(fonts_.name, rect, colors::label, "No camera picture");
         return;
     }
     // An old picture must not be taken for the present.
@@ -210,12 +203,12 @@ void Painter::camera(const Content& content, const Rect& rect,
     for (const PictureMark& one : content.marks) {
         const PicturePlace& end = one.points.back();
         if (!one.label.empty() && end.sight != Sight::outside && end.sight != Sight::hidden)
-            label(place_in(rect, content.picture, end.pixel), one.color, "", solid(one.color),
-                  one.label, rect);
+            label(place_in(rect, content.picture, end.pixel), one.color, "",
+                  colors::with_opacity(one.color), one.label, rect);
     }
     if (is_old) {
         const Rect bar{rect.x, rect.y, rect.width, 2.4 * letter_};
-        list_.AddRectFilled(from(bar), to(bar), warning_color, rounding,
+        list_.AddRectFilled(from(bar), to(bar), colors::warning, rounding,
                             ImDrawFlags_RoundCornersTop);
         centred(fonts_.name, bar, IM_COL32(20, 14, 4, 255), content.warning);
     }
@@ -228,25 +221,26 @@ void Painter::caption(const Content& content, const Rect& rect) {
     const float y = float(rect.y + (rect.height - font->FontSize) / 2), between = letter_;
     const std::string age = content.age.empty() ? "" : content.age + " old";
     const float age_width = measure(font, age).x;
-    text(font, {to(rect).x - age_width, y}, content.age_warns ? warning_color : label_color, age);
+    text(font, {to(rect).x - age_width, y}, content.age_warns ? colors::warning : colors::label,
+         age);
     const float room = float(rect.width) - age_width - between;
     const std::string name = content.camera.empty() ? "" : "Camera " + content.camera;
     const std::string camera = shortened(font, name, content.recorded.empty() ? room : room / 2);
-    text(font, {float(rect.x), y}, label_color, camera);
+    text(font, {float(rect.x), y}, colors::label, camera);
     if (content.recorded.empty())
         return;
     const float left = float(rect.x) + measure(font, camera).x + between, dot = 0.32f * letter_;
     list_.AddCircleFilled({left + dot, float(rect.y + rect.height / 2)}, dot,
                           IM_COL32(226, 74, 66, 255));
     const float begin = left + 3 * dot;
-    text(font, {begin, y}, text_color,
+    text(font, {begin, y}, colors::text,
          shortened(font, content.recorded, to(rect).x - age_width - between - begin));
 }
 
 void Painter::room(const Content& content, const Rect& rect, const render::Texture* picture) {
     const float rounding = 0.25f * letter_;
     if (!picture) {
-        list_.AddRectFilled(from(rect), to(rect), card_color, rounding);
+        list_.AddRectFilled(from(rect), to(rect), colors::card, rounding);
         return;
     }
     list_.AddImageRounded(xr::texture_of(*picture), from(rect), to(rect), {0, 1}, {1, 0},
@@ -261,7 +255,8 @@ void Painter::room(const Content& content, const Rect& rect, const render::Textu
         there_.push_back(place);
         const ImVec2 middle{float(place.x + side / 2), float(place.y + side / 2)};
         if (head.speaks)
-            list_.AddCircle(middle, 1.4f * letter_, solid(head.color), 48, 0.12f * letter_);
+            list_.AddCircle(middle, 1.4f * letter_, colors::with_opacity(head.color), 48,
+                            0.12f * letter_);
         badge(middle, head.color, head.initials);
     }
     list_.PopClipRect();
@@ -272,7 +267,7 @@ void Painter::monitor(const Content& content, const Rect& rect,
     list_.AddRectFilled(from(rect), to(rect), IM_COL32(0, 0, 0, 255), 0.25f * letter_);
     const double text_height = 1.7 * letter_;
     Rect below{rect.x, rect.bottom() - text_height, rect.width, text_height};
-    centred(fonts_.small, below, label_color, content.slice);
+    centred(fonts_.small, below, colors::label, content.slice);
     if (!slice || slice->size().area() == 0)
         return;
     const Rect area =
@@ -284,15 +279,15 @@ void Painter::monitor(const Content& content, const Rect& rect,
 
 void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {
     const float rounding = 0.4f * letter_, padding = 0.5f * letter_, side = 2.4f * letter_;
-    const ImU32 color = solid(card.color);
-    list_.AddRectFilled(from(rect), to(rect), card.speaks ? tinted(card.color) : card_color,
+    const ImU32 color = colors::with_opacity(card.color);
+    list_.AddRectFilled(from(rect), to(rect), card.speaks ? tinted(card.color) : colors::card,
                         rounding);
     list_.AddRectFilled(from(rect), {from(rect).x + side, to(rect).y}, color, rounding,
                         ImDrawFlags_RoundCornersLeft);
     const ImVec2 initials = measure(fonts_.small, card.initials);
     const float middle = from(rect).y + float(rect.height) / 2;
-    text(fonts_.small, {from(rect).x + (side - initials.x) / 2, middle - initials.y / 2}, ink_color,
-         card.initials);
+    text(fonts_.small, {from(rect).x + (side - initials.x) / 2, middle - initials.y / 2},
+         colors::ink, card.initials);
     const float left = from(rect).x + side + padding;
     const float name_middle = two_lines ? from(rect).y + 1.35f * letter_ : middle;
     float right = to(rect).x - padding;
@@ -312,31 +307,31 @@ void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {
     // A long name in smaller letters.
     const ImFont* font =
         measure(fonts_.name, card.name).x <= right - left ? fonts_.name : fonts_.small;
-    text(font, {left, name_middle - font->FontSize / 2}, text_color,
+    text(font, {left, name_middle - font->FontSize / 2}, colors::text,
          shortened(font, card.name, right - left));
     if (!two_lines)
         return;
     text(fonts_.small, {left, from(rect).y + 3 * letter_ - fonts_.small->FontSize / 2},
-         card.warns ? warning_color : label_color,
+         card.warns ? colors::warning : colors::label,
          shortened(fonts_.small, card.state, to(rect).x - padding - left));
 }
 
 void Painter::note_card(const std::string& words, const Rect& rect) {
-    list_.AddRectFilled(from(rect), to(rect), card_color, 0.4f * letter_);
-    centred(fonts_.small, rect, label_color, words);
+    list_.AddRectFilled(from(rect), to(rect), colors::card, 0.4f * letter_);
+    centred(fonts_.small, rect, colors::label, words);
 }
 
 void Painter::message(const Content& content, Size screen, Vec2 by) {
     const ImVec2 size{float(screen.width), float(screen.height)};
-    list_.AddRectFilled({0, 0}, size, veil_color);
+    list_.AddRectFilled({0, 0}, size, colors::dense_veil);
     const float wrap = 0.8f * size.x;
     const ImVec2 words = measure(fonts_.large, content.message, wrap),
                  more = measure(fonts_.small, content.detail, wrap);
     const float top = (size.y - words.y - letter_ - more.y) / 2 + float(by.y);
-    text(fonts_.large, {(size.x - words.x) / 2 + float(by.x), top}, text_color, content.message,
+    text(fonts_.large, {(size.x - words.x) / 2 + float(by.x), top}, colors::text, content.message,
          wrap);
-    text(fonts_.small, {(size.x - more.x) / 2 + float(by.x), top + words.y + letter_}, label_color,
-         content.detail, wrap);
+    text(fonts_.small, {(size.x - more.x) / 2 + float(by.x), top + words.y + letter_},
+         colors::label, content.detail, wrap);
 }
 
 }  // namespace theatron::or_screen

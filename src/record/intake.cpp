@@ -72,6 +72,9 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
     if (new_connection)
         current_.settings.clear();
     const bool was_pending = pending_ && pending_->new_connection;
+    const bool was_without = pending_ && pending_->cameras.empty();
+    if (new_connection || (cameras.empty() && !was_without))
+        waits_since_ = now;
     pending_ = {std::move(cameras), std::move(settings), new_connection || was_pending};
     if (!pending_->new_connection && pending_->cameras == current_.cameras) {
         current_ = *std::move(pending_);
@@ -105,16 +108,16 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
             return false;
         if (!header.key)
             entry.gate.close();
-        else if (!begin(*std::exchange(pending_, std::nullopt), header, now))
+        else if (!begin(*std::exchange(pending_, std::nullopt), header.captured, now))
             return false;
     } else if ((wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry)) {
         Description next = is_described_anew() ? *std::exchange(pending_, std::nullopt) : current_;
-        if (!begin(std::move(next), header, now))
+        if (!begin(std::move(next), header.captured, now))
             return false;
     }
     const StreamGate::Answer answer = entry.gate.on_frame(header, now.local);
     note_time(entry, header, now.local);
-    fill_voices(header.captured, now.clock.session);
+    fill_voices(std::min(header.captured, now.clock.session), now.clock.session);
     if (!answer.record)
         return answer.ask_for_key;
     switch (recorder_->add(header, std::move(message), now.clock.session, filters)) {
@@ -142,13 +145,20 @@ bool Intake::can_begin_with(const Entry& entry) const {
            });
 }
 
-// A segment of this description begins with this frame.
-bool Intake::begin(Description description, const wire::MediaHeader& header, const Now& now) {
+// True if a key part of the room begins the described segment, since no picture does. While a
+// segment is open, that is so only where the cameras have gone: others are about to send.
+bool Intake::room_begins_segment(TimePoint now) const {
+    return pending_ && now - waits_since_ >= picture_patience &&
+           (!recorder_ || pending_->new_connection || pending_->cameras.empty());
+}
+
+// A segment of this description begins with what was captured then: a frame or a part of the room.
+bool Intake::begin(Description description, TimePoint captured, const Now& now) {
     // Block times count from this clock: as late as possible, but not after the frame.
     ClockPair clock = now.clock;
-    const Duration age = between(header.captured, clock.session);
+    const Duration age = between(captured, clock.session);
     if (age > Duration(0) && age < oldest_beginning)
-        clock = {header.captured, clock.utc - age};
+        clock = {captured, clock.utc - age};
     try {
         if (!recorder_)
             recorder_ = std::make_unique<Recorder>(file_, description.cameras, clock, options_,
@@ -180,12 +190,18 @@ void Intake::begin_segment() {
     }
 }
 
-bool Intake::take_room(ByteView part, bool key, TimePoint begin, TimePoint now) {
+bool Intake::take_room(ByteView part, bool key, TimePoint begins, const Now& now) {
     const std::lock_guard lock(mutex_);
+    if (!problem_.empty() || part.size() > wire::max_payload_size)
+        return false;
+    if (room_begins_segment(now.local)) {
+        // The next part is a key part, if this one is none.
+        if (!key || !begin(*std::exchange(pending_, std::nullopt), begins, now))
+            return false;
+    }
     // Until the segment of a new connection begins, times are of another clock.
     const bool is_between = pending_ && pending_->new_connection;
-    if (!problem_.empty() || !recorder_ || is_between || part.size() > wire::max_payload_size ||
-        (room_segment_ != segments_begun_ && !key))
+    if (!recorder_ || is_between || (room_segment_ != segments_begun_ && !key))
         return false;
     wire::MediaHeader header;
     header.codec = room_codec;
@@ -194,12 +210,13 @@ bool Intake::take_room(ByteView part, bool key, TimePoint begin, TimePoint now) 
     header.frame = room_parts_;
     header.reference = room_parts_ - (key ? 0 : 1);
     header.payload_size = std::uint32_t(part.size());
-    header.moment = header.captured = begin;
+    header.moment = header.captured = begins;
     auto message = std::make_shared<Bytes>(wire::media_header_size);
     wire::write_media_header(header, message->data());
     message->insert(message->end(), part.begin(), part.end());
     ++room_parts_;
-    const bool is_taken = recorder_->add(header, std::move(message), now) == Recorder::Added::taken;
+    const bool is_taken =
+        recorder_->add(header, std::move(message), now.clock.session) == Recorder::Added::taken;
     room_segment_ = is_taken ? segments_begun_ : 0;
     return is_taken;
 }

@@ -27,7 +27,11 @@ public:
     // Time between two reports of a stream while more of it gets lost.
     static constexpr Duration news_interval = std::chrono::seconds(1);
 
-    // Nothing is created before the first picture.
+    // If no picture has begun the recording or continued it for this time after the description of
+    // its cameras, the room begins a segment: people speak and point while no camera is there.
+    static constexpr Duration picture_patience = std::chrono::seconds(2);
+
+    // Nothing is created before the first picture or part of the room.
     Intake(std::filesystem::path file, const Recorder::Options& options)
         : file_(std::move(file)), options_(options) {}
 
@@ -51,9 +55,10 @@ public:
 
     // A part of the room's state, which begins at session time `begin`. A key part needs no part
     // before it; the first one of each segment must be one. False if it was not recorded, because
-    // it is none or nothing is recorded yet: then the next part must be a key part. Never waits,
-    // never throws. From any thread, in order.
-    [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, TimePoint now);
+    // it is none or nothing is recorded yet: then the next part must be a key part. A key part
+    // begins a segment of its own after picture_patience. Never waits, never throws. From any
+    // thread, in order.
+    [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, const Now& now);
 
     // The people who agree that their voices are recorded, all of them. Each segment has a track
     // for each of those of its beginning, and spare_voices for people who agree later. When these
@@ -62,11 +67,14 @@ public:
     void describe_voices(std::vector<RecordedVoice> voices);
 
     // A packet of such a person, in the order of arrival. Voices go into the file as gapless
-    // sequences (voice_track.h), silence up to voice_patience before the newest picture. Nothing is
-    // recorded of a person who has not agreed, or before the first picture. Never waits, never
-    // throws. From any thread.
-    static constexpr Duration voice_patience = std::chrono::seconds(1);
+    // sequences (voice_track.h), silence up to voice_patience before the newest picture, or up to
+    // quiet_patience before now while no picture comes. Nothing is recorded of a person who has not
+    // agreed, or before the first segment. Never waits, never throws. From any thread.
+    static constexpr Duration voice_patience = std::chrono::seconds(1),
+                              quiet_patience = std::chrono::seconds(10);
     void take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
+    // Fills the voices with silence while no picture comes. Call it some times a second.
+    void pass_time(const Now& now);
 
     struct Voice {
         RecordedVoice who;
@@ -106,7 +114,7 @@ public:
     // the first one.
     std::optional<TimePoint> newest_captured() const;
 
-    // Null before the first picture. It is owned by the intake.
+    // Null before the first segment. It is owned by the intake.
     Recorder* recorder() const;
     // One sentence if the recording could not begin or has ended by itself; else empty.
     std::string problem() const;
@@ -139,9 +147,10 @@ private:
     void begin_voices(TimePoint begin);
     VoiceLane* voice_lane_of(ParticipantId person);
     void add_voice(std::size_t lane, const VoiceSequence::Block& block, TimePoint now);
-    void fill_voices(TimePoint captured, TimePoint now);
+    void fill_voices(TimePoint until, TimePoint now);
     void keep_voice_figures();
-    bool begin(Description description, const wire::MediaHeader& header, const Now& now);
+    bool begin(Description description, TimePoint captured, const Now& now);
+    bool room_begins_segment(TimePoint now) const;
     bool is_described_anew() const;
     bool can_begin_with(const Entry& entry) const;
     void note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now);
@@ -155,6 +164,7 @@ private:
     std::map<StreamId, Entry> entries_;
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
+    TimePoint waits_since_;               // for a picture of pending_, on the machine's own clock
     bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;
@@ -163,7 +173,7 @@ private:
     std::vector<RecordedVoice> agreed_;
     std::vector<VoiceLane> voices_;          // by track
     std::map<ParticipantId, Voice> spoken_;  // in earlier segments; drops also of this one
-    TimePoint newest_picture_;
+    TimePoint filled_until_;                 // of the voices, without the patience
 };
 
 }  // namespace theatron::record

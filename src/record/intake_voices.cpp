@@ -58,7 +58,7 @@ void Intake::keep_voice_figures() {
 void Intake::begin_voices(TimePoint begin) {
     keep_voice_figures();
     voices_.clear();
-    newest_picture_ = begin;
+    filled_until_ = begin;
     for (std::size_t i = 0; i < voice_tracks().size(); ++i) {
         voices_.push_back({std::nullopt, "", VoiceSequence(begin)});
         if (i < agreed_.size()) {
@@ -98,14 +98,24 @@ void Intake::take_voice(ParticipantId person, const VoicePacket& packet, TimePoi
                        [&](const VoiceSequence::Block& block) { add_voice(index, block, now); });
 }
 
-void Intake::fill_voices(TimePoint captured, TimePoint now) {
-    // A camera may claim any time.
-    captured = std::min(captured, now);
-    if (captured <= newest_picture_)
+void Intake::pass_time(const Now& now) {
+    const std::lock_guard lock(mutex_);
+    const bool is_between = pending_ && pending_->new_connection;
+    const bool pictures_come = std::any_of(entries_.begin(), entries_.end(), [&](const auto& e) {
+        return !e.second.ended && now.local - e.second.heard <= quiet_patience;
+    });
+    if (!problem_.empty() || !recorder_ || is_between || pictures_come)
         return;
-    newest_picture_ = captured;
+    fill_voices(now.clock.session - (quiet_patience - voice_patience), now.clock.session);
+}
+
+// Everything up to voice_patience before `until` has come or will not come.
+void Intake::fill_voices(TimePoint until, TimePoint now) {
+    if (until <= filled_until_)
+        return;
+    filled_until_ = until;
     for (std::size_t i = 0; i < voices_.size(); ++i)
-        voices_[i].sequence.fill(captured - voice_patience, [&](const VoiceSequence::Block& block) {
+        voices_[i].sequence.fill(until - voice_patience, [&](const VoiceSequence::Block& block) {
             add_voice(i, block, now);
         });
 }

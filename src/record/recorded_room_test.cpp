@@ -27,7 +27,7 @@ struct RoomRecording {
         std::map<StreamId, SettingId> settings{{depth_stream(CameraId{0}), SettingId(3)},
                                                {color_stream(CameraId{0}), SettingId(3)}};
         intake.describe(cameras(1), settings, true, TimePoint(1s));
-        EXPECT_FALSE(intake.take_room(part_of(0), true, TimePoint(1s), TimePoint(1s)))
+        EXPECT_FALSE(intake.take_room(part_of(0), true, TimePoint(1s), at_once(TimePoint(1s))))
             << "nothing is recorded yet";
         for (int i = 0; i < frames; ++i) {
             const auto frame = FrameNumber(i);
@@ -36,11 +36,12 @@ struct RoomRecording {
                 const Message m = message(stream, frame, at, 3000, i % 30 == 0 ? frame : frame - 1);
                 pictures.push_back(m);
                 const TimePoint now = m.header.captured + 10ms;
-                (void)intake.take(m.header, m.bytes, "", {now, {now, UtcTime(1s)}});
+                (void)intake.take(m.header, m.bytes, "", at_once(now));
             }
             for (int n = 0; n < 2; ++n, ++parts) {
                 const TimePoint begin = session_begin.session + at + 10ms * n;
-                EXPECT_TRUE(intake.take_room(part_of(parts), parts % 10 == 0, begin, begin + 11ms));
+                EXPECT_TRUE(intake.take_room(part_of(parts), parts % 10 == 0, begin,
+                                             at_once(begin + 11ms)));
             }
         }
         intake.recorder()->finish();
@@ -122,23 +123,24 @@ TEST_F(RecordedRoom, EachSegmentBeginsWithAKeyPart) {
     const auto picture = [&](StreamId stream, FrameNumber frame) {
         const Message m = message(stream, frame, 33ms * frame, 100, frame);
         const TimePoint now = m.header.captured + 10ms;
-        (void)intake.take(m.header, m.bytes, "", {now, {now, UtcTime(1s)}});
+        (void)intake.take(m.header, m.bytes, "", at_once(now));
         return m.header.captured;
     };
     const StreamId depth = depth_stream(CameraId{0});
     intake.describe(cameras(1), settings, true, TimePoint(1s));
     TimePoint at = picture(depth, 0);
-    EXPECT_FALSE(intake.take_room(part_of(0), false, at, at)) << "a segment begins with a key part";
-    EXPECT_TRUE(intake.take_room(part_of(1), true, at, at));
-    EXPECT_TRUE(intake.take_room(part_of(2), false, at, at));
+    EXPECT_FALSE(intake.take_room(part_of(0), false, at, at_once(at)))
+        << "a segment begins with a key part";
+    EXPECT_TRUE(intake.take_room(part_of(1), true, at, at_once(at)));
+    EXPECT_TRUE(intake.take_room(part_of(2), false, at, at_once(at)));
     intake.begin_segment();
-    EXPECT_TRUE(intake.take_room(part_of(3), false, at, at)) << "it has not begun yet";
+    EXPECT_TRUE(intake.take_room(part_of(3), false, at, at_once(at))) << "it has not begun yet";
     at = picture(depth, 1);
-    EXPECT_FALSE(intake.take_room(part_of(4), false, at, at));
-    EXPECT_TRUE(intake.take_room(part_of(5), true, at, at));
+    EXPECT_FALSE(intake.take_room(part_of(4), false, at, at_once(at)));
+    EXPECT_TRUE(intake.take_room(part_of(5), true, at, at_once(at)));
     // Times of another connection's clock do not belong into this segment.
-    intake.describe(cameras(1), settings, true, TimePoint(2s));
-    EXPECT_FALSE(intake.take_room(part_of(6), true, at, at));
+    intake.describe(cameras(1), settings, true, at);
+    EXPECT_FALSE(intake.take_room(part_of(6), true, at, at_once(at)));
     intake.recorder()->finish();
     const auto recording = RecordingFile::open(folder_.path() / "a.mkv");
     EXPECT_EQ(numbers_in(*recording), (std::vector{1, 2, 3, 5}));

@@ -32,7 +32,7 @@ protected:
             for (const StreamId stream : {depth_stream(CameraId{0}), color_stream(CameraId{0})}) {
                 const Message m = message(stream, FrameNumber(i), 33ms * i, 500, FrameNumber(i));
                 const TimePoint now = m.header.captured + 10ms;
-                (void)intake_.take(m.header, m.bytes, "", {now, {now, UtcTime(1s)}});
+                (void)intake_.take(m.header, m.bytes, "", at_once(now));
             }
     }
     void say(ParticipantId person, int number, Duration time, bool pauses = false) {

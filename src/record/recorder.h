@@ -47,7 +47,7 @@ public:
     };
 
     struct Figures {
-        Duration duration{};  // from the first picture to the last, of all segments together
+        Duration duration{};  // of the segments (SegmentWriter::duration()), together
         std::uint64_t bytes = 0;
         std::uint64_t frames = 0;       // pictures written, depth and colour counted each
         std::uint64_t room_bytes = 0;   // of messages of the room, written

@@ -68,6 +68,12 @@ std::map<CameraId, CameraPart> cameras_of(const FoundHead& head) {
     return cameras;
 }
 
+bool has_room(const FoundHead& head) {
+    return std::any_of(head.tracks.begin(), head.tracks.end(), [](const FoundTrack& t) {
+        return t.number == track_number(room_stream) && t.codec_id == room_codec_id;
+    });
+}
+
 // The header of a block, if the checks of block and header pass.
 std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id, bool is_checked) {
     if (!block.side || (is_checked && !block.check))
@@ -179,15 +185,12 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         return std::any_of(head.tracks.begin(), head.tracks.end(),
                            [&](const FoundTrack& t) { return t.number == track; });
     };
-    segment.has_room =
-        info && std::any_of(head.tracks.begin(), head.tracks.end(), [](const FoundTrack& t) {
-            return t.number == track_number(room_stream) && t.codec_id == room_codec_id;
-        });
+    segment.has_room = info && has_room(head);
     if (segment.has_room)
         streams[room_stream] = &room_;
     room_.present |= segment.has_room;
     const std::size_t first_room = room_.frames.size();
-    bool any = false;
+    std::optional<Duration> first_block, last_picture;
     Duration last_block{};
     std::optional<TimePoint> first_captured;
     const auto visit = [&](const FoundBlock& block) {
@@ -220,12 +223,12 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         }
         ++frames_;
         const Duration time(time_us);
+        ++segment.blocks;
+        first_block = std::min(first_block.value_or(time), time);
         last_block = std::max(last_block, time);
         if (is_picture) {
             ++segment.frames;
-            segment.begin = any ? std::min(segment.begin, time) : time;
-            segment.end = any ? std::max(segment.end, time) : time;
-            any = true;
+            last_picture = std::max(last_picture.value_or(time), time);
         }
         if (is_voice(id))
             note_speaker(stream, block.note);
@@ -264,6 +267,9 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             at = behind.goes_on_at;
         }
     }
+    segment.begin = first_block.value_or(Duration(0));
+    segment.end = last_picture.value_or(last_block);
+    segment.last = std::max(last_block, segment.begin);
     segment.first_captured = first_captured.value_or(TimePoint{});
     if (info || head.date_ns > 0)
         segment.begin_utc = segment.info.clock.utc + (info ? segment.begin : Duration(0));
@@ -342,12 +348,12 @@ void RecordingFile::leave_out_repeated(std::size_t segment, std::size_t first_ro
 // Puts the segments one behind the other, and moves all frames to where they then are.
 void RecordingFile::place_segments() {
     std::vector<Duration> moves;
-    const Segment* before = nullptr;  // with frames
+    const Segment* before = nullptr;  // with blocks
     Segment original_before;
     for (Segment& segment : segments_) {
         const Segment original = segment;  // its times count from its own beginning
         Duration begin{};
-        if (before && segment.frames > 0) {
+        if (before && segment.blocks > 0) {
             const auto clock_step = [](const Segment& s) {
                 return s.info.clock.utc.time_since_epoch() - Duration(to_us(s.info.clock.session));
             };
@@ -356,23 +362,24 @@ void RecordingFile::place_segments() {
             const Duration step = clock_step(original) - clock_step(original_before);
             const Duration session_pause =
                 (original.info.clock.session + original.begin) -
-                (original_before.info.clock.session + original_before.end);
+                (original_before.info.clock.session + original_before.last);
             const Duration utc_pause = session_pause + step;
             const bool is_same = -same_clock < step && step < same_clock;
             constexpr Duration shortest = std::chrono::milliseconds(1);
             begin =
-                before->end + std::clamp(is_same ? session_pause : utc_pause, shortest, max_pause);
+                before->last + std::clamp(is_same ? session_pause : utc_pause, shortest, max_pause);
             begin = std::min(begin, Duration(2 * max_time_us));
         }
-        const Duration move = segment.frames > 0 ? begin - segment.begin : Duration(0);
+        const Duration move = segment.blocks > 0 ? begin - segment.begin : Duration(0);
         moves.push_back(move);
         segment.origin = move;
         segment.begin += move;
         segment.end += move;
-        if (segment.frames > 0) {
+        segment.last += move;
+        if (segment.blocks > 0) {
             before = &segment;
             original_before = original;
-            duration_ = segment.end;
+            duration_ = std::max(duration_, segment.end);
         }
     }
     for (CameraContent& camera : cameras_)
@@ -394,7 +401,9 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(
         return chain.error();
     std::unique_ptr<RecordingFile> recording(new RecordingFile);
     for (std::optional<SegmentChain::Member> member; (member = chain->take());) {
-        if (recording->segments_.empty() && cameras_of(member->head).empty())
+        const bool is_first = recording->segments_.empty();
+        if (is_first && cameras_of(member->head).empty() &&
+            !(member->info && has_room(member->head)))
             return Status::unsupported;
         recording->add_segment(*std::move(member), *chain);
     }

@@ -100,12 +100,16 @@ struct Segment {
     std::string file;  // empty: bytes in memory
     std::uint64_t bytes = 0;
     SegmentInfo info;
-    bool has_info = false;     // false: of format version 1, without a session time
-    UtcTime begin_utc;         // of its first frame; the epoch: not known
-    Duration begin{}, end{};   // its first frame and its last, since the recording's first
+    bool has_info = false;  // false: of format version 1, without a session time
+    UtcTime begin_utc;      // of its first frame; the epoch: not known
+    // Its first block, and its last picture, or without any its last block: since the recording's
+    // first block.
+    Duration begin{}, end{};
+    Duration last{};           // its last block, likewise
     Duration origin{};         // its own time 0, on the same scale
     TimePoint first_captured;  // session time of the first frame in the file
     std::uint64_t frames = 0;  // pictures
+    std::uint64_t blocks = 0;  // those, parts of the room and packets of voices
     bool has_room = false;     // the state of the room was recorded
     bool closed = false;       // false: never closed, or cut off
     // Unless closed: the most that may be missing at its end; empty if unknown.
@@ -165,7 +169,7 @@ public:
     std::uint64_t bytes() const;
     // Frames whose header is damaged or does not fit its stream, of all streams.
     std::uint64_t refused() const { return refused_; }
-    // From the first frame to the last.
+    // From the first block to the end of the last segment.
     Duration duration() const { return duration_; }
 
     // The media header of a frame; its checksum was checked when the file was opened.

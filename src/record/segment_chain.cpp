@@ -13,9 +13,11 @@ std::uint32_t number_of(const std::optional<SegmentInfo>& info) {
     return info ? info->number : 1;
 }
 
-bool has_depth(const FoundHead& head) {
-    return std::any_of(head.tracks.begin(), head.tracks.end(),
-                       [](const FoundTrack& t) { return t.codec_id == depth_codec_id; });
+// A segment has cameras or at least a room.
+bool is_recording(const FoundHead& head) {
+    return std::any_of(head.tracks.begin(), head.tracks.end(), [](const FoundTrack& t) {
+        return t.codec_id == depth_codec_id || t.codec_id == room_codec_id;
+    });
 }
 
 // A copy of the head that was found elsewhere must not be that of another file which stands behind
@@ -128,7 +130,7 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
             waiting_.emplace(info->number, Member{std::move(own), std::move(*head), info,
                                                   taken.file, taken.begin + begin});
         } else {
-            foreign.add({1, size, taken.begin + begin, size, head && has_depth(*head)});
+            foreign.add({1, size, taken.begin + begin, size, head && is_recording(*head)});
         }
     }
     return behind;

@@ -139,11 +139,12 @@ std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
         // Nobody is to move what was put into a sequence.
         block.time_us =
             block_time_us(header.captured, is_speech ? header.captured : one.arrived, begin_);
-        if (header.stream != room_stream && !is_speech) {
-            first_us_ = any_ ? std::min(first_us_, block.time_us) : block.time_us;
-            last_us_ = any_ ? std::max(last_us_, block.time_us) : block.time_us;
-            any_ = true;
-        }
+        const bool is_picture = header.stream != room_stream && !is_speech;
+        first_us_ = has_blocks_ ? std::min(first_us_, block.time_us) : block.time_us;
+        if (is_picture || !has_pictures_)
+            last_us_ = has_blocks_ ? std::max(last_us_, block.time_us) : block.time_us;
+        has_blocks_ = true;
+        has_pictures_ |= is_picture;
         block.key = header.key;
         block.indexed = !is_speech;
         block.reference_us = block.time_us;

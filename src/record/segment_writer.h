@@ -59,7 +59,7 @@ public:
     std::uint64_t bytes() const { return writer_.bytes(); }
     std::uint64_t cut_bytes() const { return writer_.cut_bytes(); }
     std::string fate() const { return writer_.fate(); }
-    // From the first picture to the last.
+    // From the first block to the last picture, or without any to the last block.
     Duration duration() const { return Duration(last_us_ - first_us_); }
 
 private:
@@ -70,7 +70,7 @@ private:
     std::map<std::pair<StreamId, FrameNumber>, std::int64_t> recent_us_;
     std::map<StreamId, std::string> filters_;  // of each stream's last frame
     std::map<StreamId, std::uint64_t> voice_blocks_;
-    bool any_ = false;
+    bool has_blocks_ = false, has_pictures_ = false;
     std::int64_t first_us_ = 0, last_us_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "record/intake.h"
 #include "record/recorder.h"
 #include "record/recording_file.h"
 #include "testing/temporary_folder.h"
@@ -45,6 +46,11 @@ inline Message message(StreamId stream, FrameNumber frame, Duration at, std::siz
     for (std::size_t i = wire::media_header_size; i < bytes->size(); ++i)
         (*bytes)[i] = std::byte(random() >> 16);
     return {header, bytes};
+}
+
+// A machine and a session with the same clock.
+inline Intake::Now at_once(TimePoint now) {
+    return {now, {now, UtcTime(1s)}};
 }
 
 // Arrives ten milliseconds after its exposure.

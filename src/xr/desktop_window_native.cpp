@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "render/gl_errors_native.h"
+#include "xr/input_queue.h"
 
 namespace theatron::xr {
 namespace {
@@ -227,6 +228,7 @@ struct DesktopWindow::Parts {
     SDL_GLContext context = nullptr;
     Uint32 wake_event = 0;
     std::atomic<bool> woken = false;
+    InputQueue inputs;
     render::GlErrors errors;
 
     ~Parts() {
@@ -248,7 +250,7 @@ struct DesktopWindow::Parts {
         SDL_GetWindowSize(window, &width, &height);
         return {(x + 0.5) / std::max(width, 1), (y + 0.5) / std::max(height, 1)};
     }
-    void take(const SDL_Event& event, WindowInput& input);
+    void take(const SDL_Event& event);
 };
 
 bool DesktopWindow::Parts::open(const std::string& title, Size size, int profile, int major,
@@ -286,7 +288,7 @@ DesktopWindow::~DesktopWindow() = default;
 
 void DesktopWindow::wait(Duration timeout) {
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
-    if (ms > 0)
+    if (ms > 0 && !parts_->inputs.has_more())
         SDL_WaitEventTimeout(nullptr, int(ms));
 }
 
@@ -299,10 +301,11 @@ void DesktopWindow::wake() {
 }
 
 WindowInput DesktopWindow::poll() {
-    WindowInput input;
     SDL_Event event;
     while (SDL_PollEvent(&event))
-        parts_->take(event, input);
+        parts_->take(event);
+    WindowInput input = parts_->inputs.take();
+    input.pointer.reset();
     read_held_keys(input.steering);
     if (SDL_GetMouseFocus() == parts_->window) {
         int x = 0, y = 0;
@@ -361,9 +364,10 @@ void DesktopWindow::set_clipboard(const std::string& text) {
     SDL_SetClipboardText(text.c_str());
 }
 
-void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
+void DesktopWindow::Parts::take(const SDL_Event& event) {
     if (event.type == wake_event)
         woken = false;
+    WindowInput& input = inputs.newest();
     switch (event.type) {
         case SDL_QUIT:
             input.close = true;
@@ -376,7 +380,7 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
         case SDL_KEYDOWN:
             if (const auto key = pressed(event.key.keysym);
                 key && (event.key.repeat == 0 || key->action == Action::nudge))
-                input.keys.push_back(*key);
+                inputs.press(*key);
             break;
         case SDL_MOUSEMOTION: {
             const double height = window_height();
@@ -390,13 +394,13 @@ void DesktopWindow::Parts::take(const SDL_Event& event, WindowInput& input) {
                 *drag = {drag->x + way.x, drag->y + way.y};
             break;
         }
-        case SDL_MOUSEBUTTONDOWN: {
-            input.grabbed = shares_of(event.button.x, event.button.y);
-            input.grabbed_left = event.button.button == SDL_BUTTON_LEFT;
+        case SDL_MOUSEBUTTONDOWN:
+            inputs.grab(shares_of(event.button.x, event.button.y),
+                        event.button.button == SDL_BUTTON_LEFT);
             break;
-        }
         case SDL_MOUSEBUTTONUP:
-            input.released = input.released || event.button.button == SDL_BUTTON_LEFT;
+            if (event.button.button == SDL_BUTTON_LEFT)
+                inputs.release();
             break;
         case SDL_MOUSEWHEEL: {
             const double clicks = event.wheel.preciseY;

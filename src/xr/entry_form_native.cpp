@@ -11,20 +11,10 @@
 
 #include "render/picture_texture.h"
 #include "xr/imgui_fonts_native.h"
+#include "xr/panel_colors_native.h"
 
 namespace theatron::xr {
 namespace {
-
-// Those of the panels in the room.
-constexpr ImU32 behind_color = IM_COL32(12, 14, 18, 255), card_color = IM_COL32(22, 26, 33, 255);
-constexpr ImU32 field_color = IM_COL32(38, 46, 58, 255), key_color = IM_COL32(140, 205, 255, 255);
-constexpr ImU32 main_color = IM_COL32(36, 104, 176, 255);
-constexpr ImU32 main_hovered_color = IM_COL32(48, 124, 204, 255);
-constexpr ImU32 button_color = IM_COL32(52, 66, 84, 255);
-constexpr ImU32 button_hovered_color = IM_COL32(66, 84, 106, 255);
-constexpr ImU32 text_color = IM_COL32(245, 247, 250, 255);
-constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
-constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
 
 ImGuiKey key_of(FormKey key) {
     switch (key) {
@@ -145,13 +135,13 @@ void EntryForm::Parts::make_fonts(double pixels) {
         for (const ImGuiCol part : parts)
             style.Colors[part] = ImGui::ColorConvertU32ToFloat4(color);
     };
-    set({ImGuiCol_WindowBg}, card_color);
-    set({ImGuiCol_Text}, text_color);
-    set({ImGuiCol_TextDisabled}, label_color);
-    set({ImGuiCol_FrameBg, ImGuiCol_FrameBgActive}, field_color);
-    set({ImGuiCol_Button, ImGuiCol_FrameBgHovered}, button_color);
-    set({ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}, button_hovered_color);
-    set({ImGuiCol_CheckMark, ImGuiCol_NavHighlight}, key_color);
+    set({ImGuiCol_WindowBg}, colors::card);
+    set({ImGuiCol_Text}, colors::text);
+    set({ImGuiCol_TextDisabled}, colors::label);
+    set({ImGuiCol_FrameBg, ImGuiCol_FrameBgActive}, colors::field);
+    set({ImGuiCol_Button, ImGuiCol_FrameBgHovered}, colors::button);
+    set({ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}, colors::button_hovered);
+    set({ImGuiCol_CheckMark, ImGuiCol_NavHighlight}, colors::key);
 }
 
 void EntryForm::Parts::take(const FormInput& input, Size window) {
@@ -220,7 +210,7 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
 
     ImGui::Dummy({0, 0.5f * float(text_pixels)});
     if (facts.is_problem)
-        ImGui::PushStyleColor(ImGuiCol_Text, warning_color);
+        ImGui::PushStyleColor(ImGuiCol_Text, colors::warning);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
     ImGui::TextUnformatted(facts.hint.c_str());
     ImGui::PopTextWrapPos();
@@ -230,9 +220,9 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
 
     const bool ready = facts.can_enter && !name.text().empty();
     ImGui::BeginDisabled(!ready);
-    ImGui::PushStyleColor(ImGuiCol_Button, main_color);
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, main_hovered_color);
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, main_hovered_color);
+    ImGui::PushStyleColor(ImGuiCol_Button, colors::main_button);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colors::main_button_hovered);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, colors::main_button_hovered);
     if (ImGui::Button("Enter the room", {11 * float(text_pixels), 2.2f * float(text_pixels)}))
         answer = EntryAnswer::enter;
     ImGui::PopStyleColor(3);
@@ -258,7 +248,7 @@ void EntryForm::Parts::session(const EntryFacts& facts, float width) {
     ImGui::TextUnformatted(facts.title.c_str());
     for (const std::string& line : facts.lines) {
         ImGui::PushFont(small);
-        ImGui::PushStyleColor(ImGuiCol_Text, label_color);
+        ImGui::PushStyleColor(ImGuiCol_Text, colors::label);
         ImGui::TextUnformatted(line.c_str());
         ImGui::PopStyleColor();
         ImGui::PopFont();
@@ -322,7 +312,7 @@ EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Siz
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window.width, window.height);
-    const ImVec4 behind = ImGui::ColorConvertU32ToFloat4(behind_color);
+    const ImVec4 behind = ImGui::ColorConvertU32ToFloat4(colors::ground);
     glClearBufferfv(GL_COLOR, 0, &behind.x);
     p.pass.draw(*ImGui::GetDrawData());
     if (escape)

@@ -7,19 +7,11 @@
 
 #include "xr/imgui_fonts_native.h"
 #include "xr/overlay_pictures_native.h"
+#include "xr/panel_colors_native.h"
 #include "xr/window_input.h"
 
 namespace theatron::xr {
 namespace {
-
-constexpr ImU32 bar_color = IM_COL32(12, 14, 18, 225);
-constexpr ImU32 panel_color = IM_COL32(12, 14, 18, 240);
-constexpr ImU32 veil_color = IM_COL32(8, 10, 14, 170);
-constexpr ImU32 text_color = IM_COL32(245, 247, 250, 255);
-constexpr ImU32 label_color = IM_COL32(160, 172, 186, 255);
-constexpr ImU32 warning_color = IM_COL32(255, 190, 70, 255);
-constexpr ImU32 button_color = IM_COL32(52, 66, 84, 255);
-constexpr ImU32 key_color = IM_COL32(140, 205, 255, 255);
 
 // Windows narrower than this, in half text heights, show one row of facts.
 constexpr float small_window_units = 80;
@@ -111,11 +103,11 @@ float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
     if (places.empty())
         return 0;
     const float height = y + row + 0.5f * unit, top = window.y - height;
-    list->AddRectFilled({0, top}, window, bar_color);
+    list->AddRectFilled({0, top}, window, colors::bar);
     for (const auto& [fact, place] : places) {
         const ImVec2 at{place.x, top + place.y + 0.5f * unit};
-        text(small, at, label_color, fact->label);
-        text(normal, {at.x, at.y + small->FontSize}, fact->warning ? warning_color : text_color,
+        text(small, at, colors::label, fact->label);
+        text(normal, {at.x, at.y + small->FontSize}, fact->warning ? colors::warning : colors::text,
              fact->value);
     }
     return height;
@@ -123,7 +115,7 @@ float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
 
 void Overlay::Parts::message(const std::string& message, const std::string& detail,
                              float bottom) const {
-    list->AddRectFilled({0, 0}, {window.x, window.y - bottom}, veil_color);
+    list->AddRectFilled({0, 0}, {window.x, window.y - bottom}, colors::veil);
     const float wrap = window.x * 0.8f;
     const ImVec2 size = measure(large, message, wrap);
     const ImVec2 more = measure(normal, detail, wrap);
@@ -132,9 +124,9 @@ void Overlay::Parts::message(const std::string& message, const std::string& deta
     const ImVec2 from{(window.x - width) / 2, (window.y - bottom - height) / 2};
     const float padding = 2.5f * unit;
     list->AddRectFilled({from.x - padding, from.y - padding},
-                        {from.x + width + padding, from.y + height + padding}, panel_color, unit);
-    text(large, {(window.x - size.x) / 2, from.y}, text_color, message, wrap);
-    text(normal, {(window.x - more.x) / 2, from.y + size.y + unit}, label_color, detail, wrap);
+                        {from.x + width + padding, from.y + height + padding}, colors::panel, unit);
+    text(large, {(window.x - size.x) / 2, from.y}, colors::text, message, wrap);
+    text(normal, {(window.x - more.x) / 2, from.y + size.y + unit}, colors::label, detail, wrap);
 }
 
 // Returns where the next may begin.
@@ -145,7 +137,7 @@ float Overlay::Parts::notice(const std::string& words, ImU32 color, float top) c
     const ImVec2 size = measure(normal, words, wrap);
     const ImVec2 from{(window.x - size.x) / 2, top + padding};
     list->AddRectFilled({from.x - 2 * padding, from.y - padding},
-                        {from.x + size.x + 2 * padding, from.y + size.y + padding}, panel_color,
+                        {from.x + size.x + 2 * padding, from.y + size.y + padding}, colors::panel,
                         unit);
     text(normal, from, color, words, wrap);
     return from.y + size.y + 2 * padding;
@@ -166,12 +158,12 @@ void Overlay::Parts::help(float bottom) const {
     const ImVec2 half{scale * (width / 2 + padding), scale * (height / 2 + padding)};
     const ImVec2 middle{window.x / 2, (window.y - bottom) / 2};
     list->AddRectFilled({middle.x - half.x, middle.y - half.y},
-                        {middle.x + half.x, middle.y + half.y}, panel_color, scale * unit);
+                        {middle.x + half.x, middle.y + half.y}, colors::panel, scale * unit);
     const ImVec2 from{middle.x - scale * width / 2, middle.y - scale * height / 2};
     float y = from.y;
     for (const KeyHelp& line : key_help()) {
-        text(normal, {from.x, y}, key_color, line.keys, 0, scale);
-        text(normal, {from.x + scale * (keys + gap), y}, text_color, line.meaning, 0, scale);
+        text(normal, {from.x, y}, colors::key, line.keys, 0, scale);
+        text(normal, {from.x + scale * (keys + gap), y}, colors::text, line.meaning, 0, scale);
         y += scale * row;
     }
 }
@@ -183,11 +175,11 @@ void Overlay::Parts::slider(const PanelSlider& slider, const Area& place) {
         return place.from.x + float(std::clamp(share, 0.0, 1.0)) * (place.to.x - place.from.x);
     };
     const float thin = 0.2f * unit, knob = 0.65f * unit;
-    list->AddRectFilled({place.from.x, y - thin}, {place.to.x, y + thin}, button_color, thin);
+    list->AddRectFilled({place.from.x, y - thin}, {place.to.x, y + thin}, colors::button, thin);
     if (slider.lowest < 0 && slider.highest > 0)
         list->AddRectFilled({at(0) - thin / 2, y - knob}, {at(0) + thin / 2, y + knob},
-                            label_color);
-    list->AddCircleFilled({at(slider.value), y}, knob, key_color);
+                            colors::label);
+    list->AddCircleFilled({at(slider.value), y}, knob, colors::key);
     sliders.push_back({place, slider});
 }
 
@@ -195,7 +187,7 @@ void Overlay::Parts::slider(const PanelSlider& slider, const Area& place) {
 float Overlay::Parts::bar(const PanelRow& row, float bottom) {
     const float gap = 0.7f * unit, height = normal->FontSize + 3 * gap;
     const Area area{{0, window.y - bottom - height}, {window.x, window.y - bottom}};
-    list->AddRectFilled(area.from, area.to, bar_color);
+    list->AddRectFilled(area.from, area.to, colors::bar);
     panel_areas.push_back(area);
     panel_titles.emplace_back();
     const float top = area.from.y + gap, middle = area.from.y + height / 2;
@@ -203,18 +195,18 @@ float Overlay::Parts::bar(const PanelRow& row, float bottom) {
     for (const PanelButton& button : row.buttons) {
         const float wide = measure(small, button.label).x + 2 * gap;
         const Area place{{x, top}, {x + wide, area.to.y - gap}};
-        list->AddRectFilled(place.from, place.to, button_color, 0.5f * unit);
-        text(small, {x + gap, middle - small->FontSize / 2}, key_color, button.label);
+        list->AddRectFilled(place.from, place.to, colors::button, 0.5f * unit);
+        text(small, {x + gap, middle - small->FontSize / 2}, colors::key, button.label);
         buttons.push_back({place, button.command});
         x += wide + gap;
     }
-    text(normal, {x + gap, middle - normal->FontSize / 2}, text_color, row.text);
+    text(normal, {x + gap, middle - normal->FontSize / 2}, colors::text, row.text);
     x += measure(normal, row.text).x + 3 * gap;
     const float right = measure(small, row.detail).x;
     const float end = window.x - 1.2f * unit - (right > 0 ? right + 2 * gap : 0);
     if (row.slider && end - x > 8 * unit)
         slider(*row.slider, {{x + gap, top}, {end, area.to.y - gap}});
-    text(small, {window.x - 1.2f * unit - right, middle - small->FontSize / 2}, label_color,
+    text(small, {window.x - 1.2f * unit - right, middle - small->FontSize / 2}, colors::label,
          row.detail);
     return bottom + height;
 }
@@ -267,10 +259,10 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
                                              (left_out > 0 ? small->FontSize : 0)}};
         panel_areas.push_back(area);
         panel_titles.push_back(panel.title);
-        list->AddRectFilled(area.from, area.to, panel_color, unit);
+        list->AddRectFilled(area.from, area.to, colors::panel, unit);
         list->PushClipRect(area.from, area.to);
         float y = top + padding;
-        text(small, {left + padding, y}, label_color, panel.title);
+        text(small, {left + padding, y}, colors::label, panel.title);
         y += normal->FontSize + gap;
         for (std::size_t i = first; i < end; ++i) {
             const PanelRow& row = panel.rows[i];
@@ -278,9 +270,9 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
             for (auto button = row.buttons.rbegin(); button != row.buttons.rend(); ++button) {
                 const float wide = button_width(*button);
                 const Area place{{x - wide, y}, {x, y + button_height}};
-                list->AddRectFilled(place.from, place.to, button_color, 0.5f * unit);
+                list->AddRectFilled(place.from, place.to, colors::button, 0.5f * unit);
                 text(small, {place.from.x + gap, y + (button_height - small->FontSize) / 2},
-                     key_color, button->label);
+                     colors::key, button->label);
                 buttons.push_back({place, button->command});
                 x -= wide + gap;
             }
@@ -290,14 +282,14 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
                 x -= slider_width + gap;
             }
             list->PushClipRect({left + padding, y}, {x, y + row_height(row)}, true);
-            text(normal, {left + padding, y + gap / 2}, text_color, row.text);
+            text(normal, {left + padding, y + gap / 2}, colors::text, row.text);
             list->PopClipRect();
             if (!row.detail.empty())
-                text(small, {left + padding, y + button_height}, label_color, row.detail);
+                text(small, {left + padding, y + button_height}, colors::label, row.detail);
             y += row_height(row);
         }
         if (left_out > 0)
-            text(small, {left + padding, y}, label_color,
+            text(small, {left + padding, y}, colors::label,
                  std::to_string(left_out) + " more: mouse wheel");
         list->PopClipRect();
         top = area.to.y + unit;
@@ -358,8 +350,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     if (content.rectangle) {
         const auto [from, to] = *content.rectangle;
         p.list->AddRect(p.pixel_at({std::min(from.x, to.x), std::min(from.y, to.y)}),
-                        p.pixel_at({std::max(from.x, to.x), std::max(from.y, to.y)}), warning_color,
-                        0, 0, 0.2f * p.unit);
+                        p.pixel_at({std::max(from.x, to.x), std::max(from.y, to.y)}),
+                        colors::warning, 0, 0, 0.2f * p.unit);
     }
     if (content.bar)
         bottom = p.bar(*content.bar, bottom);
@@ -369,8 +361,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
         p.message(content.message, content.detail, bottom);
     if (content.help)
         p.help(bottom);
-    const float below = p.notice(content.warning, warning_color, 1.5f * p.unit);
-    p.notice(content.notice, text_color, below);
+    const float below = p.notice(content.warning, colors::warning, 1.5f * p.unit);
+    p.notice(content.notice, colors::text, below);
 
     ImGui::Render();
     p.pass.draw(*ImGui::GetDrawData());

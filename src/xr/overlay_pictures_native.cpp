@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "xr/imgui_pass_native.h"
+#include "xr/panel_colors_native.h"
 
 namespace theatron::xr {
 namespace {
 
-constexpr ImU32 cell_color = IM_COL32(12, 14, 18, 240);
-constexpr ImU32 title_color = IM_COL32(245, 247, 250, 255);
-constexpr ImU32 value_color = IM_COL32(160, 172, 186, 255);
 constexpr int columns = 3;
 // The share of the window's width that all columns take.
 constexpr float columns_width = 0.48f;
@@ -51,9 +49,9 @@ void OverlayPictures::draw(ImDrawList& list, ImFont& font, float unit, ImVec2 wi
                           std::round(first.y + float(int(i) / across) * (height + unit))};
         const ImVec2 to{from.x + width, from.y + height};
         cells_.push_back({from, to, picture.command});
-        list.AddRectFilled(from, to, cell_color, padding);
+        list.AddRectFilled(from, to, colors::panel, padding);
         list.PushClipRect(from, to, true);
-        list.AddText(&font, text, {from.x + padding, from.y + padding}, title_color,
+        list.AddText(&font, text, {from.x + padding, from.y + padding}, colors::text,
                      picture.title.c_str());
         // As large as its place allows, in its own shape.
         const ImVec2 place{width - 2 * padding, height - texts};
@@ -72,9 +70,10 @@ void OverlayPictures::draw(ImDrawList& list, ImFont& font, float unit, ImVec2 wi
             const float left = from.x + measure(picture.legend_from) + 2 * padding;
             const float right = to.x - measure(picture.legend_to) - 2 * padding;
             const float step = (right - left) / float(picture.legend.size());
-            list.AddText(&font, text, {from.x + padding, y}, value_color,
+            list.AddText(&font, text, {from.x + padding, y}, colors::label,
                          picture.legend_from.c_str());
-            list.AddText(&font, text, {right + padding, y}, value_color, picture.legend_to.c_str());
+            list.AddText(&font, text, {right + padding, y}, colors::label,
+                         picture.legend_to.c_str());
             for (std::size_t n = 0; n < picture.legend.size(); ++n) {
                 const Rgb c = picture.legend[n];
                 list.AddRectFilled({left + float(n) * step, y + 0.25f * bar},

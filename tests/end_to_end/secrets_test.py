@@ -73,6 +73,24 @@ class Secrets(unittest.TestCase):
                 viewer.process.stdin.flush()
                 viewer.read_json()
 
+    def test_a_host_prints_links_only_to_a_terminal_or_where_asked(self):
+        def printed(*options):
+            command = [PROGRAM, "host", "--camera", self.camera, "--listen", "127.0.0.1:0", "--seconds", "0.2", "--state",
+                       str(self.state), *options]
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout + done.stderr
+
+        in_journal = printed()
+        self.assertIn("https://127.0.0.1:", in_journal)
+        self.assertIn("theatron link --show expert", in_journal)
+        tokens = [(self.state / f"{name}.token").read_text().strip() for name in ("join", "publish", "observer", "operator")]
+        for token in tokens:
+            self.assertNotIn(token, in_journal)
+        asked = printed("--print-links")
+        for token in tokens:
+            self.assertIn(token, asked)
+
     def test_a_wrong_link_is_not_repeated_with_its_token(self):
         code, _, errors = run("join", "https://or3:4400/#join=0123456789abcdef", "--no-window")
         self.assertEqual(code, 1)

@@ -123,6 +123,58 @@ class VoiceRecording(unittest.TestCase):
         self.assert_kept(file, voices)
         self.assert_heard_again(file)
 
+    def test_a_session_without_cameras_is_recorded_and_cameras_that_come_later_too(self):
+        file = self.folder / "meeting.mkv"
+        with host(self.folder / "state") as a_host:
+            links = a_host.greeting["links"]
+            with self.member(links["expert"], "Ada", "--microphone", self.folder / "said.wav", "--voice-may-record") as ada:
+                ada.wait_for(lambda f: any(p["voice_recorded"] for p in f["room"]["people"]), 20)
+                recorder = Process("record", links["expert"], file, "--json")
+                self.addCleanup(recorder.__exit__)
+                wait_until(lambda: file.exists() and file.stat().st_size > 20000, 20)
+                ada.say("brick 0.5 1 0.25")
+                ada.wait_for(lambda f: any(o["kind"] == "brick" for o in f["room"]["objects"]), 10)
+                before = ada.newest_json()["session_us"]
+                ada.wait_for(lambda f: f["session_us"] > before + 2e6, 20)
+                second = self.folder / "meeting.002.mkv"
+                self.assertFalse(second.exists())
+                with Process("publish", links["publisher"], "--camera", f"folder:{self.camera},loop=1,preload=1", "--may-record"):
+                    wait_until(lambda: second.exists() and second.stat().st_size > 20000, 20)
+                    recorder.process.terminate()
+                    figures = recorder.read_json()
+                    self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
+        self.assertEqual([v["name"] for v in figures["voices"]], ["Ada"])
+        self.assertEqual((figures["segments"], len(figures["cameras"])), (2, 1))
+
+        # The first segment by itself has no camera.
+        alone = self.folder / "alone" / "meeting.mkv"
+        alone.parent.mkdir()
+        shutil.copy(file, alone)
+        code, out, errors = run("inspect", alone, "--json", "--verify")
+        self.assertEqual(code, 0, errors)
+        found = json.loads(out)
+        self.assertEqual((found["cameras"], found["complete"], found["segments"][0]["pictures"]), ([], True, 0))
+        self.assertGreater(found["seconds"], 1.9)
+        self.assertEqual(sorted(found["room"]["people"]), ["Ada", "recorder"])
+        self.assertGreater(found["voices"]["people"][0]["packets"], 50)
+        code, out, errors = run("inspect", file, "--json", "--verify")
+        self.assertEqual(code, 0, errors)
+        self.assertEqual(len(json.loads(out)["cameras"]), 1)
+        self.assertEqual(run("recover", alone, self.folder / "saved.mkv")[0], 0)
+        code, _, errors = run("export", self.folder / "saved.mkv", "--voices", self.folder / "words", "--room", self.folder / "room.jsonl")
+        self.assertEqual(code, 0, errors)
+        self.assertEqual(len(list((self.folder / "words").glob("*.wav"))), 1)
+        self.assertIn('"kind":"brick"', (self.folder / "room.jsonl").read_text().replace(" ", ""))
+        code, _, errors = run("export", alone, "--ply", self.folder / "points")
+        self.assertEqual(code, 1)
+        self.assertIn("no camera was there", errors)
+        with host(self.folder / "replay", f"recording:{alone},loop=1") as a_host, \
+                self.member(a_host.greeting["link"], "Guest", "--speaker", self.folder / "guest.wav") as guest:
+            guest.wait_for(lambda f: any(p["recorded"] and p["name"] == "Ada" for p in f["room"]["people"]) and
+                           any(o["recorded"] for o in f["room"]["objects"]), 20)
+            wait_until(lambda: (self.folder / "guest.wav").exists() and
+                       max(map(abs, read_growing(self.folder / "guest.wav")), default=0) > 500, 20)
+
     def assert_kept(self, file, voices):
         code, out, errors = run("inspect", file, "--json", "--verify")
         self.assertEqual(code, 0, errors)

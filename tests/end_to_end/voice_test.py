@@ -116,7 +116,7 @@ class Voice(unittest.TestCase):
 
                 ada.say("mute Ben")
                 ben.wait_for(lambda f: f["muted"] and not f["voice"]["heard"], 10)
-                wait_until(lambda: any("has muted you" in line for line in ben.errors), 5)
+                wait_until(lambda: any("You are muted" in line for line in ben.errors), 5)
                 silent = ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
                 muted = silent["voice"]["voices"][0]["seconds"]
                 # Ben speaks on for a second, and no sample of it is heard.

@@ -61,8 +61,7 @@ class WebSmall(unittest.TestCase):
         return page
 
     def enter(self, page, way="auto"):
-        page.evaluate(f"document.getElementById('way').value = '{way}'; document.getElementById('name').value = 'Ada';"
-                      "document.getElementById('enter').click()")
+        page.enter(way=way)
         page.wait_for("theatron.complete_ms !== null")
 
     def picture(self, page, name):

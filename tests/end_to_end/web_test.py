@@ -54,8 +54,7 @@ class Web(unittest.TestCase):
 
     def enter(self, link, name):
         page = self.browser.open(link, SIZE)
-        page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
-        page.evaluate(f"document.getElementById('name').value = '{name}'; document.getElementById('enter').click()")
+        page.enter(name)
         return page
 
     def leave(self, page):
@@ -162,7 +161,7 @@ class Web(unittest.TestCase):
         page.reload()
         page.wait_for("document.documentElement?.lang === 'de' && !!document.getElementById('invitation')?.textContent")
         self.assertNotIn("nobody", page.evaluate("document.getElementById('invitation').textContent"))
-        page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
+        page.enter()
         page.wait_for("theatron.state.phase === 'joined' && theatron.state.people.length > 0")
         page.wait_for("document.getElementById('room_panels').innerText.includes('Niemand sonst ist hier')")
         facts = page.wait_for("document.getElementById('facts').innerText")

@@ -106,9 +106,7 @@ class WebVoice(unittest.TestCase):
 
     def enter(self, browser, role="expert"):
         page = browser.open(self.links[role], SIZE)
-        page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
-        page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('speaks').checked = true;"
-                      "document.getElementById('enter').click()")
+        page.enter(speaks=True)
         page.wait_for("theatron.state.phase === 'joined'")
         return page
 
