@@ -35,6 +35,7 @@ struct HostFigures {
         std::string renderer;                     // as it reports it; empty: unknown
         std::uint64_t refused = 0;                // requests that came too often
         std::uint64_t denied = 0;                 // messages that its role does not allow
+        std::uint64_t refused_faces = 0;          // pictures of its face beyond their limits
         wire::Role role{};
         bool muted = false;
     };
@@ -63,7 +64,7 @@ struct HostFigures {
 
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests","denied_messages","role","muted",…}],"visitors":[{"id","name",
+// "renderer","refused_requests","denied_messages","refused_faces","role","muted",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults"}
 nlohmann::json to_json(const HostFigures& figures);

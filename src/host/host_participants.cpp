@@ -26,7 +26,7 @@ void Host::Impl::note_participants() {
         if (participant.joined)
             list.push_back({id, participant.name, session->step_of(id), participant.report,
                             participant.renderer, participant.budget.refused(), participant.denied,
-                            participant.role, participant.muted});
+                            participant.refused_faces, participant.role, participant.muted});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
