@@ -32,6 +32,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
     if (options.keeps_cases)
         features.push_back(wire::Feature::cases);
     features.push_back(wire::Feature::voice_consent);
+    if (options.takes_faces || options.face.published)
+        features.push_back(wire::Feature::webcam);
     return features;
 }
 
@@ -164,9 +166,8 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
     shared_->status.problem = why;
     lock.unlock();
-    numbers_.clear();
-    if (options_.publishing.published)
-        options_.publishing.published({});
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        forget_numbers(offer);
     announce();
     if (ended && !refused)
         remark(why);
@@ -181,7 +182,8 @@ net::Client::Handler Participant::handler() {
     net::Client::Handler h;
     h.connected = [this] {
         pings_ = 0;
-        numbers_.clear();
+        numbers_ = {};
+        offered_.clear();
         next_ping_ = next_report_ = steady_now();
         const Bytes hello = session_.begin();
         shared_->client->send_control(hello);
@@ -282,7 +284,7 @@ void Participant::on_control(ByteView message) {
                     shared_->figures = without_ages(std::move(shared_->figures));
             }
             if (is_new)
-                offer_cameras();
+                offer_all();
             if (is_new && options_.described)
                 options_.described();
             break;
@@ -308,13 +310,10 @@ void Participant::on_control(ByteView message) {
             on_published();
             break;
         case Change::encode:
-            if (options_.publishing.encode)
-                options_.publishing.encode(session_.encode().settings);
+            on_encode();
             break;
         case Change::encode_key:
-            if (options_.publishing.encode_key)
-                options_.publishing.encode_key(session_.encode_key().stream,
-                                               session_.encode_key().setting);
+            on_encode_key(session_.encode_key().stream, session_.encode_key().setting);
             break;
         case Change::room:
             on_room_message();

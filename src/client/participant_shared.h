@@ -59,7 +59,7 @@ struct Participant::Shared {
     bool may_adjust = false;                               // the host knows adjustments
     std::optional<wire::Playback> playback;                // of the host's recording
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
-    std::vector<wire::OfferedCamera> offers;
+    std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
     std::size_t media_waiting = 0;                    // for the participant's thread
     std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
 };

@@ -26,7 +26,7 @@ namespace theatron::publish {
 // The part that is the same for all cameras of a publisher.
 struct Sharing {
     bool may_record = false;  // others may record them
-    wire::CameraFrame frame = wire::CameraFrame::room;
+    wire::CameraFrame frame = wire::CameraFrame::room;  // face: of one camera, the only one
 };
 
 class CameraPublisher {
@@ -56,7 +56,8 @@ public:
     };
     std::vector<Figures> figures() const;
 
-    // For the options of the participant that sends them; valid as long as the publisher.
+    // For the options of the participant that sends them; valid as long as the publisher. Of a face
+    // for Options::face, else for Options::publishing.
     client::Participant::Publishing events();
 
     // Offers the cameras to the session of `participant`, which must exist until end() returns.
@@ -65,6 +66,7 @@ public:
     void end();
 
 private:
+    void offer(client::Participant& participant) const;
     void open(std::size_t camera, std::unique_ptr<capture::Camera> opened);
     void on_published(const std::vector<CameraId>& numbers);
     void on_encode(const std::vector<wire::StreamSetting>& settings);
@@ -75,6 +77,7 @@ private:
 
     const std::vector<std::string> specifications_;
     const capture::CameraPlaces places_;
+    const bool is_face_;
     std::vector<wire::OfferedCamera> offers_;
 
     mutable std::mutex mutex_;  // guards all up to `workers_`
