@@ -66,4 +66,18 @@ private:
 
 const char* text_of(OwnFace::State state);
 
+// Calls begin(), and end() when it is destroyed.
+class FaceShowing {
+public:
+    FaceShowing(OwnFace& face, client::Participant& participant) : face_(face) {
+        face_.begin(participant);
+    }
+    ~FaceShowing() { face_.end(); }
+    FaceShowing(const FaceShowing&) = delete;
+    FaceShowing& operator=(const FaceShowing&) = delete;
+
+private:
+    OwnFace& face_;
+};
+
 }  // namespace theatron::publish

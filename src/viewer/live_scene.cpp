@@ -407,7 +407,9 @@ void LiveScene::add_ages(const render::CameraView& view) {
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     const double step = to_seconds(now - faded_at_) / fading_seconds;
     faded_at_ = now;
-    bool changed = std::exchange(captions_changed_, false);
+    // Also while no frames are taken.
+    bool changed = faces_.note(participant.now());
+    changed = std::exchange(captions_changed_, false) || changed;
     if (now - judged_at_ >= judge_every) {
         judged_at_ = now;
         live_.clear();

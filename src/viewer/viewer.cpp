@@ -188,6 +188,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::microphone:
         case xr::Action::push_to_talk:
         case xr::Action::voice_recording:
+        case xr::Action::own_face:
         case xr::Action::save_picture:
         case xr::Action::save_points:
             break;  // of the window, not of the scene
@@ -235,6 +236,10 @@ void Viewer::press(int command, TimePoint now) {
     if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
         slides_playback_ = false;
         return adjusting_.carry_out(*step);
+    }
+    if (const auto* face = std::get_if<ShowFace>(&chosen)) {
+        face_wish_ = face->shown;
+        return;
     }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
@@ -437,18 +442,26 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     if (participant_.status().round_trip == Duration{})
         return;
     const TimePoint presented = participant_.session_time(end);
-    double age_ms = 0;
+    // Screens and faces tell their ages themselves.
+    std::optional<double> age_ms;
     for (const CameraId camera : updated)
         if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
-            age_ms = std::max(age_ms, to_ms(presented - frame->second->times.captured));
+            age_ms = std::max(age_ms.value_or(0),
+                              to_ms(presented - frame->second->times.captured));
+    if (!age_ms)
+        return;
     age_at_presentation_ms_ = age_ms;
-    ages_ms_.add(age_ms);
-    all_ages_ms_.add(age_ms);
+    ages_ms_.add(*age_ms);
+    all_ages_ms_.add(*age_ms);
 }
 
 Facts Viewer::facts(TimePoint now) {
     Facts facts;
     facts.received = client::figures_of(participant_);
+    // Faces are people, not cameras of the room.
+    std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
+        return one.camera.description.frame == wire::CameraFrame::face;
+    });
     facts.visitors = participant_.visitors();
     facts.has_picture = eye_.is_placed();
     if (age_at_presentation_ms_) {
@@ -472,7 +485,7 @@ Facts Viewer::facts(TimePoint now) {
                        room_panel({scene_.meeting().room(), scene_.meeting().people(),
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
-                                   is_calling(now), voices_.speaking}));
+                                   is_calling(now), voices_.speaking, own_face_}));
     }
     if (shows_case_)
         add_case(panel);
@@ -489,6 +502,7 @@ Facts Viewer::facts(TimePoint now) {
     commands_ = std::move(panel.commands);
     facts.line = line_;
     facts.voices = voices_;
+    facts.own_face = own_face_;
     facts.trust = shows_panels_;
     return facts;
 }
