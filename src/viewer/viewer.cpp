@@ -437,7 +437,6 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     const std::set<CameraId> updated = std::exchange(updated_, {});
     if (updated.empty())
         return;
-    presented_at_ = end;
     // The session's time is known once the host has answered.
     if (participant_.status().round_trip == Duration{})
         return;
@@ -450,6 +449,7 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
                               to_ms(presented - frame->second->times.captured));
     if (!age_ms)
         return;
+    presented_at_ = end;
     age_at_presentation_ms_ = age_ms;
     ages_ms_.add(*age_ms);
     all_ages_ms_.add(*age_ms);
