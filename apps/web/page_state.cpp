@@ -103,6 +103,7 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
     const auto& status = facts.received.status;
     return {{"phase", client::text_of(status.phase)},
             {"problem", status.problem},
+            {"face_problem", status.face_problem},
             {"host", status.host_name},
             {"joins", status.joins},
             {"has_picture", facts.has_picture},
