@@ -278,7 +278,8 @@ void run(const JoinFlags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(json_of(participant, voice, face, picture.get())) << std::endl;
+            std::cout << files::json_text(json_of(participant, voice, face, picture.get()))
+                      << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;

@@ -25,8 +25,10 @@ void join_in_window(const JoinFlags& flags) {
     const bool asks = flags.link.empty() || !is_named;
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
-    xr::EntryFields fields{flags.link, is_named ? shown.settings.name : "",
-                           is_named ? shown.settings.hears : true, shown.settings.speaks,
+    xr::EntryFields fields{flags.link,
+                           is_named ? shown.settings.name : "",
+                           is_named ? shown.settings.hears : true,
+                           shown.settings.speaks,
                            flags.voice_may_record || shown.settings.voice_may_record,
                            !flags.webcam.empty()};
     cli::catch_stop_signals();

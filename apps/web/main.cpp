@@ -426,7 +426,8 @@ EMSCRIPTEN_KEEPALIVE void theatron_note_face(int state) {
                                       : is_seen  ? viewer::OwnFace::seen
                                                  : viewer::OwnFace::opening);
 }
-// The person's choice in the panels since the last call: 1: to show the face, 2: to hide it, 0: none.
+// The person's choice in the panels since the last call: 1: to show the face, 2: to hide it, 0:
+// none.
 EMSCRIPTEN_KEEPALIVE int theatron_face_wish() {
     const auto wish = page().visit ? page().visit->viewer.take_face_wish() : std::nullopt;
     return !wish ? 0 : *wish ? 1 : 2;

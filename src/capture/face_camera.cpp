@@ -186,8 +186,9 @@ std::unique_ptr<Camera> open_face_camera(Options& options, const Progress& progr
     const bool is_device = device.starts_with(v4l2) || device.starts_with("/dev/");
     if (device.starts_with(v4l2))
         device.erase(0, v4l2.size());
-    return make_face_camera(open_camera(is_device ? std::string(v4l2) + device + ",size=640x480,fps=15"
-                                                  : "video:" + device + ",loop=1",
+    return make_face_camera(open_camera(is_device
+                                            ? std::string(v4l2) + device + ",size=640x480,fps=15"
+                                            : "video:" + device + ",loop=1",
                                         progress));
 }
 

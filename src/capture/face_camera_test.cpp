@@ -84,7 +84,8 @@ TEST(FaceCamera, AVideoIsMadeSmallAndSlow) {
     std::ofstream file(path, std::ios::binary);
     file << "YUV4MPEG2 W64 H36 F60:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
     for (int n = 0; n < 30; ++n)
-        file << "FRAME\n" << std::string(64 * 36, char(60 + 5 * n)) << std::string(2 * 64 * 36, char(128));
+        file << "FRAME\n"
+             << std::string(64 * 36, char(60 + 5 * n)) << std::string(2 * 64 * 36, char(128));
     file.close();
     const auto camera = open_camera("face:" + path.string());
     EXPECT_TRUE(session::is_face(camera->info().calibration, camera->info().frames_per_second));

@@ -255,7 +255,7 @@ private:
     void on_managed();
     void on_playback();
     std::uint32_t decide(auto decision);
-    // What is offered, answered and withdrawn together.
+    // Cameras of one offer are answered and withdrawn together.
     enum class Offer : std::size_t { cameras, face };
     static constexpr std::size_t offers = 2;
     const Publishing& events(Offer offer) const {

@@ -25,7 +25,7 @@ namespace theatron::publish {
 
 // The part that is the same for all cameras of a publisher.
 struct Sharing {
-    bool may_record = false;  // others may record them
+    bool may_record = false;                            // others may record them
     wire::CameraFrame frame = wire::CameraFrame::room;  // face: of one camera, the only one
 };
 
@@ -56,8 +56,8 @@ public:
     };
     std::vector<Figures> figures() const;
 
-    // For the options of the participant that sends them; valid as long as the publisher. Of a face
-    // for Options::face, else for Options::publishing.
+    // For the options of the participant that sends them; valid as long as the publisher. Those of
+    // a face are for Options::face, else for Options::publishing.
     client::Participant::Publishing events();
 
     // Offers the cameras to the session of `participant`, which must exist until end() returns.

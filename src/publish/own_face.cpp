@@ -73,7 +73,8 @@ void OwnFace::close() {
 }
 
 void OwnFace::on_tick() {
-    if (!opening_.valid() || opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    if (!opening_.valid() ||
+        opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return;
     std::shared_ptr<CameraPublisher> opened;
     try {

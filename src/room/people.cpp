@@ -35,14 +35,13 @@ constexpr int corner_steps = 6;
 MeshData rounded_mesh(double width_m, double height_m, double corner_m) {
     MeshData mesh;
     const auto add = [&](double x, double y) {
-        mesh.vertices.push_back({float(x), float(y), 0, 0, 0, -1, float(x / width_m + 0.5),
-                                 float(y / height_m + 0.5)});
+        mesh.vertices.push_back(
+            {float(x), float(y), 0, 0, 0, -1, float(x / width_m + 0.5), float(y / height_m + 0.5)});
     };
     add(0, 0);
     for (int quarter = 0; quarter < 4; ++quarter)
         for (int step = 0; step <= corner_steps; ++step) {
-            const double angle =
-                std::numbers::pi / 2 * (quarter + double(step) / corner_steps);
+            const double angle = std::numbers::pi / 2 * (quarter + double(step) / corner_steps);
             const double right = quarter == 0 || quarter == 3 ? 1 : -1, up = quarter < 2 ? 1 : -1;
             add(right * (width_m / 2 - corner_m) + corner_m * std::cos(angle),
                 -up * (height_m / 2 - corner_m) - corner_m * std::sin(angle));
@@ -55,8 +54,8 @@ MeshData rounded_mesh(double width_m, double height_m, double corner_m) {
 
 // Behind the picture, seen from both sides.
 MeshData rim_mesh() {
-    MeshData mesh = rounded_mesh(face_width_m + 2 * rim_m, face_height_m + 2 * rim_m,
-                                 face_corner_m + rim_m);
+    MeshData mesh =
+        rounded_mesh(face_width_m + 2 * rim_m, face_height_m + 2 * rim_m, face_corner_m + rim_m);
     const auto corners = std::uint32_t(mesh.vertices.size());
     const std::size_t front = mesh.indices.size();
     for (std::uint32_t i = 0; i < corners; ++i) {
@@ -153,8 +152,7 @@ void People::add_face(render::SceneFrame& frame, const RoomPerson& person, doubl
     }
     if (shown <= 0)
         return;
-    frame.objects.push_back({&rim_,
-                             *person.head * head_from_picture(face_before_m - rim_behind_m),
+    frame.objects.push_back({&rim_, *person.head * head_from_picture(face_before_m - rim_behind_m),
                              look(color_of(person.id), shown)});
     render::SurfaceLook face = look({1, 1, 1}, shown);
     face.texture = person.face->texture;
@@ -194,11 +192,9 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
         const double small = age_share * height;
         Pose above =
             facing(person.head->translation + Vec3{0, name_above_m + age_lines * height, 0}, eye);
-        above.translation =
-            above * Vec3{-0.5 * small * letter_width * double(age.size()), 0, 0};
+        above.translation = above * Vec3{-0.5 * small * letter_width * double(age.size()), 0, 0};
         const bool is_old = person.is_stale || has_old_face;
-        frame.texts.push_back(
-            {age, above, small, is_old ? Rgb{255, 190, 70} : Rgb{175, 186, 196}});
+        frame.texts.push_back({age, above, small, is_old ? Rgb{255, 190, 70} : Rgb{175, 186, 196}});
     }
 }
 

@@ -220,7 +220,8 @@ TEST_F(Faces, DoNotMoveCamerasWithoutAPlace) {
     now += 1s;
     offer(carol, {{"cart", false, 30, encode_calibration(calibration), true}});
     const CameraId cart = session_->streams().of(carol).back();
-    const auto placed = decode_calibration(session_->streams().find(cart)->description().calibration);
+    const auto placed =
+        decode_calibration(session_->streams().find(cart)->description().calibration);
     ASSERT_TRUE(placed);
     EXPECT_EQ(placed->room_from_camera.translation.x, Streams::unregistered_distance_m)
         << "beside the host's camera";

@@ -34,10 +34,10 @@ bool HostSession::allow(ParticipantId id, Right right) {
 void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
     ++admission_.find(id)->denied;
     if (const auto* offer = std::get_if<wire::Publish>(&message))
-        send(id, wire::Published{{},
-                                 {needed_right(*offer) == Right::be_seen
-                                      ? TextCode::face_forbidden
-                                      : TextCode::link_without_cameras}});
+        send(id, wire::Published{
+                     {},
+                     {needed_right(*offer) == Right::be_seen ? TextCode::face_forbidden
+                                                             : TextCode::link_without_cameras}});
     else if (const auto* request = std::get_if<wire::RoomRequest>(&message))
         room_.refuse(id, *request, Refusal::role);
     else if (const auto* decision = std::get_if<wire::Manage>(&message))

@@ -56,15 +56,13 @@ wire::Text HostSession::problem_of_faces(ParticipantId id, const std::vector<wir
         if (camera.frame != wire::CameraFrame::face)
             continue;
         const auto calibration = decode_calibration(camera.calibration);
-        if (!camera.has_color || !calibration ||
-            !is_face(*calibration, camera.frames_per_second))
+        if (!camera.has_color || !calibration || !is_face(*calibration, camera.frames_per_second))
             return {TextCode::face_beyond_limits,
                     {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
     }
     const std::vector<CameraId> own = streams_.of(id);
-    const bool has_one = std::any_of(own.begin(), own.end(), [&](CameraId camera) {
-        return streams_.find(camera)->is_face();
-    });
+    const bool has_one = std::any_of(
+        own.begin(), own.end(), [&](CameraId camera) { return streams_.find(camera)->is_face(); });
     if (new_faces > 1 || has_one)
         return {TextCode::one_face};
     if (streams_.faces() >= max_faces)
@@ -78,9 +76,10 @@ wire::Text HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
     const Participant& publisher = admission_.participants().at(id);
     if (offer.cameras.empty())
         return {TextCode::no_camera_offered};
-    const auto new_faces = std::size_t(std::count_if(
-        cameras.begin(), cameras.end(),
-        [](const wire::Camera& camera) { return camera.frame == wire::CameraFrame::face; }));
+    const auto new_faces =
+        std::size_t(std::count_if(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
+            return camera.frame == wire::CameraFrame::face;
+        }));
     if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
         return {TextCode::link_without_cameras};
     if (new_faces > 0)

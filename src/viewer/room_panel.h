@@ -69,10 +69,9 @@ struct ShowFace {  // the user's own; false: no longer
 struct PlayStep {  // of the recording that the host plays
     enum class What { toggle, back, forward, slide } what{};
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
-                 ShowFace>;
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
+                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall,
+                                 ShowLarge, AdjustStep, PlayStep, ShowFace>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

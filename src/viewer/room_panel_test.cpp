@@ -52,8 +52,8 @@ TEST(RoomPanel, ListsPeopleWithWhatTheyDoAndPlaces) {
 TEST(RoomPanel, HasAButtonForThePersonsOwnFaceWhereThereIsAWebcam) {
     RoomPanelFacts facts;
     const std::size_t without = room_panel(facts).commands.size();
-    for (const auto& [state, shows] : {std::pair{OwnFace::off, true}, {OwnFace::opening, false},
-                                       {OwnFace::seen, false}}) {
+    for (const auto& [state, shows] :
+         {std::pair{OwnFace::off, true}, {OwnFace::opening, false}, {OwnFace::seen, false}}) {
         facts.own_face = state;
         const RoomPanel panel = room_panel(facts);
         ASSERT_EQ(panel.commands.size(), without + 1);

@@ -445,8 +445,7 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     std::optional<double> age_ms;
     for (const CameraId camera : updated)
         if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
-            age_ms = std::max(age_ms.value_or(0),
-                              to_ms(presented - frame->second->times.captured));
+            age_ms = std::max(age_ms.value_or(0), to_ms(presented - frame->second->times.captured));
     if (!age_ms)
         return;
     presented_at_ = end;

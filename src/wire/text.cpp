@@ -109,8 +109,7 @@ constexpr Row rows[] = {
     {TextCode::one_face, "A participant shows one face; withdraw the first one."},
     {TextCode::too_many_faces,
      "The session shows {0} faces, which is as many as can be; you are seen without a picture."},
-    {TextCode::face_forbidden,
-     "Observers show no face; ask the operator to make you an expert."},
+    {TextCode::face_forbidden, "Observers show no face; ask the operator to make you an expert."},
     {TextCode::host_without_faces,
      "This host is too old to show your face; you are seen without a picture."},
 

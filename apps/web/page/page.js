@@ -144,7 +144,7 @@ function run({ client, voice, face, module, flat }) {
     canvas.addEventListener("webglcontextlost", () => location.reload());
 
     $("hide_face").addEventListener("click", () => face.hide());
-    // What the person wants, and what the host says to it, whose remark is shown.
+    // The host's refusal is a remark, which is shown.
     const follow_face = () => {
         const wish = client.face_wish();
         if (wish === 1)
