@@ -46,6 +46,7 @@ struct HostFigures {
         ParticipantId publisher{};
         wire::CameraCondition condition{};
         std::uint64_t dropped_slow = 0;  // as above
+        bool is_face = false;            // of its publisher
     };
     std::vector<Published> published;          // cameras that participants send now
     std::map<CameraId, std::string> adjusted;  // by operators, and how
