@@ -55,6 +55,7 @@ client::Participant::Options viewer_options(const net::Link& link) {
     join.name = "demo viewer";
     join.remark = [](const std::string& text) { log::say(text); };
     join.keeps_room = true;
+    join.takes_faces = true;
     return join;
 }
 

@@ -98,6 +98,17 @@ bool obey_consent_line(client::Participant& participant, const std::string& line
     return true;
 }
 
+// "webcam on" or "webcam off". False if it is another line.
+bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
+    if (line != "webcam on" && line != "webcam off")
+        return false;
+    if (face)
+        face->show(line == "webcam on");
+    else
+        std::fprintf(stderr, "There is no webcam; join with --webcam DEVICE.\n");
+    return true;
+}
+
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
@@ -128,9 +139,10 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
 }
 
 // Executes the lines that were typed so far. False if one of them ends the program.
-bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice, InputLines& input) {
+bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
+          publish::OwnFace* face, InputLines& input) {
     while (const auto line = input.next())
-        if (!obey(participant, room, voice, *line))
+        if (!obey_webcam_line(face, *line) && !obey(participant, room, voice, *line))
             return false;
     return !input.closed_by_person();
 }
@@ -141,12 +153,15 @@ bool has_no_camera(const client::Participant& participant) {
 }
 
 nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice,
-                       const JoinPicture* picture) {
+                       const publish::OwnFace* face, const JoinPicture* picture) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
     json["voice"] = voice.json();
     json["voice"]["may_record"] = participant.voice_may_record();
+    if (face)
+        json["webcam"] = {{"state", publish::text_of(face->state())},
+                          {"problem", participant.status().face_problem}};
     if (picture)
         picture->add_to(json);
     return json;
@@ -188,6 +203,12 @@ void run(const JoinFlags& flags) {
                      parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
     voice.hear_by(options);
     const auto publisher = open_own_cameras(flags, options);
+    std::optional<publish::OwnFace> own_face;
+    if (!flags.webcam.empty()) {
+        options.face = own_face.emplace(flags.webcam).events();
+        own_face->show(true);
+    }
+    publish::OwnFace* const face = own_face ? &*own_face : nullptr;
 
     std::unique_ptr<JoinPicture> picture;
     check_picture_file(flags.offscreen);
@@ -202,6 +223,9 @@ void run(const JoinFlags& flags) {
     std::optional<publish::Publishing> publishing;
     if (publisher)
         publishing.emplace(*publisher, participant);
+    std::optional<publish::FaceShowing> showing;
+    if (face)
+        showing.emplace(*face, participant);
     const VoiceLine::Talking talking(voice, participant);
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
@@ -227,8 +251,13 @@ void run(const JoinFlags& flags) {
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)
             break;
-        if (!obey(participant, room, voice, input))
+        if (!obey(participant, room, voice, face, input))
             break;
+        if (face) {
+            face->on_tick();
+            if (const std::string problem = face->take_problem(); !problem.empty())
+                log::say(problem);
+        }
         voice.hold(false, steady_now());
         room.on_tick(participant);
         if (const auto& head = room.head())
@@ -251,7 +280,8 @@ void run(const JoinFlags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(json_of(participant, voice, picture.get())) << std::endl;
+            std::cout << files::json_text(json_of(participant, voice, face, picture.get()))
+                      << std::endl;
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             std::cout << "\r\033[K" << status_line(participant) << std::flush;
@@ -260,7 +290,7 @@ void run(const JoinFlags& flags) {
     }
     if (live_line)
         std::cout << "\n";
-    const nlohmann::json figures = json_of(participant, voice, picture.get());
+    const nlohmann::json figures = json_of(participant, voice, face, picture.get());
     if (picture)
         picture->write();
     if (flags.json)
@@ -418,6 +448,10 @@ void add_join_command(CLI::App& app) {
                      "auto, which is on for devices and off for files. A file is stereo then")
         ->capture_default_str()
         ->check(CLI::IsMember({"auto", "on", "off"}));
+    command->add_option("--webcam", flags->webcam,
+                        "Show your face, small on your avatar: a video device (/dev/video0), a "
+                        "video file, or test for a generated picture. In the window F4, elsewhere "
+                        "the lines 'webcam on' and 'webcam off' change it");
     command->add_flag("--push-to-talk", flags->push_to_talk,
                       "Speak only while a key is held: Enter in the window, where F7 switches, "
                       "elsewhere between the lines 'talk on' and 'talk off'");

@@ -48,6 +48,7 @@ struct JoinFlags {
     bool or_screen = false;
     std::string render_scale = "auto";
     std::string microphone, speaker;
+    std::string webcam;  // empty: the face is not shown
     int voice_frame_ms = 20;
 
     // Files and figures are made without a window.
@@ -66,6 +67,8 @@ client::Participant::Options participant_options(const JoinFlags& flags);
 // Adds the publisher's events to `options`; null without own cameras.
 std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flags,
                                                            client::Participant::Options& options);
+// The camera of the face: the one of --webcam, else the usual one, which is off at first.
+inline constexpr const char* usual_webcam = "/dev/video0";
 VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
 VoiceLine::Options::Spatial parse_spatial(const std::string& text);
 

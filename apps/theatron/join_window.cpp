@@ -26,9 +26,12 @@ void join_in_window(const JoinFlags& flags) {
     const bool asks = flags.link.empty() || !is_named;
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
-    xr::EntryFields fields{flags.link, is_named ? shown.settings.name : "",
-                           is_named ? shown.settings.hears : true, shown.settings.speaks,
-                           flags.voice_may_record || shown.settings.voice_may_record};
+    xr::EntryFields fields{flags.link,
+                           is_named ? shown.settings.name : "",
+                           is_named ? shown.settings.hears : true,
+                           shown.settings.speaks,
+                           flags.voice_may_record || shown.settings.voice_may_record,
+                           !flags.webcam.empty()};
     cli::catch_stop_signals();
     xr::DesktopWindow window("Theatron", parse_size(flags.size));
     for (std::string problem;;) {
@@ -61,6 +64,11 @@ void join_in_window(const JoinFlags& flags) {
         now.voice = &voice;
         const auto publisher = open_own_cameras(flags, now.join);
         now.publisher = publisher.get();
+        // Off unless the person wants it now: this choice is not kept.
+        publish::OwnFace face(flags.webcam.empty() ? usual_webcam : flags.webcam);
+        now.join.face = face.events();
+        now.face = &face;
+        face.show(fields.shows_face);
         try {
             problem.clear();
             if (show(window, std::move(now)) == WindowEnd::closed || !asks)

@@ -93,6 +93,35 @@ std::string change_voice_recording(client::Participant& participant, ViewerWindo
     return agrees ? "Your voice may be recorded" : "Your voice is not recorded";
 }
 
+const char* change_face(publish::OwnFace& face, bool shown) {
+    face.show(shown);
+    return shown ? "Your webcam is being opened; the others will see you"
+                 : "Your webcam is off; nobody sees you";
+}
+
+viewer::OwnFace own_face(const publish::OwnFace& face) {
+    using State = publish::OwnFace::State;
+    const State state = face.state();
+    return state == State::off    ? viewer::OwnFace::off
+           : state == State::seen ? viewer::OwnFace::seen
+                                  : viewer::OwnFace::opening;
+}
+
+// Takes over the camera that was opened, and the choice in the panel.
+void follow_face(publish::OwnFace& face, const client::Participant& participant,
+                 viewer::Viewer& viewer, TimePoint now) {
+    if (const auto wish = viewer.take_face_wish())
+        viewer.note(change_face(face, *wish), now);
+    face.on_tick();
+    if (const std::string problem = face.take_problem(); !problem.empty())
+        viewer.note(problem, now);
+    // The host does not take it: its remark has said so.
+    if (face.state() == publish::OwnFace::State::offered &&
+        !participant.status().face_problem.empty())
+        face.show(false);
+    viewer.set_own_face(own_face(face));
+}
+
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                const xr::DesktopWindow& window) {
     std::printf("%s\n", status_line(participant).c_str());
@@ -166,6 +195,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     std::optional<publish::Publishing> publishing;
     if (options.publisher)
         publishing.emplace(*options.publisher, participant);
+    std::optional<publish::FaceShowing> showing;
+    if (options.face)
+        showing.emplace(*options.face, participant);
     std::optional<VoiceLine::Talking> talking;
     if (options.voice)
         talking.emplace(*options.voice, participant);
@@ -199,6 +231,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
                 viewer.note(change_push_to_talk(*options.voice, options), now);
             else if (key.action == xr::Action::voice_recording)
                 viewer.note(change_voice_recording(participant, options), now);
+            else if (key.action == xr::Action::own_face && options.face)
+                viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
             else if (key.action == xr::Action::save_picture ||
                      key.action == xr::Action::save_points)
                 viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to), now);
@@ -232,6 +266,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             input.redraw = true;
         }
         input.pointer_covered = input.pointer && overlay.covers(*input.pointer);
+        if (options.face)
+            follow_face(*options.face, participant, viewer, now);
         if (const auto status = participant.status();
             options.voice && status.phase == client::Participant::Phase::joined)
             options.voice->note(status.standing);

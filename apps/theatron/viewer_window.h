@@ -8,6 +8,7 @@
 #include <string>
 
 #include "publish/camera_publisher.h"
+#include "publish/own_face.h"
 #include "viewer/viewer.h"
 #include "voice_line.h"
 #include "xr/desktop_window_native.h"
@@ -17,6 +18,7 @@ namespace theatron::app {
 struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
+    publish::OwnFace* face = nullptr;               // its events must be in `join`; may be null
     VoiceLine* voice = nullptr;                     // its packets must come by `join`; may be null
     viewer::Viewer::Options viewer;
     // Called with the person's settings whenever they have changed from `settings`.

@@ -16,6 +16,7 @@
 #include "base/steady_clock.h"
 #include "client/decoder_pool_web.h"
 #include "client/decoder_worker_web.h"
+#include "client/face_sender.h"
 #include "codec/depth_stream.h"
 #include "flat_view.h"
 #include "headset_input.h"
@@ -51,7 +52,7 @@ struct Visit {
     Visit(client::Participant::Options join, std::string host_address)
         : address(std::move(host_address)),
           options(viewer_options(join)),
-          participant(std::move(join)),
+          participant(with_faces(std::move(join), face)),
           viewer(options, participant) {}
     ~Visit() { glDeleteSync(drawing); }
 
@@ -65,8 +66,17 @@ struct Visit {
         return options;
     }
 
+    // In the 2D view one has no head that the others see.
+    static client::Participant::Options with_faces(client::Participant::Options join,
+                                                   client::FaceSender& face) {
+        join.takes_faces = true;
+        join.face = face.events();
+        return join;
+    }
+
     std::string address;
     viewer::Viewer::Options options;
+    client::FaceSender face;
     client::Participant participant;
     viewer::Viewer viewer;
     xr::ScaledPicture picture;
@@ -390,6 +400,38 @@ EMSCRIPTEN_KEEPALIVE void theatron_speak(unsigned number, double age_us, int pau
 EMSCRIPTEN_KEEPALIVE void theatron_allow_voice_recording(int agrees) {
     if (page().participant())
         page().participant()->allow_voice_recording(agrees != 0);
+}
+// Offers the picture of the person's face, of this size, or with 0 withdraws it.
+EMSCRIPTEN_KEEPALIVE void theatron_show_face(int width, int height, double pictures_per_s) {
+    if (!page().visit)
+        return;
+    std::optional<wire::OfferedCamera> offer;
+    if (width > 0)
+        offer = client::FaceSender::offer({width, height}, pictures_per_s);
+    page().visit->participant.publish_face(std::move(offer));
+}
+// A picture of the face, a JPEG in theatron_memory(), and its age in microseconds.
+EMSCRIPTEN_KEEPALIVE void theatron_send_face(double age_us) {
+    if (!page().visit)
+        return;
+    client::Participant& participant = page().visit->participant;
+    page().visit->face.send(participant, page().bytes,
+                            participant.now() - Duration(std::int64_t(age_us)));
+}
+// For the panels: the camera is off (0), being opened (1) or sends (2).
+EMSCRIPTEN_KEEPALIVE void theatron_note_face(int state) {
+    if (!page().visit)
+        return;
+    const bool is_seen = state == 2 && page().visit->face.is_taken();
+    page().visit->viewer.set_own_face(state == 0 ? viewer::OwnFace::off
+                                      : is_seen  ? viewer::OwnFace::seen
+                                                 : viewer::OwnFace::opening);
+}
+// The person's choice in the panels since the last call: 1: to show the face, 2: to hide it, 0:
+// none.
+EMSCRIPTEN_KEEPALIVE int theatron_face_wish() {
+    const auto wish = page().visit ? page().visit->viewer.take_face_wish() : std::nullopt;
+    return !wish ? 0 : *wish ? 1 : 2;
 }
 
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.

@@ -104,6 +104,7 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
     const bool asks_consent = participant.asks_voice_consent();
     return {{"phase", client::text_of(status.phase)},
             {"problem", status.problem},
+            {"face_problem", status.face_problem},
             {"host", status.host_name},
             {"joins", status.joins},
             {"has_picture", facts.has_picture},

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "capture/cropped_camera.h"
+#include "capture/face_camera.h"
 #include "capture/faulty_camera.h"
 #include "capture/folder_camera.h"
 #include "capture/k4a_camera.h"
@@ -38,6 +39,7 @@ constexpr Kind kinds[] = {
     {"x11", x11_camera_help, open_x11_camera},
     {"v4l2", v4l2_camera_help, open_v4l2_camera},
     {"rtsp", rtsp_camera_help, open_rtsp_camera},
+    {"face", face_camera_help, open_face_camera},
 };
 
 // Opens a camera. Exceptions of the standard library become an Error with a sentence, too.

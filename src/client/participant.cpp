@@ -35,6 +35,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
     if (options.shows_patient)
         features.push_back(wire::Feature::patient);
     features.push_back(wire::Feature::voice_consent);
+    if (options.takes_faces || options.face.published)
+        features.push_back(wire::Feature::webcam);
     return features;
 }
 
@@ -168,9 +170,8 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
     shared_->status.problem = why;
     lock.unlock();
-    numbers_.clear();
-    if (options_.publishing.published)
-        options_.publishing.published({});
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        forget_numbers(offer);
     announce();
     if (ended && !refused)
         remark(why);
@@ -185,7 +186,8 @@ net::Client::Handler Participant::handler() {
     net::Client::Handler h;
     h.connected = [this] {
         pings_ = 0;
-        numbers_.clear();
+        numbers_ = {};
+        offered_.clear();
         next_ping_ = next_report_ = steady_now();
         const Bytes hello = session_.begin();
         shared_->client->send_control(hello);
@@ -286,7 +288,7 @@ void Participant::on_control(ByteView message) {
                     shared_->figures = without_ages(std::move(shared_->figures));
             }
             if (is_new)
-                offer_cameras();
+                offer_all();
             if (is_new && session_.joined() && options_.described)
                 options_.described();
             break;
@@ -315,13 +317,10 @@ void Participant::on_control(ByteView message) {
             on_share_ended();
             break;
         case Change::encode:
-            if (options_.publishing.encode)
-                options_.publishing.encode(session_.encode().settings);
+            on_encode();
             break;
         case Change::encode_key:
-            if (options_.publishing.encode_key)
-                options_.publishing.encode_key(session_.encode_key().stream,
-                                               session_.encode_key().setting);
+            on_encode_key(session_.encode_key().stream, session_.encode_key().setting);
             break;
         case Change::room:
             on_room_message();

@@ -4,6 +4,8 @@
 // threads.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -69,6 +71,9 @@ public:
         // participant's thread or a decoding thread.
         std::function<void()> news;
         Publishing publishing;  // needed for publish()
+        Publishing face;        // needed for publish_face()
+        // Is told of the faces of others (wire::CameraFrame::face), too; they are cameras.
+        bool takes_faces = false;
         // Keeps the objects of the room; needed for room() and the functions below it.
         bool keeps_room = false;
         // Takes the content of the case that is open in the room; needs keeps_room.
@@ -107,6 +112,7 @@ public:
         wire::ChooseDelivery goal;
         std::uint64_t media_dropped = 0;  // frames of send_media() that were too late to be sent
         std::string publish_problem;  // why the host refused the cameras of publish(); else empty
+        std::string face_problem;     // the same of publish_face()
         wire::Standing standing;      // this participant's role, while joined
         wire::Delivery delivery;      // the part of the requested data that the host sends
     };
@@ -149,6 +155,9 @@ public:
     // connection; an empty list withdraws them. The host's numbers for them go to
     // Options::publishing.
     void publish(std::vector<wire::OfferedCamera> cameras);
+    // The same for the picture of this person's face, apart from the cameras: a camera of
+    // CameraFrame::face. Its number goes to Options::face.
+    void publish_face(std::optional<wire::OfferedCamera> face);
     // From any thread: sends a frame of such a camera, encoded as the host asked, with the camera's
     // stream in its header and session times (now()). `message` is header and payload. A frame that
     // cannot be sent in time is dropped, and a key frame is requested.
@@ -248,15 +257,27 @@ private:
     void tell_room();
     void on_waiting();
     void on_standing();
+    void follow_role(wire::Role before, wire::Role now);
     void on_visitors();
     void on_managed();
     void on_playback();
     void on_patient();
     std::uint32_t decide(auto decision);
-    void offer_cameras();
+    // Cameras of one offer are answered and withdrawn together.
+    enum class Offer : std::size_t { cameras, face };
+    static constexpr std::size_t offers = 2;
+    const Publishing& events(Offer offer) const {
+        return offer == Offer::face ? options_.face : options_.publishing;
+    }
+    std::vector<CameraId>& numbers(Offer offer) { return numbers_[std::size_t(offer)]; }
+    void offer_cameras(Offer offer);
+    void offer_all();
+    void forget_numbers(Offer offer);
     void on_published();
     void on_share_ended();
-    void refuse_cameras(const wire::Text& why);
+    void refuse_cameras(Offer offer, const wire::Text& why);
+    void on_encode();
+    void on_encode_key(StreamId stream, SettingId setting);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
     void on_welcome();
@@ -274,7 +295,8 @@ private:
     session::ViewerSession session_;
     TimePoint next_ping_, next_report_;
     int pings_ = 0;
-    std::vector<CameraId> numbers_;      // of the cameras that it sends
+    std::array<std::vector<CameraId>, offers> numbers_;  // of the cameras that it sends
+    std::deque<Offer> offered_;                          // without an answer of the host
     session::KeyRequests missing_keys_;  // of its own streams, where frames could not be sent
 
     struct Shared;

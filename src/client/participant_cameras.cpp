@@ -40,6 +40,7 @@ void Participant::on_welcome() {
     const bool is_new = std::exchange(shared_->status.phase, Phase::joined) != Phase::joined;
     shared_->status.problem.clear();
     shared_->status.publish_problem.clear();
+    shared_->status.face_problem.clear();
     shared_->status.host_name = session_.welcome().host_name;
     shared_->status.delivery = {};
     shared_->may_adjust = session_.has(wire::Feature::adjusting);
@@ -50,15 +51,16 @@ void Participant::on_welcome() {
     shared_->status.joins += is_new;
     const bool again = is_new && shared_->status.joins > 1;
     lock.unlock();
-    if (!session_.may_publish() && !std::exchange(numbers_, {}).empty() &&
-        options_.publishing.published)
-        options_.publishing.published({});
+    if (!session_.may_publish() && !numbers(Offer::cameras).empty())
+        forget_numbers(Offer::cameras);
     for (const wire::Text& problem : session_.left_out())
         remark(wire::english(problem));
     ping(steady_now());
     // Not where only messages were lost: the host still has them.
-    if (numbers_.empty())
-        offer_cameras();
+    offered_.clear();
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        if (numbers(offer).empty())
+            offer_cameras(offer);
     announce();
     if (again)
         remark("Connected again.");
@@ -78,11 +80,14 @@ void Participant::on_cameras() {
             return std::none_of(all.begin(), all.end(),
                                 [&](const Camera& c) { return c.description.id == id; });
         };
+        const auto is_face = [](const Camera& camera) {
+            return camera.description.frame == wire::CameraFrame::face;
+        };
         for (const Camera& camera : cameras)
-            if (without(shared_->cameras, camera.description.id))
+            if (without(shared_->cameras, camera.description.id) && !is_face(camera))
                 news.push_back("Camera " + camera.description.name + " has joined.");
         for (const Camera& camera : shared_->cameras)
-            if (without(cameras, camera.description.id))
+            if (without(cameras, camera.description.id) && !is_face(camera))
                 news.push_back("Camera " + camera.description.name + " has left.");
         shared_->cameras = std::move(cameras);
         shared_->settings = session_.settings();
@@ -115,7 +120,9 @@ void Participant::on_camera_states() {
                 camera.state.condition == Condition::live && !camera.state.problem.empty();
             if (plays_damage && (!had_problem || before != Condition::live))
                 news.push_back(name + ": " + problem);
-            if (camera.state.condition == before)
+            // Faces come and go; people see it.
+            if (camera.state.condition == before ||
+                camera.description.frame == wire::CameraFrame::face)
                 continue;
             if (camera.state.condition == Condition::ended)
                 news.push_back(name + " has ended; its last picture stays.");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/participant_shared.h"
+#include "session/permissions.h"
 
 namespace theatron::client {
 namespace {
@@ -42,10 +43,25 @@ void Participant::on_standing() {
             shared_->visitors.clear();
     }
     announce();
+    if (!is_first)
+        follow_role(before.role, now.role);
     if (!is_first && now.role != before.role)
         remark("You are " + with_article(now.role) + " now.");
     if (now.muted != before.muted && (now.muted || !is_first))
         remark(now.muted ? "You are muted; nobody hears you." : "You are no longer muted.");
+}
+
+// The host withdraws the face of a person whose new role does not show one.
+void Participant::follow_role(wire::Role before, wire::Role now) {
+    const bool may = session::may(now, session::Right::be_seen);
+    if (may == session::may(before, session::Right::be_seen))
+        return;
+    if (may)
+        return offer_cameras(Offer::face);
+    if (numbers(Offer::face).empty())
+        return;
+    forget_numbers(Offer::face);
+    refuse_cameras(Offer::face, {wire::TextCode::face_forbidden});
 }
 
 void Participant::on_visitors() {

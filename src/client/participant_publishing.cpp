@@ -16,64 +16,115 @@ constexpr std::size_t max_media_waiting = 64;
 
 void Participant::publish(std::vector<wire::OfferedCamera> cameras) {
     const std::lock_guard lock(shared_->mutex);
-    shared_->offers = std::move(cameras);
+    shared_->offers[std::size_t(Offer::cameras)] = std::move(cameras);
     if (shared_->client)
-        shared_->client->post([this] { offer_cameras(); });
+        shared_->client->post([this] { offer_cameras(Offer::cameras); });
+}
+
+void Participant::publish_face(std::optional<wire::OfferedCamera> face) {
+    const std::lock_guard lock(shared_->mutex);
+    auto& offer = shared_->offers[std::size_t(Offer::face)];
+    offer.clear();
+    if (face)
+        offer.push_back(std::move(*face));
+    shared_->status.face_problem.clear();
+    if (shared_->client)
+        shared_->client->post([this] { offer_cameras(Offer::face); });
 }
 
 // Frames have session times, so the clock comes first.
-void Participant::offer_cameras() {
+void Participant::offer_cameras(Offer what) {
     wire::Publish offer;
     {
         const std::lock_guard lock(shared_->mutex);
         if (!session_.joined() || !shared_->status.clock_known)
             return;
-        offer.cameras = shared_->offers;
+        offer.cameras = shared_->offers[std::size_t(what)];
     }
-    if (!numbers_.empty())
-        shared_->client->send_control(wire::encode(wire::Unpublish{std::exchange(numbers_, {})}));
-    if (!offer.cameras.empty() && !session_.may_publish())
-        refuse_cameras({wire::TextCode::link_without_cameras});
-    else if (!offer.cameras.empty())
-        shared_->client->send_control(wire::encode(offer));
+    if (!numbers(what).empty())
+        shared_->client->send_control(
+            wire::encode(wire::Unpublish{std::exchange(numbers(what), {})}));
+    if (offer.cameras.empty())
+        return;
+    if (what == Offer::cameras && !session_.may_publish())
+        return refuse_cameras(what, {wire::TextCode::link_without_cameras});
+    if (what == Offer::face && !session_.has(wire::Feature::webcam))
+        return refuse_cameras(what, {wire::TextCode::host_without_faces});
+    offered_.push_back(what);
+    shared_->client->send_control(wire::encode(offer));
 }
 
-void Participant::refuse_cameras(const wire::Text& why) {
+void Participant::offer_all() {
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        offer_cameras(offer);
+}
+
+void Participant::forget_numbers(Offer offer) {
+    numbers(offer).clear();
+    if (events(offer).published)
+        events(offer).published({});
+}
+
+void Participant::refuse_cameras(Offer offer, const wire::Text& why) {
     const std::string problem = wire::english(why);
     {
         const std::lock_guard lock(shared_->mutex);
-        shared_->status.publish_problem = clean_text(problem, max_remark_characters);
+        (offer == Offer::face ? shared_->status.face_problem : shared_->status.publish_problem) =
+            clean_text(problem, max_remark_characters);
     }
     remark(problem);
 }
 
+// The host answers in order.
 void Participant::on_published() {
+    if (offered_.empty())
+        return;
+    const Offer offer = offered_.front();
+    offered_.pop_front();
     const wire::Published& answer = session_.published();
     if (!answer.problem.empty())
-        refuse_cameras(answer.problem);
-    numbers_ = answer.cameras;
-    if (options_.publishing.published)
-        options_.publishing.published(numbers_);
+        refuse_cameras(offer, answer.problem);
+    // A newer offer has been sent: these cameras are withdrawn, since nobody knows them here.
+    if (std::find(offered_.begin(), offered_.end(), offer) != offered_.end()) {
+        if (!answer.cameras.empty())
+            shared_->client->send_control(wire::encode(wire::Unpublish{answer.cameras}));
+        return;
+    }
+    bool is_wanted = false;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        is_wanted = !shared_->offers[std::size_t(offer)].empty();
+    }
+    if (!is_wanted) {
+        if (!answer.cameras.empty())
+            shared_->client->send_control(wire::encode(wire::Unpublish{answer.cameras}));
+        return;
+    }
+    numbers(offer) = answer.cameras;
+    if (events(offer).published)
+        events(offer).published(numbers(offer));
 }
 
 void Participant::on_share_ended() {
     const wire::ShareEnded& message = session_.share_ended();
+    std::vector<CameraId>& own = numbers(Offer::cameras);
     std::vector<CameraId> ended;
     for (const CameraId camera : message.cameras) {
-        const auto found = std::find(numbers_.begin(), numbers_.end(), camera);
-        if (found == numbers_.end())
+        const auto found = std::find(own.begin(), own.end(), camera);
+        if (found == own.end())
             continue;
         std::string name;
         {
             // Offers have the order of their numbers.
             const std::lock_guard lock(shared_->mutex);
-            const auto offer = found - numbers_.begin();
-            if (offer < std::ptrdiff_t(shared_->offers.size())) {
-                name = shared_->offers[std::size_t(offer)].name;
-                shared_->offers.erase(shared_->offers.begin() + offer);
+            auto& offers = shared_->offers[std::size_t(Offer::cameras)];
+            const auto offer = found - own.begin();
+            if (offer < std::ptrdiff_t(offers.size())) {
+                name = offers[std::size_t(offer)].name;
+                offers.erase(offers.begin() + offer);
             }
         }
-        numbers_.erase(found);
+        own.erase(found);
         ended.push_back(camera);
         remark(message.by + " has ended the share of \"" + name + "\".");
     }
@@ -104,7 +155,10 @@ void Participant::push_media(const wire::MediaHeader& header,
         --shared_->media_waiting;
     }
     // The camera belongs to an earlier connection, or has left.
-    if (std::find(numbers_.begin(), numbers_.end(), camera_of(header.stream)) == numbers_.end())
+    const CameraId camera = camera_of(header.stream);
+    if (std::none_of(numbers_.begin(), numbers_.end(), [&](const auto& own) {
+            return std::find(own.begin(), own.end(), camera) != own.end();
+        }))
         return;
     // An outbox keeps one chain of frames for each stream; here each setting of a stream is one,
     // and its number is unique in the session.
@@ -125,6 +179,19 @@ void Participant::push_media(const wire::MediaHeader& header,
         missing_keys_.request({header.stream, header.setting});
 }
 
+// Each publisher knows its own cameras.
+void Participant::on_encode() {
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        if (events(offer).encode)
+            events(offer).encode(session_.encode().settings);
+}
+
+void Participant::on_encode_key(StreamId stream, SettingId setting) {
+    for (const Offer offer : {Offer::cameras, Offer::face})
+        if (events(offer).encode_key)
+            events(offer).encode_key(stream, setting);
+}
+
 void Participant::on_encode_keys() {
     {
         const std::lock_guard lock(shared_->mutex);
@@ -132,8 +199,7 @@ void Participant::on_encode_keys() {
             missing_keys_.request({stream, setting});
     }
     for (const auto& key : missing_keys_.take(steady_now()))
-        if (options_.publishing.encode_key)
-            options_.publishing.encode_key(key.stream, key.setting);
+        on_encode_key(key.stream, key.setting);
 }
 
 void Participant::tell_camera(const wire::CameraState& state) {

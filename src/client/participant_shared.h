@@ -54,15 +54,15 @@ struct Participant::Shared {
     bool is_asking_content = false;  // request_content() has been posted
     bool has_standing = false;       // on this connection
     std::vector<wire::Visitor> visitors;
-    std::uint32_t decisions = 0;                           // sent, for their numbers
-    std::deque<wire::Managed> managed;                     // answers not yet taken
-    bool may_adjust = false;                               // the host knows adjustments
-    std::optional<wire::Playback> playback;                // of the host's recording
-    wire::Patient patient;                                 // empty: not known
-    std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
-    std::vector<wire::OfferedCamera> offers;
-    std::size_t media_waiting = 0;                    // for the participant's thread
-    std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
+    std::uint32_t decisions = 0;                             // sent, for their numbers
+    std::deque<wire::Managed> managed;                       // answers not yet taken
+    bool may_adjust = false;                                 // the host knows adjustments
+    std::optional<wire::Playback> playback;                  // of the host's recording
+    wire::Patient patient;                                   // empty: not known
+    std::map<CameraId, wire::ChooseCodecs> camera_wishes;    // the same for single cameras
+    std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
+    std::size_t media_waiting = 0;                           // for the participant's thread
+    std::set<std::pair<StreamId, SettingId>> broken;         // frames of these were dropped
 };
 
 }  // namespace theatron::client

@@ -149,6 +149,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"renderer", participant.renderer},
                                 {"refused_requests", participant.refused},
                                 {"denied_messages", participant.denied},
+                                {"refused_faces", participant.refused_faces},
                                 {"role", wire::text_of(participant.role)},
                                 {"muted", participant.muted},
                                 {"age_ms", age_ms(participant)}});
@@ -273,6 +274,11 @@ std::string to_prometheus(const HostFigures& figures) {
     for (const auto& participant : figures.participants)
         out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
                   double(participant.denied));
+    out.family("faces_refused_total", "counter",
+               "Pictures of a participant's face that were too large or too many.");
+    for (const auto& participant : figures.participants)
+        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
+                  double(participant.refused_faces));
     out.family("visitors", "gauge", "People who wait to be let in.");
     out.value("", double(figures.visitors.size()));
     out.family("strangers_turned_away_total", "counter",

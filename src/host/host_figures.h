@@ -36,6 +36,7 @@ struct HostFigures {
         std::string renderer;                     // as it reports it; empty: unknown
         std::uint64_t refused = 0;                // requests that came too often
         std::uint64_t denied = 0;                 // messages that its role does not allow
+        std::uint64_t refused_faces = 0;          // pictures of its face beyond their limits
         wire::Role role{};
         bool muted = false;
     };
@@ -46,6 +47,7 @@ struct HostFigures {
         ParticipantId publisher{};
         wire::CameraCondition condition{};
         std::uint64_t dropped_slow = 0;  // as above
+        bool is_face = false;            // of its publisher
     };
     std::vector<Published> published;          // cameras that participants send now
     std::map<CameraId, std::string> adjusted;  // by operators, and how
@@ -72,7 +74,7 @@ struct HostFigures {
 
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests","denied_messages","role","muted",…}],"visitors":[{"id","name",
+// "renderer","refused_requests","denied_messages","refused_faces","role","muted",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults",
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}

@@ -26,7 +26,7 @@ void Host::Impl::note_participants() {
         if (participant.joined)
             list.push_back({id, participant.name, session->step_of(id), participant.report,
                             participant.renderer, participant.budget.refused(), participant.denied,
-                            participant.role, participant.muted});
+                            participant.refused_faces, participant.role, participant.muted});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
@@ -49,7 +49,8 @@ void Host::Impl::note_participants() {
             const auto& state = streams.find(camera.id)->state;
             published.push_back({camera.id, camera.name, camera.publisher,
                                  condition_here(state, is_silent(camera.publisher)),
-                                 dropped_slow[camera.id]});
+                                 dropped_slow[camera.id],
+                                 camera.frame == wire::CameraFrame::face});
         }
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);

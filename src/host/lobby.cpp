@@ -37,9 +37,10 @@ nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must
                                {"state", wire::text_of(figures.cameras[i].lane.camera.condition)},
                                {"adjusted", figures.adjustment(CameraId(i))}});
         for (const auto& camera : figures.published)
-            cameras.push_back({{"name", camera.name},
-                               {"state", wire::text_of(camera.condition)},
-                               {"adjusted", figures.adjustment(camera.id)}});
+            if (!camera.is_face)
+                cameras.push_back({{"name", camera.name},
+                                   {"state", wire::text_of(camera.condition)},
+                                   {"adjusted", figures.adjustment(camera.id)}});
         session["people"] = people;
         session["cameras"] = cameras;
         session["thumbnail"] = thumbnail_path;

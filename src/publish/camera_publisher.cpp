@@ -85,6 +85,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
                                  const capture::Progress& progress, const Sharing& sharing)
     : specifications_(std::move(specifications)),
       places_(places.empty() ? capture::CameraPlaces() : capture::load_places(places)),
+      is_face_(sharing.frame == wire::CameraFrame::face),
       states_(specifications_.size()) {
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     std::vector<Calibration> calibrations;
@@ -97,9 +98,10 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const capture::CameraInfo& info = cameras[i]->info();
         offered_.push_back(i);
+        const bool is_in_room = is_screen(calibrations[i]) && !is_face_;
         offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
                            encode_calibration(calibrations[i]), sharing.may_record,
-                           is_screen(calibrations[i]) ? wire::CameraFrame::room : sharing.frame});
+                           is_in_room ? wire::CameraFrame::room : sharing.frame});
     }
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));
@@ -120,7 +122,7 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     // A live screen keeps its size: a window may have another one when it comes back.
     const capture::CameraInfo& info = opened->info();
     const Size size = info.calibration.color.size;
-    if (info.live && is_screen(info.calibration) &&
+    if (info.live && is_screen(info.calibration) && !is_face_ &&
         specification.find(",size=") == std::string::npos)
         specification += ",size=" + std::to_string(size.width) + "x" + std::to_string(size.height);
     options.open_again = [this, specification] {
@@ -179,12 +181,17 @@ void CameraPublisher::begin(client::Participant& participant) {
         for (const std::size_t camera : offered_)
             offers.push_back(offers_[camera]);
     }
-    participant.publish(std::move(offers));
+    if (is_face_ && !offers.empty())
+        participant.publish_face(offers.front());
+    else
+        participant.publish(std::move(offers));
 }
 
 void CameraPublisher::end() {
     const std::lock_guard lock(mutex_);
-    if (participant_)
+    if (participant_ && is_face_)
+        participant_->publish_face(std::nullopt);
+    else if (participant_)
         participant_->publish({});
     participant_ = nullptr;
     numbers_.clear();

@@ -25,8 +25,8 @@ namespace theatron::publish {
 
 // The part that is the same for all cameras of a publisher.
 struct Sharing {
-    bool may_record = false;  // others may record them
-    wire::CameraFrame frame = wire::CameraFrame::room;
+    bool may_record = false;                            // others may record them
+    wire::CameraFrame frame = wire::CameraFrame::room;  // face: of one camera, the only one
 };
 
 class CameraPublisher {
@@ -60,7 +60,8 @@ public:
     };
     std::vector<Figures> figures() const;
 
-    // For the options of the participant that sends them; valid as long as the publisher.
+    // For the options of the participant that sends them; valid as long as the publisher. Those of
+    // a face are for Options::face, else for Options::publishing.
     client::Participant::Publishing events();
 
     // Offers the cameras to the session of `participant`, which must exist until end() returns.
@@ -81,6 +82,7 @@ private:
 
     const std::vector<std::string> specifications_;
     const capture::CameraPlaces places_;
+    const bool is_face_;
     std::vector<wire::OfferedCamera> offers_;
 
     mutable std::mutex mutex_;  // guards all up to `workers_`

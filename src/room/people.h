@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatars: a name, hands, and for people without a camera a floating head with a face. The face
-// shows the direction in which a person looks, a hand's finger where it points.
+// Avatars: a name, hands, and for people without a depth camera a floating head with a face, drawn
+// or that of their webcam. The face shows the direction in which a person looks, a hand's finger
+// where it points.
 #pragma once
 
 #include <optional>
@@ -13,6 +14,13 @@
 
 namespace theatron::room {
 
+// The picture of a person's own face, in place of the drawn one.
+struct FacePicture {
+    const render::SceneTexture* texture = nullptr;
+    double opacity = 1;  // below 1: it is old, and the drawn face shows through
+    std::string age;     // of an old one, for people; else empty
+};
+
 // Poses as in wire/person_pose.h: y up, -z forward, metres.
 struct RoomPerson {
     ParticipantId id{};
@@ -22,6 +30,7 @@ struct RoomPerson {
     std::string age;        // of what is seen of it, above the name; empty: not shown
     // It is seen as a point cloud, in place of the head with a face.
     bool has_cloud = false;
+    std::optional<FacePicture> face;
     bool calls = false;   // asks the others to come
     bool points = false;  // with the right hand
 };
@@ -40,7 +49,9 @@ public:
                 const render::CameraView& view) const;
 
 private:
-    render::SceneMesh skin_, eyes_, pupils_, hand_;
+    void add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
+
+    render::SceneMesh skin_, nose_, eyes_, pupils_, hand_, picture_, rim_;
 };
 
 }  // namespace theatron::room

@@ -62,6 +62,62 @@ TEST_F(PeopleTest, ShowTheirFaceWhereTheyLook) {
     EXPECT_EQ(white({0, 1.6, -3}), 0) << "the back of a head";
 }
 
+// Red on the reader's left, blue on the right.
+render::SceneTexture two_colors() {
+    ColorImage image({64, 48});
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = i % 64 < 32 ? Rgb{220, 60, 40} : Rgb{40, 90, 220};
+    render::SceneTexture texture(image.size);
+    texture.set(image.view());
+    return texture;
+}
+
+ColorImage drawn(const RoomPerson& person, const render::CameraView& view) {
+    render::SceneFrame frame = seen({person}, view);
+    frame.texts.clear();
+    render::ScenePasses passes(nullptr);
+    return render::draw_and_read(&frame, {}, {view}, {160, 120}, &passes).color;
+}
+
+bool is_red(Rgb c) {
+    return c.r > 180 && c.g < 100 && c.b < 100;
+}
+bool is_blue(Rgb c) {
+    return c.r < 100 && c.g < 130 && c.b > 180;
+}
+
+TEST_F(PeopleTest, ThePictureOfAFaceIsUprightAndNotMirroredOnTheHead) {
+    const render::SceneTexture texture = two_colors();
+    RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, {0, 1.6, 3});
+    person.face = FacePicture{&texture, 1, ""};
+    const ColorImage picture = drawn(person, view);
+    const auto at = [&](int x, int y) { return picture.view().row(y)[x]; };
+    EXPECT_TRUE(is_red(at(72, 60)));
+    EXPECT_TRUE(is_blue(at(88, 60)));
+    EXPECT_FALSE(is_red(at(30, 60)) || is_blue(at(30, 60))) << "beside the picture";
+    int reds = 0;
+    for (const Rgb& pixel : picture.pixels)
+        reds += is_red(pixel);
+    // Half of 0.28 m x 0.21 m, 0.86 m away, at 104 pixels a metre in a distance of one metre.
+    EXPECT_NEAR(reds, 0.5 * 0.28 * 0.21 * 121 * 121, 60);
+}
+
+TEST_F(PeopleTest, APictureThatFadesShowsTheDrawnFaceAndSaysHowOldItIs) {
+    const render::SceneTexture texture = two_colors();
+    RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, {0, 1.6, 3});
+    const std::size_t plain = seen({person}, view).objects.size();
+    person.face = FacePicture{&texture, 1, ""};
+    EXPECT_LT(seen({person}, view).objects.size(), plain) << "no eyes behind the picture";
+    person.face = FacePicture{&texture, 0.5, "picture stands still for 2 s"};
+    const render::SceneFrame frame = seen({person}, view);
+    EXPECT_EQ(frame.objects.size(), plain + 2) << "rim and picture before the face";
+    ASSERT_EQ(frame.texts.size(), 2u);
+    EXPECT_EQ(frame.texts[1].utf8, "picture stands still for 2 s");
+    person.has_cloud = true;
+    EXPECT_TRUE(seen({person}, view).objects.empty()) << "the cloud has a face";
+    EXPECT_EQ(seen({person}, view).texts.size(), 1u);
+}
+
 TEST_F(PeopleTest, WhoseHeadTheEyeIsInAreNotDrawn) {
     const RoomPerson person =
         person_at(ParticipantId{1}, view.room_from_eye.translation, {0, 1.6, 0});

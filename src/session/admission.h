@@ -72,6 +72,7 @@ public:
         std::optional<wire::Join> asked;         // while it waits for admission
         bool asks_to_publish = false;            // as in wire::Join
         std::uint64_t denied = 0;                // messages that its role does not allow
+        std::uint64_t refused_faces = 0;         // pictures beyond face_limits.h
         bool records = false;                    // as in wire::Join
         wire::Patient patient;                   // that it was told; empty: none
         std::size_t max_media = 0;               // bytes of its largest media message so far

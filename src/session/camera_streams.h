@@ -38,9 +38,14 @@ public:
     // Within its limits.
     void adjust(const CameraAdjustment& adjustment);
     ParticipantId publisher() const { return description_.publisher; }
-    // Nobody gets its own camera, and a recorder only cameras that may be recorded.
-    bool is_for(ParticipantId receiver, bool records) const {
-        return publisher() != receiver && (description_.may_record || !records);
+    bool is_face() const { return description_.frame == wire::CameraFrame::face; }
+    // Nobody is told of its own camera, and of faces only programs that show them.
+    bool is_told_to(ParticipantId receiver, bool takes_faces) const {
+        return publisher() != receiver && (takes_faces || !is_face());
+    }
+    // A recorder gets only cameras that may be recorded.
+    bool is_for(ParticipantId receiver, bool takes_faces, bool records) const {
+        return is_told_to(receiver, takes_faces) && (description_.may_record || !records);
     }
     StreamId stream(bool depth) const {
         return depth ? description_.depth_stream : description_.color_stream;

@@ -180,7 +180,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
         streams_.join(id,
                       {config_.check_depth(hello.depth_codec).codec,
                        config_.check_color(hello.color_codec).codec},
-                      hello.records);
+                      hello.records, participant.has(wire::Feature::webcam));
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
     tell_renderer(id);
@@ -199,13 +199,15 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
 void HostSession::describe_session(ParticipantId id) {
     const Participant& participant = *admission_.find(id);
     const bool sends_only = participant.has(wire::Feature::sends_only);
-    send(id, wire::Welcome{participant.protocol, id, config_.name,
-                           sends_only ? std::vector<wire::Camera>() : streams_.seen_by(id),
-                           participant.features, config_.session});
+    const bool takes_faces = participant.has(wire::Feature::webcam);
+    send(id,
+         wire::Welcome{participant.protocol, id, config_.name,
+                       sends_only ? std::vector<wire::Camera>() : streams_.seen_by(id, takes_faces),
+                       participant.features, config_.session});
     tell_standing(id);
     if (sends_only)
         return;
-    for (const wire::CameraState& state : streams_.states_seen_by(id))
+    for (const wire::CameraState& state : streams_.states_seen_by(id, takes_faces))
         send(id, state);
 }
 

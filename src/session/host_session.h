@@ -13,6 +13,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/admission.h"
+#include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/membership.h"
@@ -176,6 +177,8 @@ private:
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
                           const std::vector<wire::Camera>& cameras) const;
+    wire::Text problem_of_faces(ParticipantId id, const std::vector<wire::Camera>& cameras,
+                                std::size_t new_faces) const;
     // `by`: the operator; 0: the person at the host's machine.
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
     void set_role(ParticipantId id, Role role);
@@ -204,6 +207,8 @@ private:
     // Removes cameras of this participant from the session.
     void unshare(ParticipantId id, const std::vector<CameraId>& cameras);
     void take_media(ParticipantId publisher);
+    bool lets_face_through(Participant& publisher, const CameraStreams& camera,
+                           const wire::MediaHeader& header, std::size_t size, TimePoint now);
     void set_budgets();
     void tell_renderer(ParticipantId id);
     void refuse(ParticipantId id, wire::Text reason);
@@ -218,7 +223,8 @@ private:
     RendererWishes renderers_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;
-    std::vector<wire::Patient> patients_;  // of offered cases
+    std::vector<wire::Patient> patients_;       // of offered cases
+    std::map<SettingId, FacePace> face_paces_;  // of active settings
     struct Adjusting {
         std::string by;
         TimePoint at;

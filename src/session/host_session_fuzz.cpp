@@ -109,7 +109,8 @@ void check_rights(const HostSession& host) {
             std::abort();
     }
     for (const wire::Camera& camera : host.streams().cameras())
-        if (camera.publisher != session::host_publisher && !may(camera.publisher, Right::publish))
+        if (camera.publisher != session::host_publisher &&
+            !may(camera.publisher, session::needed_right(camera.frame)))
             std::abort();
     for (const wire::Visitor& visitor : host.visitors())
         if (may(visitor.participant, Right::see))

@@ -33,8 +33,11 @@ bool HostSession::allow(ParticipantId id, Right right) {
 
 void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
     ++admission_.find(id)->denied;
-    if (std::holds_alternative<wire::Publish>(message))
-        send(id, wire::Published{{}, {TextCode::link_without_cameras}});
+    if (const auto* offer = std::get_if<wire::Publish>(&message))
+        send(id, wire::Published{
+                     {},
+                     {needed_right(*offer) == Right::be_seen ? TextCode::face_forbidden
+                                                             : TextCode::link_without_cameras}});
     else if (const auto* request = std::get_if<wire::RoomRequest>(&message))
         room_.refuse(id, *request, Refusal::role);
     else if (const auto* decision = std::get_if<wire::Manage>(&message))
@@ -137,7 +140,11 @@ void HostSession::set_role(ParticipantId id, Role role) {
     membership_.set_role(person.person, person.of_link, role);
     if (!person.may(Right::publish)) {
         std::erase(person.features, wire::Feature::publish);
-        unshare(id, streams_.of(id));
+        std::vector<CameraId> forbidden = streams_.of(id);
+        std::erase_if(forbidden, [&](CameraId camera) {
+            return person.may(needed_right(streams_.find(camera)->description().frame));
+        });
+        unshare(id, forbidden);
     } else if (person.asks_to_publish && !could_publish) {
         person.features.push_back(wire::Feature::publish);
     }

@@ -59,7 +59,8 @@ std::vector<HostSession::PlacedScreen> HostSession::place_screens(
     std::vector<ScreenPlace> places;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const auto calibration = decode_calibration(cameras[i].calibration);
-        if (!calibration || !is_screen(*calibration) ||
+        if (cameras[i].frame == wire::CameraFrame::face || !calibration ||
+            !is_screen(*calibration) ||
             (which == Placing::only_unplaced && calibration->registered))
             continue;
         ScreenOffer one = offer;
@@ -87,13 +88,44 @@ void HostSession::end_share(CameraId camera, ParticipantId by) {
     set_budgets();
 }
 
+// The same for the faces among them, of which there are so many.
+wire::Text HostSession::problem_of_faces(ParticipantId id, const std::vector<wire::Camera>& cameras,
+                                         std::size_t new_faces) const {
+    if (!admission_.participants().at(id).has(wire::Feature::webcam))
+        return {TextCode::face_forbidden};
+    for (const wire::Camera& camera : cameras) {
+        if (camera.frame != wire::CameraFrame::face)
+            continue;
+        const auto calibration = decode_calibration(camera.calibration);
+        if (!camera.has_color || !calibration || !is_face(*calibration, camera.frames_per_second))
+            return {TextCode::face_beyond_limits,
+                    {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
+    }
+    const std::vector<CameraId> own = streams_.of(id);
+    const bool has_one = std::any_of(
+        own.begin(), own.end(), [&](CameraId camera) { return streams_.find(camera)->is_face(); });
+    if (new_faces > 1 || has_one)
+        return {TextCode::one_face};
+    if (streams_.faces() >= max_faces)
+        return {TextCode::too_many_faces, {std::to_string(max_faces)}};
+    return {};
+}
+
 // The reason why these cameras cannot join the session; empty if they can.
 wire::Text HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
                                    const std::vector<wire::Camera>& cameras) const {
-    if (!admission_.participants().at(id).has(wire::Feature::publish))
-        return {TextCode::link_without_cameras};
+    const Participant& publisher = admission_.participants().at(id);
     if (offer.cameras.empty())
         return {TextCode::no_camera_offered};
+    const auto new_faces =
+        std::size_t(std::count_if(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
+            return camera.frame == wire::CameraFrame::face;
+        }));
+    if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
+        return {TextCode::link_without_cameras};
+    if (new_faces > 0)
+        if (wire::Text problem = problem_of_faces(id, cameras, new_faces); !problem.empty())
+            return problem;
     if (streams_.of(id).size() + cameras.size() > max_published)
         return {TextCode::too_many_own_cameras, {std::to_string(max_published)}};
     if (streams_.size() + cameras.size() > wire::max_cameras)
@@ -126,6 +158,7 @@ void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras
     for (const CameraId camera : cameras)
         room_.remove_screen(camera);
     streams_.remove(cameras);
+    face_paces_.clear();
     set_budgets();
 }
 
@@ -154,7 +187,7 @@ void HostSession::set_budgets() {
 
 std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView message,
                                                       TimePoint now) {
-    const Participant* participant = admission_.find(id);
+    Participant* participant = admission_.find(id);
     if (!participant || !participant->takes_part())
         return {};
     const auto header = wire::parse_media_header(message);
@@ -171,7 +204,22 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         refuse(id, {TextCode::foreign_picture});
         return {};
     }
+    if (camera->is_face() &&
+        !lets_face_through(*participant, *camera, *header, message.size(), now))
+        return {};
     return streams_.on_media(*header, message.size(), now);
+}
+
+// Pictures of settings that are gone are ignored later, as those of all cameras.
+bool HostSession::lets_face_through(Participant& publisher, const CameraStreams& camera,
+                                    const wire::MediaHeader& header, std::size_t size,
+                                    TimePoint now) {
+    if (!camera.table(is_depth(header.stream)).find(header.setting))
+        return true;
+    if (size <= max_face_message && face_paces_[header.setting].take(now))
+        return true;
+    ++publisher.refused_faces;
+    return false;
 }
 
 }  // namespace theatron::session

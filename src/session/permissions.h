@@ -20,6 +20,7 @@ enum class Right : std::uint8_t {
     manage,   // admit, mute and remove others, change their roles, end the session
     adjust,   // nudge cameras, draw their regions
     play,     // pause and seek the recording that the host plays
+    be_seen,  // send the picture of the own face
 };
 
 constexpr bool may(Role role, Right right) {
@@ -44,14 +45,22 @@ constexpr bool may_know_patient(Role role) {
 constexpr Right needed_right(const auto&) {
     return Right::see;
 }
-constexpr Right needed_right(const wire::Publish&) {
-    return Right::publish;
+constexpr Right needed_right(wire::CameraFrame frame) {
+    return frame == wire::CameraFrame::face ? Right::be_seen : Right::publish;
 }
+// One camera of the room is enough to need the right for it.
+inline Right needed_right(const wire::Publish& message) {
+    for (const wire::OfferedCamera& camera : message.cameras)
+        if (camera.frame != wire::CameraFrame::face)
+            return Right::publish;
+    return message.cameras.empty() ? Right::publish : Right::be_seen;
+}
+// These concern the sender's own cameras only.
 constexpr Right needed_right(const wire::Unpublish&) {
-    return Right::publish;
+    return Right::be_seen;
 }
 constexpr Right needed_right(const wire::CameraState&) {
-    return Right::publish;
+    return Right::be_seen;
 }
 // Number 0 asks for a snapshot.
 constexpr Right needed_right(const wire::RoomRequest& message) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "session/face_limits.h"
 #include "session/streams.h"
 
 namespace theatron::session {
@@ -17,14 +18,15 @@ const std::string& Streams::Receiver::wished(CameraId camera, bool depth) const 
                                                                    : pick(wish);
 }
 
-void Streams::join(ParticipantId id, const Wish& wish, bool records) {
+void Streams::join(ParticipantId id, const Wish& wish, bool records, bool takes_faces) {
     Receiver& receiver = receivers_[id];
     receiver.wish = wish;
     receiver.records = records;
+    receiver.takes_faces = takes_faces;
     receiver.delivery.set_codecs(config_.codecs, region_is_drawn_);
     receiver.delivery.set_wish(wish.depth, wish.color);
     for (auto& [camera, streams] : cameras_)
-        if (streams.is_for(id, records)) {
+        if (gets(streams, id, receiver)) {
             set_wish(id, receiver, streams, true);
             set_wish(id, receiver, streams, false);
         }
@@ -81,7 +83,7 @@ void Streams::choose(ParticipantId id, const Wish& wish, const std::vector<Camer
     for (auto& [camera, streams] : cameras_) {
         const bool is_meant =
             cameras.empty() || std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
-        if (!streams.is_for(id, receiver.records) || !is_meant)
+        if (!gets(streams, id, receiver) || !is_meant)
             continue;
         if (!wish.depth.empty())
             set_wish(id, receiver, streams, true);
@@ -95,7 +97,10 @@ void Streams::choose(ParticipantId id, const Wish& wish, const std::vector<Camer
 void Streams::set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth) {
     camera.receivers.try_emplace(id);
     SettingTable& table = camera.table(depth);
-    table.wish(id, receiver.wished(camera.description().id, depth));
+    if (camera.is_face())
+        table.wish(id, std::string(depth ? face_depth_codec : face_color_codec));
+    else
+        table.wish(id, receiver.wished(camera.description().id, depth));
     if (receiver.records)
         table.pin(id);
 }
@@ -109,11 +114,13 @@ const LadderStep& Streams::step_for(ParticipantId id, Receiver& receiver,
 // Asks for the encodings of the receiver's step.
 void Streams::take_step(ParticipantId id, Receiver& receiver) {
     for (auto& [number, camera] : cameras_)
-        if (camera.is_for(id, receiver.records))
+        if (gets(camera, id, receiver))
             take_step(id, receiver, camera);
 }
 
 void Streams::take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera) {
+    if (camera.is_face())
+        return;  // fewer pictures are sent, but no other ones
     const LadderStep step = step_for(id, receiver, camera);
     camera.table(true).stopgap(id, step.depth_codec);
     camera.table(false).stopgap(id, step.color_codec);
@@ -134,7 +141,7 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
     Receiver& receiver = found->second;
     std::vector<Delivery::Given> given;
     for (const auto& [number, camera] : cameras_)
-        if (camera.is_for(id, receiver.records))
+        if (gets(camera, id, receiver))
             given.push_back(
                 {&camera.table(true).given(id),
                  camera.description().has_color ? &camera.table(false).given(id) : nullptr,
@@ -242,8 +249,10 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
         send(id, std::move(message));
 }
 
-// Empty if the receiver gets the settings that it requested.
+// Empty if the receiver gets the settings that it requested. It requests none for faces.
 wire::Text Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
+    if (camera.is_face())
+        return {};
     for (const bool depth : {true, false}) {
         const LadderStep& step = step_for(id, receiver, camera);
         const std::string& asked = receiver.records

@@ -56,7 +56,8 @@ bool can_be_adjusted(const CameraStreams& camera, const CameraAdjustment& adjust
 int Streams::free_slot() const {
     std::set<int> taken;
     for (const auto& [id, camera] : cameras_)
-        taken.insert(camera.slot);
+        if (!camera.is_face())
+            taken.insert(camera.slot);
     int slot = 0;
     while (taken.contains(slot))
         ++slot;
@@ -85,15 +86,20 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras,
             camera = streams.description();
         }
         for (auto& [id, receiver] : receivers_)
-            if (streams.is_for(id, receiver.records)) {
+            if (gets(streams, id, receiver)) {
                 set_wish(id, receiver, streams, true);
                 set_wish(id, receiver, streams, false);
                 take_step(id, receiver, streams);
             }
     }
-    for (const auto& [id, receiver] : receivers_)
-        if (id != publisher && !cameras.empty())
-            send(id, wire::CamerasAdded{cameras});
+    for (const auto& [id, receiver] : receivers_) {
+        wire::CamerasAdded added;
+        for (const wire::Camera& camera : cameras)
+            if (cameras_.at(camera.id).is_told_to(id, receiver.takes_faces))
+                added.cameras.push_back(camera);
+        if (!added.cameras.empty())
+            send(id, std::move(added));
+    }
     apply();
 }
 
@@ -118,7 +124,7 @@ void Streams::remove(const std::vector<CameraId>& cameras) {
             receiver.wishes.erase(camera);
             receiver.delivery.forget(depth_stream(camera));
             receiver.delivery.forget(color_stream(camera));
-            if (id != found->second.publisher())
+            if (found->second.is_told_to(id, receiver.takes_faces))
                 removals[id].cameras.push_back(camera);
         }
         cameras_.erase(found);
@@ -147,18 +153,24 @@ std::vector<wire::Camera> Streams::cameras() const {
     return result;
 }
 
-std::vector<wire::Camera> Streams::seen_by(ParticipantId participant) const {
+std::size_t Streams::faces() const {
+    return std::size_t(std::count_if(cameras_.begin(), cameras_.end(),
+                                     [](const auto& entry) { return entry.second.is_face(); }));
+}
+
+std::vector<wire::Camera> Streams::seen_by(ParticipantId participant, bool takes_faces) const {
     std::vector<wire::Camera> result;
     for (const auto& [id, camera] : cameras_)
-        if (camera.publisher() != participant)
+        if (camera.is_told_to(participant, takes_faces))
             result.push_back(camera.description());
     return result;
 }
 
-std::vector<wire::CameraState> Streams::states_seen_by(ParticipantId participant) const {
+std::vector<wire::CameraState> Streams::states_seen_by(ParticipantId participant,
+                                                       bool takes_faces) const {
     std::vector<wire::CameraState> result;
     for (const auto& [id, camera] : cameras_)
-        if (camera.publisher() != participant && camera.state)
+        if (camera.is_told_to(participant, takes_faces) && camera.state)
             result.push_back(*camera.state);
     return result;
 }

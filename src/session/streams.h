@@ -62,8 +62,11 @@ public:
     std::vector<CameraId> of(ParticipantId publisher) const;
     std::vector<wire::Camera> cameras() const;
     // The cameras that a participant receives: all but its own.
-    std::vector<wire::Camera> seen_by(ParticipantId participant) const;
-    std::vector<wire::CameraState> states_seen_by(ParticipantId participant) const;
+    std::vector<wire::Camera> seen_by(ParticipantId participant, bool takes_faces = false) const;
+    std::vector<wire::CameraState> states_seen_by(ParticipantId participant,
+                                                  bool takes_faces = false) const;
+    // The pictures of faces among the cameras.
+    std::size_t faces() const;
     void on_state(const wire::CameraState& state);
     // Adjusts a camera for all who see it. Cameras that move with a person cannot be, and only the
     // host's own have a region.
@@ -83,8 +86,9 @@ public:
     struct Wish {
         std::string depth, color;
     };
-    // A receiver that records gets everything, and others do not change its encodings.
-    void join(ParticipantId receiver, const Wish& wish, bool records);
+    // A receiver that records gets everything, and others do not change its encodings. Faces go to
+    // receivers that take them, in codecs of their own (face_limits.h).
+    void join(ParticipantId receiver, const Wish& wish, bool records, bool takes_faces = false);
     void leave(ParticipantId receiver);
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(ParticipantId receiver, const Wish& wish, const std::vector<CameraId>& cameras);
@@ -115,7 +119,7 @@ private:
     struct Receiver {
         Wish wish;
         std::map<CameraId, Wish> wishes;  // for single cameras; empty texts: as `wish`
-        bool records = false;
+        bool records = false, takes_faces = false;
         Delivery delivery;
 
         const std::string& wished(CameraId camera, bool depth) const;
@@ -123,6 +127,9 @@ private:
 
     void send(ParticipantId participant, wire::ToParticipant message) {
         actions_.push_back(action::Send{participant, std::move(message)});
+    }
+    static bool gets(const CameraStreams& camera, ParticipantId id, const Receiver& receiver) {
+        return camera.is_for(id, receiver.takes_faces, receiver.records);
     }
     void keep(const CameraStreams& camera);
     void tell_changed(const CameraStreams& camera);

@@ -134,6 +134,10 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                                        std::string(status.standing.muted ? ", muted" : "")});
         if (const auto microphone = microphone_fact(facts.voices, status.standing))
             line.push_back(*microphone);
+        if (facts.own_face == OwnFace::seen)
+            line.push_back({"Webcam", "you are seen", true});
+        if (facts.own_face == OwnFace::opening)
+            line.push_back({"Webcam", "is being opened"});
         line.push_back(cameras_fact(cameras));
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/participant_figures.h"
+#include "viewer/own_face.h"
 #include "viewer/voices.h"
 #include "xr/drawing_pace.h"
 #include "xr/overlay_content.h"
@@ -33,6 +34,7 @@ struct Facts {
     Voices voices;
     std::optional<xr::PanelRow> bar = {};                 // of the recording that the host plays
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
+    OwnFace own_face = OwnFace::none;
     bool trust = false;  // the panel of trust_panel.h is shown, too
 };
 

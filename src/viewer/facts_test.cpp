@@ -56,6 +56,18 @@ TEST(Overlay, ShowsTheMicrophoneOfAWindowThatHasOne) {
     EXPECT_TRUE(fact(overlay(facts), "Microphone").warning);
 }
 
+TEST(Overlay, SaysVisiblyThatThePersonIsSeen) {
+    Facts facts = healthy();
+    EXPECT_EQ(fact(overlay(facts), "Webcam").value, "");
+    facts.own_face = OwnFace::opening;
+    EXPECT_EQ(fact(overlay(facts), "Webcam").value, "is being opened");
+    facts.own_face = OwnFace::seen;
+    facts.line = false;
+    EXPECT_EQ(fact(overlay(facts), "Webcam").value, "you are seen") << "also in a hidden line";
+    facts.own_face = OwnFace::off;
+    EXPECT_EQ(fact(overlay(facts), "Webcam").value, "");
+}
+
 TEST(Overlay, MarksDepthThatIsNotWhatTheCameraMeasured) {
     Facts facts = healthy();
     facts.received.cameras[0].depth.codec = "h264";

@@ -27,6 +27,10 @@ LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
     return {camera.description.session, camera.description.name};
 }
 
+bool is_face(const client::Participant::Camera& camera) {
+    return camera.description.frame == wire::CameraFrame::face;
+}
+
 // The person whom the camera sees and moves with, if it is no camera of the room. In a replay the
 // host's cameras see people of the recording.
 std::optional<ParticipantId> person_of(const client::Participant::Camera& camera) {
@@ -53,7 +57,10 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
     std::vector<CameraId> updated;
     for (const auto& frame : participant.take_frames())
         // A frame of a size that the calibration does not know cannot be shown.
-        if (screens_.has(frame->camera)) {
+        if (faces_.has(frame->camera)) {
+            faces_.take(*frame, participant.now());
+            updated.push_back(frame->camera);
+        } else if (screens_.has(frame->camera)) {
             screens_.take(*frame);
             updated.push_back(frame->camera);
         } else if (person_clouds_.has(frame->camera)) {
@@ -64,6 +71,7 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
             updated.push_back(frame->camera);
         }
     note_screens(participant);
+    captions_changed_ |= faces_.note(participant.now());
     return updated;
 }
 
@@ -104,12 +112,20 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
                 clouds_.remove_camera(id);
             person_clouds_.remove_camera(id);
             screens_.remove_camera(id);
+            captions_changed_ |= faces_.has(id);
+            faces_.remove_camera(id);
             origins_.erase(id);
             presence_.erase(id);
             newest_.erase(id);
         }
     for (const auto& camera : cameras) {
         const CameraId id = camera.description.id;
+        if (is_face(camera)) {
+            origins_[id] = origin_of(camera);
+            if (is_screen(camera.calibration))
+                faces_.set_camera(camera.description.publisher, id, camera.calibration);
+            continue;
+        }
         if (const auto person = person_of(camera)) {
             origins_[id] = origin_of(camera);
             person_clouds_.set_camera(*person, id, camera.calibration);
@@ -169,7 +185,7 @@ void LiveScene::cut_people(const std::vector<client::Participant::Camera>& camer
 void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {
     std::vector<room::RoomCamera> marks;
     for (const auto& camera : cameras) {
-        if (person_of(camera) || is_screen(camera.calibration))
+        if (person_of(camera) || is_screen(camera.calibration) || is_face(camera))
             continue;
         std::string label = camera.description.name;
         if (camera.state.condition != wire::CameraCondition::live)
@@ -289,6 +305,7 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
             room_.build(frame_.quality);
         if (!real_room_)
             room_.add_to(frame_, view);
+        meeting_.set_faces(faces_.pictures());
         meeting_.add_to(frame_, view);
         add_pointers(view);
         if (menu_)
@@ -396,7 +413,9 @@ void LiveScene::add_ages(const render::CameraView& view) {
 bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     const double step = to_seconds(now - faded_at_) / fading_seconds;
     faded_at_ = now;
-    bool changed = std::exchange(captions_changed_, false);
+    // Also while no frames are taken.
+    bool changed = faces_.note(participant.now());
+    changed = std::exchange(captions_changed_, false) || changed;
     if (now - judged_at_ >= judge_every) {
         judged_at_ = now;
         live_.clear();

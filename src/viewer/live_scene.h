@@ -12,6 +12,7 @@
 #include "room/pointers.h"
 #include "room/virtual_room.h"
 #include "viewer/cloud_pick.h"
+#include "viewer/face_pictures.h"
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
 #include "viewer/person_clouds.h"
@@ -70,7 +71,7 @@ public:
     // True while the picture changes by that.
     bool fade(const client::Participant& participant, TimePoint now);
 
-    // The cameras of the room, without screens and those that see their publisher.
+    // The cameras of the room, without screens, faces and those that see their publisher.
     bool has_picture() const { return !newest_.empty(); }
     // The host has told its cameras, and there are none of the room.
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
@@ -143,8 +144,9 @@ private:
     render::CloudSet clouds_;  // of the room's cameras
     PersonClouds person_clouds_;
     SharedScreens screens_;
+    FacePictures faces_;
     TimePoint screens_noted_at_;
-    bool captions_changed_ = false;  // since the last fade()
+    bool captions_changed_ = false;  // or faces, since the last fade()
     double point_size_ = 1;
     room::VirtualRoom room_;
     Meeting meeting_;

@@ -157,9 +157,12 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
         self.right_hand = own_hands_[1];
         shown.push_back(std::move(self));
     }
-    for (room::RoomPerson& person : shown)
+    for (room::RoomPerson& person : shown) {
         if (const auto meter = meters_.find(person.id); meter != meters_.end())
             person.name += " " + meter->second;
+        if (const auto face = faces_.find(person.id); face != faces_.end())
+            person.face = face->second;
+    }
     avatars_->add_to(frame, shown, view);
 }
 

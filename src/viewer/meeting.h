@@ -37,6 +37,10 @@ public:
     // The people who are seen as point clouds, from the next take().
     void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }
 
+    // The pictures of faces on the heads of these people, in the next pictures; their textures must
+    // exist until the next call.
+    void set_faces(std::map<ParticipantId, room::FacePicture> faces) { faces_ = std::move(faces); }
+
     // Shows or hides the age of each person in the room; that of an old view is always shown.
     void set_ages_shown(bool shown) { shows_ages_ = shown; }
 
@@ -102,6 +106,7 @@ private:
     client::Participant::Room room_;
     std::vector<room::RoomPerson> people_;
     std::set<ParticipantId> clouds_;
+    std::map<ParticipantId, room::FacePicture> faces_;
     bool shows_ages_ = false;
     std::map<ParticipantId, std::string> meters_;  // of those who speak
     std::map<ParticipantId, session::PoseTrack> tracks_;

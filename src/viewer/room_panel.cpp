@@ -99,6 +99,10 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                                               : button("Call all to me", Call{true})}});
     if (who.rows.empty())
         who.rows.push_back({"Nobody else is here", "", {}});
+    if (facts.own_face == OwnFace::off)
+        who.rows.push_back({"", "", {button("Show my face", ShowFace{true})}});
+    else if (facts.own_face != OwnFace::none)
+        who.rows.push_back({"", "You are seen", {button("Hide my face", ShowFace{false})}});
     panel.panels.push_back(std::move(who));
     if (facts.places.empty())
         return panel;

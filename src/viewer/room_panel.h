@@ -10,6 +10,7 @@
 
 #include "session/mark.h"
 #include "viewer/meeting.h"
+#include "viewer/own_face.h"
 #include "viewer/places.h"
 #include "viewer/voices.h"
 #include "xr/overlay_content.h"
@@ -62,6 +63,9 @@ struct AdjustStep {  // of the chosen camera
     int part = 0;       // 0 to 2: moved along x, y, z; 3 to 5: turned about them
     double by = 0;      // metres or degrees, for `step`
 };
+struct ShowFace {  // the user's own; false: no longer
+    bool shown = false;
+};
 struct PlayStep {  // of the recording that the host plays
     enum class What { toggle, back, forward, slide } what{};
 };
@@ -73,7 +77,7 @@ struct ChangeScreen {
 };
 using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
                                  ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall,
-                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen>;
+                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen, ShowFace>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
@@ -89,6 +93,7 @@ struct RoomPanelFacts {
     std::vector<wire::Visitor> visitors;    // who wait for that
     bool may_call = false, is_calling = false;
     std::map<ParticipantId, int> speaking = {};  // as in Voices
+    OwnFace own_face = OwnFace::none;
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

@@ -49,6 +49,20 @@ TEST(RoomPanel, ListsPeopleWithWhatTheyDoAndPlaces) {
     EXPECT_TRUE(std::holds_alternative<GoToPlace>(panel.commands.at(place.command)));
 }
 
+TEST(RoomPanel, HasAButtonForThePersonsOwnFaceWhereThereIsAWebcam) {
+    RoomPanelFacts facts;
+    const std::size_t without = room_panel(facts).commands.size();
+    for (const auto& [state, shows] :
+         {std::pair{OwnFace::off, true}, {OwnFace::opening, false}, {OwnFace::seen, false}}) {
+        facts.own_face = state;
+        const RoomPanel panel = room_panel(facts);
+        ASSERT_EQ(panel.commands.size(), without + 1);
+        const auto* face = std::get_if<ShowFace>(&panel.commands.back());
+        ASSERT_TRUE(face);
+        EXPECT_EQ(face->shown, shows);
+    }
+}
+
 TEST(RoomPanel, OperatorsDecideOnPeople) {
     RoomPanelFacts facts;
     facts.room.self = ParticipantId{1};

@@ -189,6 +189,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::microphone:
         case xr::Action::push_to_talk:
         case xr::Action::voice_recording:
+        case xr::Action::own_face:
         case xr::Action::save_picture:
         case xr::Action::save_points:
             break;  // of the window, not of the scene
@@ -236,6 +237,10 @@ void Viewer::press(int command, TimePoint now) {
     if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
         slides_playback_ = false;
         return adjusting_.carry_out(*step);
+    }
+    if (const auto* face = std::get_if<ShowFace>(&chosen)) {
+        face_wish_ = face->shown;
+        return;
     }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
@@ -438,23 +443,30 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     const std::set<CameraId> updated = std::exchange(updated_, {});
     if (updated.empty())
         return;
-    presented_at_ = end;
     // The session's time is known once the host has answered.
     if (participant_.status().round_trip == Duration{})
         return;
     const TimePoint presented = participant_.session_time(end);
-    double age_ms = 0;
+    // Screens and faces tell their ages themselves.
+    std::optional<double> age_ms;
     for (const CameraId camera : updated)
         if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
-            age_ms = std::max(age_ms, to_ms(presented - frame->second->times.captured));
+            age_ms = std::max(age_ms.value_or(0), to_ms(presented - frame->second->times.captured));
+    if (!age_ms)
+        return;
+    presented_at_ = end;
     age_at_presentation_ms_ = age_ms;
-    ages_ms_.add(age_ms);
-    all_ages_ms_.add(age_ms);
+    ages_ms_.add(*age_ms);
+    all_ages_ms_.add(*age_ms);
 }
 
 Facts Viewer::facts(TimePoint now) {
     Facts facts;
     facts.received = client::figures_of(participant_);
+    // Faces are people, not cameras of the room.
+    std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
+        return one.camera.description.frame == wire::CameraFrame::face;
+    });
     facts.visitors = participant_.visitors();
     facts.has_picture = eye_.is_placed();
     if (age_at_presentation_ms_) {
@@ -478,7 +490,7 @@ Facts Viewer::facts(TimePoint now) {
                        room_panel({scene_.meeting().room(), scene_.meeting().people(),
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
-                                   is_calling(now), voices_.speaking}));
+                                   is_calling(now), voices_.speaking, own_face_}));
         const client::Participant::Room& room = scene_.meeting().room();
         ScreenPanelFacts screens{&room.objects, room.self, role, {}};
         for (const room::RoomPerson& person : scene_.meeting().people())
@@ -500,6 +512,7 @@ Facts Viewer::facts(TimePoint now) {
     commands_ = std::move(panel.commands);
     facts.line = line_;
     facts.voices = voices_;
+    facts.own_face = own_face_;
     facts.trust = shows_panels_;
     return facts;
 }

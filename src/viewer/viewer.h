@@ -103,6 +103,10 @@ public:
 
     // Facts for the user, at `now`.
     Facts facts(TimePoint now);
+    // How the person's own face stands, and the person's choice in the panel since the last call,
+    // which the program carries out.
+    void set_own_face(OwnFace face) { own_face_ = face; }
+    std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
     // The newest voices, for the panels and the names of people.
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
@@ -203,6 +207,8 @@ private:
     bool sent_pointing_ = false;
     bool sits_ = false;
     Voices voices_;
+    OwnFace own_face_ = OwnFace::none;
+    std::optional<bool> face_wish_;
     bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;

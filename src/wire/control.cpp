@@ -155,10 +155,10 @@ bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
 bool is_sound(const OfferedCamera& camera) {
-    return camera.frame <= CameraFrame::person;
+    return camera.frame <= CameraFrame::face;
 }
 bool is_sound(const Camera& camera) {
-    return camera.frame <= CameraFrame::person;
+    return camera.frame <= CameraFrame::face;
 }
 bool is_sound(const Manage& decision) {
     return decision.action >= ManageAction::admit && decision.action <= ManageAction::end_session &&

@@ -53,6 +53,7 @@ enum class Feature : std::uint16_t {
     adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
     playback = 7,       // is told where the host's recording is, and may play it
     screens = 8,        // is told with ShareEnded that others have ended its screens
+    webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
 };
 inline constexpr std::size_t max_features = 32;
@@ -124,6 +125,9 @@ enum class CameraFrame : std::uint8_t {
     // points where the person looks, without its slope. The person's pose moves it through the
     // room.
     person = 1,
+    // None: the camera is the picture of its publisher's face, a small screen (geometry/screen.h)
+    // that is drawn on the head. For those who have Feature::webcam; others cannot read it.
+    face = 2,
 };
 
 // A camera that a participant offers. The host gives it its number.

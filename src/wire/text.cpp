@@ -104,6 +104,14 @@ constexpr Row rows[] = {
      "The session has had so many cameras that there are no numbers left; the host has to be "
      "started anew."},
     {TextCode::offered_too_often, "Cameras were offered too often; wait a little."},
+    {TextCode::face_beyond_limits,
+     "The picture of a face is a screen of at most {0} pixels, {1} times a second."},
+    {TextCode::one_face, "A participant shows one face; withdraw the first one."},
+    {TextCode::too_many_faces,
+     "The session shows {0} faces, which is as many as can be; you are seen without a picture."},
+    {TextCode::face_forbidden, "Observers show no face; ask the operator to make you an expert."},
+    {TextCode::host_without_faces,
+     "This host is too old to show your face; you are seen without a picture."},
 
     {TextCode::object_gone, "That object is gone"},
     {TextCode::held_by_another, "Somebody else holds this"},

@@ -79,6 +79,11 @@ enum class TextCode : std::uint16_t {
     session_full = 403,          // {0}: how many there can be
     no_camera_numbers = 404,
     offered_too_often = 405,
+    face_beyond_limits = 406,  // {0}: pixels, {1}: pictures a second
+    one_face = 407,
+    too_many_faces = 408,  // {0}: how many there can be
+    face_forbidden = 409,
+    host_without_faces = 410,
 
     // Requests to change the room.
     object_gone = 500,

@@ -300,7 +300,7 @@ TEST(Control, EveryMessageRoundTrips) {
         round_trip(Publish{{{"face", true, 30, numbered(5), true, CameraFrame::person}}});
     EXPECT_EQ(offer.cameras.at(0).frame, CameraFrame::person);
     EXPECT_FALSE(
-        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraFrame{2}}}})));
+        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraFrame{3}}}})));
     ASSERT_EQ(offer.cameras.size(), 1u);
     EXPECT_EQ(offer.cameras[0].name, "face");
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));

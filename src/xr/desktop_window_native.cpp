@@ -82,6 +82,8 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::freeze};
         case SDLK_F7:
             return KeyPress{Action::push_to_talk};
+        case SDLK_F4:
+            return KeyPress{Action::own_face};
         case SDLK_F8:
             return KeyPress{Action::voice_recording};
         case SDLK_F9:

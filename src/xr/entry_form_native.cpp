@@ -207,6 +207,7 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     ImGui::BeginDisabled(!fields.speaks);
     ImGui::Checkbox("My voice may be recorded", &fields.voice_may_record);
     ImGui::EndDisabled();
+    ImGui::Checkbox("Show my face with my webcam", &fields.shows_face);
 
     ImGui::Dummy({0, 0.5f * float(text_pixels)});
     if (facts.is_problem)

@@ -20,6 +20,7 @@ struct EntryFields {
     bool hears = true;              // the others
     bool speaks = false;            // to the others
     bool voice_may_record = false;  // the person agrees that others record the voice
+    bool shows_face = false;        // with a webcam
 
     bool operator==(const EntryFields&) const = default;
 };

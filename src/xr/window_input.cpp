@@ -17,6 +17,7 @@ const std::vector<KeyHelp>& key_help() {
         {"L", "Close or open your microphone (join --microphone)"},
         {"F7; Enter, held", "Push to talk, or an open microphone; speak"},
         {"F8", "Agree that others record your voice, or no longer"},
+        {"F4", "Show your face on your avatar with your webcam, or no longer"},
         {"P", "People, shared screens and places: go to somebody, see through their eyes"},
         {"O", "The case: open it, its parts, cuts and images"},
         {"Shift and left button on an organ", "Hold the part under the mouse; Delete hides it"},

@@ -26,6 +26,7 @@ enum class Action {
     microphone,       // closes or opens it
     push_to_talk,     // speak only while a key is held, or with an open microphone
     voice_recording,  // agrees that others record this person's voice, or no longer
+    own_face,         // shows the others this person's webcam, or no longer
     people,           // shows or hides the panel of people and places
     show_case,        // shows or hides the panel of the case
     marks,            // begins or ends marking, and shows or hides its panel

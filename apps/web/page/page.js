@@ -2,10 +2,11 @@
 // The page: the join form, the loop of pictures, and the panels beside them.
 import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
+import { Face } from "./face.js";
 import { FlatView, Patience, find_graphics } from "./graphics.js";
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
-import { fill_texts, show, show_voices } from "./panels.js";
+import { fill_texts, show, show_face, show_voices } from "./panels.js";
 import { put_bytes, with_program } from "./program.js";
 import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
@@ -70,12 +71,17 @@ async function load_client() {
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
         allow_voice_recording: [null, numbers(1)],
+        show_face: [null, numbers(3)],
+        send_face: [null, numbers(1)],
+        note_face: [null, numbers(1)],
+        face_wish: ["number", []],
     };
     const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
     const voice = new Voice((number, age_us, pauses, level_db, opus) =>
         client.speak(number, age_us, pauses, level_db, opus, opus.length), () => show_voices(voice, page.state));
     module.on_voice = (speaker, packet) => voice.hear(speaker, packet);
+    const face = page.face = new Face($("own_face_picture"), module, client);
     page.reset_figures = client.reset_figures;
     page.time_strata = (hex, passes) => {
         put_bytes(module, Uint8Array.from(hex.match(/../g), digits => parseInt(digits, 16)).buffer);
@@ -85,9 +91,9 @@ async function load_client() {
     page.workers = await starting;
     join_workers(module, page.workers, () => {
         client.leave();
-        leave(voice, text("decoder_ended"));
+        leave(voice, face, text("decoder_ended"));
     });
-    return { client, voice, module, flat: new FlatView($("flat"), module, client) };
+    return { client, voice, face, module, flat: new FlatView($("flat"), module, client) };
 }
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
@@ -98,7 +104,7 @@ function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
 }
 
-function run({ client, voice, module, flat }) {
+function run({ client, voice, face, module, flat }) {
     const canvas = $("view");
     let patience = new Patience();
     let next_texts = 0;
@@ -155,10 +161,22 @@ function run({ client, voice, module, flat }) {
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => location.reload());
 
+    $("hide_face").addEventListener("click", () => face.hide());
+    // The host's refusal is a remark, which is shown.
+    const follow_face = () => {
+        const wish = client.face_wish();
+        if (wish === 1)
+            face.show();
+        if (wish === 2 || (face.state === "on" && page.state.face_problem))
+            face.hide();
+        client.note_face({ asking: 1, on: 2 }[face.state] ?? 0);
+        show_face(face, page.way);
+    };
     const show_state = () => {
+        follow_face();
         page.state = JSON.parse(client.state());
         if (page.state.phase === "left")
-            return leave(voice, page.state.problem);
+            return leave(voice, face, page.state.problem);
         show(page.state);
         show_way(page.state);
         place_voices(voice, page.state);
@@ -188,6 +206,7 @@ function run({ client, voice, module, flat }) {
         page.why = why;
         patience = new Patience();
         enter(client);
+        follow_way(face);
     };
     $("other_way").addEventListener("click", () => change_way(page.way === "flat" ? "room" : "flat", ""));
     $("next_camera").addEventListener("click", () => client.flat_next());
@@ -335,8 +354,17 @@ function enter(client) {
     allow_voice_recording(client, page.voice_may_record);
 }
 
-function leave(voice, problem) {
+// In the 2D view a person has no head that the others see.
+function follow_way(face) {
+    if (page.way === "flat")
+        face.hide();
+    else
+        face.offer();
+}
+
+function leave(voice, face, problem) {
     voice.leave();
+    face.hide();
     $("view").hidden = $("flat").hidden = $("panels").hidden = true;
     $("lobby").hidden = false;
     if (problem)
@@ -380,7 +408,7 @@ async function main() {
         $("enter").disabled = true;
         $("problem").textContent = text("loading");
         try {
-            const program = await loading, { client, voice } = program;
+            const program = await loading, { client, voice, face } = program;
             store("name", name);
             store("speaks", $("speaks").checked ? "yes" : "no");
             store("pushes", $("pushes").checked ? "yes" : "no");
@@ -398,6 +426,8 @@ async function main() {
             voice.begin().catch(error => console.warn(`no sound: ${error.message}`));
             if ($("speaks").checked)
                 voice.open_microphone();
+            if ($("shows_face").checked && page.way === "room")
+                face.show();
             begin ??= run(program);
             begin();
         } catch (error) {

@@ -115,6 +115,16 @@ export function show_voices(voice, { people = [], is_heard, is_muted, is_recorde
     set_text($("speaking"), names.length ? text("speaking", { names: names.join(", ") }) : "");
 }
 
+// The person's own picture while it is sent, or why it is not.
+export function show_face(face, way) {
+    $("own_face").hidden = face.state !== "on";
+    const hint = way === "flat" && $("shows_face").checked ? "face_flat"
+        : face.state === "asking" ? "face_asking"
+        : face.state === "denied" ? "face_denied"
+        : face.state === "missing" ? "face_missing" : "";
+    set_text($("face_hint"), hint ? text(hint) : "");
+}
+
 export function show(state) {
     const { overlay } = state;
     set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).map(session_text).join("\n"));

@@ -17,6 +17,8 @@ const german = {
         "Go": "Hingehen", "Go to": "Hingehen", "Go there": "Hingehen", "Stay here": "Hierbleiben", "See through": "Mitsehen",
         "Let in": "Einlassen", "Refuse": "Abweisen", "Mute": "Stummschalten", "Unmute": "Sprechen lassen",
         "Remove": "Entfernen", "Make expert": "Zum Experten machen", "Make observer": "Zum Beobachter machen",
+        "Show my face": "Mein Gesicht zeigen", "Hide my face": "Mein Gesicht verbergen", "You are seen": "Sie werden gesehen",
+        "Webcam": "Webcam", "you are seen": "Sie werden gesehen", "is being opened": "wird geöffnet",
         "Call all to me": "Alle zu mir rufen", "Stop calling": "Nicht mehr rufen",
         "Open": "Öffnen", "Close": "Schließen", "Show": "Zeigen", "Hide": "Verbergen", "Apart": "Auseinander",
         "Together": "Zusammen", "Life size": "Lebensgröße", "Cut": "Schneiden", "Whole": "Ganz", "Window": "Fenster",
@@ -44,6 +46,10 @@ const german = {
         "You no longer call.": "Sie rufen nicht mehr.", "This person has left": "Diese Person ist gegangen",
         "This is not in the room any more": "Das ist nicht mehr im Raum", "From above": "Von oben", "Live again": "Wieder live",
         "Your role does not allow to call others.": "Ihre Rolle erlaubt nicht, andere zu rufen.",
+        "Observers show no face; ask the operator to make you an expert.":
+            "Beobachter zeigen kein Gesicht; bitten Sie einen Operator, Sie zum Experten zu machen.",
+        "This host is too old to show your face; you are seen without a picture.":
+            "Dieser Gastgeber ist zu alt, um Ihr Gesicht zu zeigen; Sie werden ohne Bild gesehen.",
         "There is no such mark": "Diese Marke gibt es nicht", "You have made no mark": "Sie haben keine Marke gemacht",
         "Point at a part of an organ with images": "Zeigen Sie auf den Teil eines Organs, das Bilder hat",
         "Hold an object with the left mouse button first": "Halten Sie zuerst ein Objekt mit der linken Maustaste",
