@@ -15,6 +15,7 @@
 #include "net/link.h"
 #include "send/camera_lane.h"
 #include "session/camera_adjustment.h"
+#include "session/past.h"
 
 namespace theatron::host {
 
@@ -36,6 +37,8 @@ struct HostOptions {
     // host's own one.
     std::filesystem::path certificate, key;
     std::filesystem::path page;  // the browser client (host/page.h); empty: none
+    // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
+    Duration look_back = session::Past::longest_reach;
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.

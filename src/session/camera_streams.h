@@ -42,6 +42,12 @@ public:
     bool is_for(ParticipantId receiver, bool records) const {
         return publisher() != receiver && (description_.may_record || !records);
     }
+    // The last minute of it may be shown again: a camera of the room that may be recorded. Nobody
+    // is shown as a person was: the person's pose is that of now.
+    bool may_be_kept() const {
+        return description_.may_record && description_.frame == wire::CameraFrame::room &&
+               !sees_person_;
+    }
     StreamId stream(bool depth) const {
         return depth ? description_.depth_stream : description_.color_stream;
     }
@@ -86,6 +92,7 @@ private:
     };
     wire::Camera description_;
     Pose registered_;  // the room from the camera
+    bool sees_person_ = false;  // of a recording
     CameraAdjustment adjustment_;
     SettingTable depth_, color_;
     std::function<bool(std::uint8_t)> refers_;              // as in CodecSteps

@@ -15,6 +15,7 @@
 #include "session/admission.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
+#include "session/look_back.h"
 #include "session/membership.h"
 #include "session/renderer_wishes.h"
 #include "session/streams.h"
@@ -42,6 +43,7 @@ public:
         Streams::Config streams;
         RoomSnapshot room;          // from the previous run
         HostRoom::Authors authors;  // of its marks
+        PastBounds past = {};       // that participants may look back at
     };
 
     // Cameras of one publisher at once.
@@ -81,6 +83,15 @@ public:
     // or a setting that is gone, is ignored.
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
+
+    // A frame of a camera of the host was encoded: it may be kept for looking back.
+    void keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
+        look_back_.keep(header, message, now);
+    }
+    // See LookBack.
+    std::vector<LookBack::Due> take_past(TimePoint now) { return look_back_.take_due(now); }
+    std::optional<TimePoint> past_due() const { return look_back_.due(); }
+    std::size_t past_bytes() const { return look_back_.bytes(); }
 
     // A pose of an object in the room, to be sent to the receivers of the result at once.
     HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
@@ -168,6 +179,7 @@ private:
     void carry_out(ParticipantId id, const wire::VoiceConsent& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void tell_cases(ParticipantId id);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
@@ -197,6 +209,7 @@ private:
     Admission admission_;
     Membership membership_;
     Streams streams_;
+    LookBack look_back_;
     HostRoom room_;
     RendererWishes renderers_;
     bool has_ended_ = false;

@@ -125,6 +125,7 @@ void HostSession::begin_again() {
     has_ended_ = false;
     membership_.forget_all();
     room_.clear();
+    look_back_.clear();
     actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", at_the_host, config_.name}});
 }
 

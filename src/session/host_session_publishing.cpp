@@ -83,6 +83,8 @@ void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimeP
 void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras) {
     for (const CameraId camera : cameras)
         audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
+    for (const CameraId camera : cameras)
+        look_back_.forget(camera, {});
     streams_.remove(cameras);
     set_budgets();
 }
@@ -129,6 +131,7 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         refuse(id, {TextCode::foreign_picture});
         return {};
     }
+    look_back_.keep(*header, message, now);
     return streams_.on_media(*header, message.size(), now);
 }
 

@@ -65,9 +65,12 @@ struct AdjustStep {  // of the chosen camera
 struct PlayStep {  // of the recording that the host plays
     enum class What { toggle, back, forward, slide } what{};
 };
+struct LookBackTo {  // for this person alone; 0: the present
+    Duration ago{};
+};
 using RoomCommand =
     std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep>;
+                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep, LookBackTo>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

@@ -238,6 +238,8 @@ void Viewer::press(int command, TimePoint now) {
     }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
+    if (const auto* moment = std::get_if<LookBackTo>(&chosen))
+        return look_back(moment->ago, now);
     if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
@@ -438,12 +440,16 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
         return;
     const TimePoint presented = participant_.session_time(end);
     double age_ms = 0;
+    bool is_past = false;
     for (const CameraId camera : updated)
-        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
+        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end()) {
             age_ms = std::max(age_ms, to_ms(presented - frame->second->times.captured));
+            is_past = is_past || frame->second->past;
+        }
     age_at_presentation_ms_ = age_ms;
     ages_ms_.add(age_ms);
-    all_ages_ms_.add(age_ms);
+    if (!is_past)
+        all_ages_ms_.add(age_ms);
 }
 
 Facts Viewer::facts(TimePoint now) {
@@ -466,6 +472,9 @@ Facts Viewer::facts(TimePoint now) {
     facts.help = help_;
     facts.frozen = frozen_;
     RoomPanel panel = call_panel(callers());
+    facts.past = past(now);
+    if (!facts.past.empty() || (shows_panels_ && participant_.can_look_back()))
+        looking_back_.add_panel(facts.past, participant_, now, panel);
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
         panel = joined(std::move(panel),
