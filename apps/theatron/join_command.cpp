@@ -105,8 +105,8 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
     if (voice.obey(line) || obey_consent_line(participant, line) ||
         obey_people_line(participant, line) || obey_camera_line(participant, line) ||
         obey_playback_line(participant, line) || obey_look_back_line(participant, line) ||
-        obey_case_line(participant, line) ||
-        obey_mark_line(participant, line) || room.obey(line, participant))
+        obey_case_line(participant, line) || obey_mark_line(participant, line) ||
+        room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;

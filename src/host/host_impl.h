@@ -74,8 +74,8 @@ struct Host::Impl {
     session::PoseBoard poses;    // server's thread
     session::VoiceFloor voices;  // server's thread
     std::optional<StateLock> state_lock;
-    std::unique_ptr<RoomFile> room_file;     // server's thread
-    std::optional<TimePoint> alarm_at;       // of the server; server's thread
+    std::unique_ptr<RoomFile> room_file;  // server's thread
+    std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;

@@ -94,15 +94,15 @@ std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setti
         const auto parsed = video::parse_depth_setting(setting.codec);
         if (!parsed.problem.empty())
             return parsed.problem;
-        stream.depth = std::make_unique<codec::DepthStreamDecoder>(
-            video::make_depth_decoder(parsed.setting));
+        stream.depth =
+            std::make_unique<codec::DepthStreamDecoder>(video::make_depth_decoder(parsed.setting));
         stream.depth_setting = parsed.setting;
         stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
         return "";
     }
     stream.color_is_automatic = setting.codec == video::auto_color;
-    const auto parsed = video::parse_color_setting(
-        stream.color_is_automatic ? std::string("jpeg") : setting.codec);
+    const auto parsed =
+        video::parse_color_setting(stream.color_is_automatic ? std::string("jpeg") : setting.codec);
     if (parsed.problem.empty())
         set_color_codec(stream, parsed.setting.id);
     return parsed.problem;

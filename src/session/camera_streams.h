@@ -91,7 +91,7 @@ private:
         int layer = 0;
     };
     wire::Camera description_;
-    Pose registered_;  // the room from the camera
+    Pose registered_;           // the room from the camera
     bool sees_person_ = false;  // of a recording
     CameraAdjustment adjustment_;
     SettingTable depth_, color_;

@@ -308,8 +308,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 wire::encode(wire::Play{choice, wire::PlayAction(1 + choice % 3),
                                                         Duration(std::int64_t(choice) << 40)}),
                                 now);
-                host.on_control(id, wire::encode(wire::LookBack{choice, Duration(choice) * 300'000}),
-                                now);
+                host.on_control(
+                    id, wire::encode(wire::LookBack{choice, Duration(choice) * 300'000}), now);
                 break;
             }
             case 9:

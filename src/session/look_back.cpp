@@ -119,8 +119,7 @@ std::vector<LookBack::Due> LookBack::take_due(TimePoint now) {
                 continue;
             const auto known = looker.shown.find(picture->header.stream);
             // The kept setting has changed, or another camera had come.
-            if (known == looker.shown.end() ||
-                known->second.original != picture->header.setting ||
+            if (known == looker.shown.end() || known->second.original != picture->header.setting ||
                 known->second.codec != picture->codec)
                 announce(id, looker, {looker.next});
             Shown& shown = looker.shown.at(picture->header.stream);

@@ -22,7 +22,7 @@ namespace theatron::session {
 
 class LookBack {
 public:
-    // Who asks for less goes back to the present.
+    // A shorter look is one at the present.
     static constexpr Duration least = std::chrono::seconds(1);
 
     // `streams` and `actions` must outlive it.
@@ -50,7 +50,7 @@ public:
 
     struct Due {
         ParticipantId receiver{};
-        wire::MediaHeader header;               // with the number of the past's setting
+        wire::MediaHeader header;              // with the number of the past's setting
         std::shared_ptr<const Bytes> message;  // likewise
     };
     // The pictures that are to be sent now, in order.

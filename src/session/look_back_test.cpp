@@ -68,8 +68,8 @@ protected:
         std::vector<ParticipantId> receivers;
         for (const TimePoint end = now + time; now < end; now += milliseconds(100)) {
             for (const bool is_depth : {true, false}) {
-                const auto& settings = is_depth ? session_->depth_settings({})
-                                                : session_->color_settings({});
+                const auto& settings =
+                    is_depth ? session_->depth_settings({}) : session_->color_settings({});
                 const Bytes bytes = picture({}, is_depth, settings.at(0).id);
                 const auto header = wire::parse_media_header(bytes).value();
                 const auto to = session_->on_media(header, bytes.size(), now);
@@ -239,7 +239,8 @@ protected:
         offer.frame = frame;
         last_ = tell(bob, wire::Publish{{offer}});
         camera_ = messages_to<wire::Published>(bob, last_).at(0).cameras.at(0);
-        const SettingId setting = messages_to<wire::Encode>(bob, last_).at(0).settings.at(0).setting;
+        const SettingId setting =
+            messages_to<wire::Encode>(bob, last_).at(0).settings.at(0).setting;
         for (int i = 0; i < 50; ++i, ++frame_, now += milliseconds(100))
             EXPECT_EQ(session_->on_media_from(bob, picture(camera_, true, setting), now),
                       std::vector{alice});

@@ -39,9 +39,8 @@ bool Past::add(const wire::MediaHeader& header, ByteView message, const std::str
 void Past::on_time(TimePoint now) {
     while (!pictures_.empty() && now - pictures_.front().at > bounds_.reach + margin)
         drop_oldest();
-    std::erase_if(not_before_, [&](const auto& entry) {
-        return now - entry.second > bounds_.reach + margin;
-    });
+    std::erase_if(not_before_,
+                  [&](const auto& entry) { return now - entry.second > bounds_.reach + margin; });
 }
 
 void Past::drop_oldest() {

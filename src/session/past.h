@@ -17,9 +17,12 @@
 
 namespace theatron::session {
 
+// The bytes of all pictures that are kept.
+inline constexpr std::size_t max_past_bytes = std::size_t(512) << 20;
+
 struct PastBounds {
     Duration reach{};  // how far participants may look back; 0: nothing is kept
-    std::size_t bytes = std::size_t(512) << 20;
+    std::size_t bytes = max_past_bytes;
 };
 
 class Past {

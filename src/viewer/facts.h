@@ -32,7 +32,7 @@ struct Facts {
     Voices voices;
     std::optional<xr::PanelRow> bar = {};                 // of the recording that the host plays
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
-    // What the picture is of, while it is not of the present (looking_back.h); else empty.
+    // The moment that is shown, while it is not the present (looking_back.h); else empty.
     std::string past = {};
     bool trust = false;  // the panel of trust_panel.h is shown, too
 };

@@ -51,7 +51,7 @@ TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
     Facts facts = healthy();
     facts.past = "NOT LIVE: 23 s ago";
     facts.age_ms = 23'000;
-    EXPECT_EQ(overlay(facts).warning, "NOT LIVE: 23 s ago. F5: live again");
+    EXPECT_EQ(overlay(facts).warning, "NOT LIVE: 23 s ago. End: live again");
     facts.frozen = true;
     EXPECT_THAT(overlay(facts).warning, HasSubstr("NOT LIVE: 23 s ago, frozen"));
 }

@@ -28,8 +28,8 @@ std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
     }
     if (!oldest && looking.empty())
         return "";
-    const std::string ago =
-        oldest ? age_text(std::max(to_ms(session_time - *oldest), 0.0)) + " ago" : "looking back...";
+    const std::string ago = oldest ? age_text(std::max(to_ms(session_time - *oldest), 0.0)) + " ago"
+                                   : "looking back...";
     return "NOT LIVE: " + ago + (live.empty() ? "" : " (live: camera " + live + ")");
 }
 
@@ -66,8 +66,7 @@ void LookingBack::add_panel(const std::string& past, const client::Participant& 
         row.buttons = {button("10 s ago", seconds(10)), button("30 s ago", seconds(30)),
                        button("60 s ago", seconds(60))};
     else
-        row.buttons = {button("Live", Duration(0)),
-                       button("-10 s", further(participant, now)),
+        row.buttons = {button("Live", Duration(0)), button("-10 s", further(participant, now)),
                        button("+10 s", nearer(participant, now))};
     panel.panels.push_back({"Look back (you alone)", {std::move(row)}});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A person at the window or in the browser looks back at the last minute of the session, alone; and
-// the words with which the picture then says that it is not of the present.
+// Looking back at the last minute of the session, alone: keys and buttons, and the words with which
+// the picture then says that it is not of the present.
 #pragma once
 
 #include <map>
@@ -12,10 +12,9 @@
 
 namespace theatron::viewer {
 
-// What the picture is of. Empty: of the present. `frames`: those that are shown, by camera;
-// `looking`: the cameras whose past the host sends. It is not of the present before every camera
-// shows the present again.
-// "NOT LIVE: 23 s ago", "NOT LIVE: 23 s ago (camera left is live)".
+// The moment that is shown: "NOT LIVE: 23 s ago", "NOT LIVE: 23 s ago (live: camera left)"; empty:
+// the present. `frames` are those that are shown, by camera; `looking` are the cameras whose past
+// the host sends. The text ends when every camera shows the present again.
 std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
                       const std::set<CameraId>& looking,
                       const std::map<CameraId, std::string>& names, TimePoint session_time);

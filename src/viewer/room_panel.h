@@ -68,9 +68,9 @@ struct PlayStep {  // of the recording that the host plays
 struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep, LookBackTo>;
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
+                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall,
+                                 ShowLarge, AdjustStep, PlayStep, LookBackTo>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

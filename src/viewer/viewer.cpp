@@ -160,6 +160,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::pause_recording:
         case xr::Action::seek_back:
         case xr::Action::seek_forward:
+        case xr::Action::live:
         case xr::Action::adjust_cameras:
         case xr::Action::nudge:
             on_camera_key(key, picture, now);

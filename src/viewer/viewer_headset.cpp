@@ -54,9 +54,9 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     const auto status = participant_.status();
     const bool is_joined = status.phase == client::Participant::Phase::joined;
     scene_.set_headset_text(!is_joined            ? "Connection lost, trying again..."
-                         : !facts.past.empty() ? facts.past
-                         : now < notice_until_ ? notice_
-                                               : "");
+                            : !facts.past.empty() ? facts.past
+                            : now < notice_until_ ? notice_
+                                                  : "");
 }
 
 void Viewer::recentre_headset() {

@@ -109,21 +109,20 @@ void Viewer::play(const PlayStep& play, TimePoint now) {
         note(wire::text_of(wire::ManageRefusal::nothing_to_play), now);
 }
 
-// What the host plays to all is moved for all; without that a person looks back alone. False: the
-// key is not meant so.
+// The recording that a host plays is moved for all; without one a person looks back alone. False:
+// the key is not meant so.
 bool Viewer::look_back(const xr::KeyPress& key, TimePoint now) {
     const bool is_looking = participant_.looks_back();
-    const bool moves = key.action == xr::Action::pause_recording ||
-                       key.action == xr::Action::seek_back ||
-                       key.action == xr::Action::seek_forward;
-    if (!moves || (!is_looking && (participant_.playback() || !participant_.can_look_back())))
-        return false;
-    if (key.action == xr::Action::seek_forward)
-        look_back(looking_back_.nearer(participant_, now), now);
-    else if (key.action == xr::Action::pause_recording && is_looking)
+    const bool moves =
+        key.action == xr::Action::seek_back || key.action == xr::Action::seek_forward;
+    if (key.action == xr::Action::live && is_looking)
         look_back(Duration(0), now);
-    else
+    else if (!moves || (!is_looking && participant_.playback()))
+        return key.action == xr::Action::live;
+    else if (key.action == xr::Action::seek_back)
         look_back(looking_back_.further(participant_, now), now);
+    else if (is_looking)
+        look_back(looking_back_.nearer(participant_, now), now);
     return true;
 }
 
