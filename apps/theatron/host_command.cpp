@@ -56,6 +56,7 @@ struct Flags {
     std::string certificate, key, proxy_certificate;
     double seconds = 0;
     double link_hours = 0;
+    double look_back_s = to_seconds(session::Past::longest_reach);
     bool json = false;
     bool prints_links = false;
 };
@@ -182,6 +183,7 @@ void run(Flags& flags) {
         flags.options.audit = flags.audit;
     flags.options.asks = flags.admit == "ask";
     flags.options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
+    flags.options.look_back = seconds_to_duration(flags.look_back_s);
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
     if (!flags.summary.empty()) {
@@ -359,6 +361,12 @@ void add_host_command(CLI::App& app) {
                      "until an operator admits them")
         ->capture_default_str()
         ->check(CLI::IsMember({"all", "ask"}));
+    command
+        ->add_option("--look-back", flags->look_back_s,
+                     "How many seconds participants may look back at the cameras of the room, 0 to "
+                     "60; they are kept in memory only, 512 MiB at most. 0: nothing is kept")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, to_seconds(session::Past::longest_reach)));
     command->add_option("--audit", flags->audit,
                         "File for the log of people, JSON lines; none: no log (default: "
                         "audit.jsonl in the state folder)");

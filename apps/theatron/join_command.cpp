@@ -115,8 +115,9 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           const std::string& line) {
     if (voice.obey(line) || obey_consent_line(participant, line) ||
         obey_people_line(participant, line) || obey_camera_line(participant, line) ||
-        obey_playback_line(participant, line) || obey_case_line(participant, line) ||
-        obey_mark_line(participant, line) || room.obey(line, participant))
+        obey_playback_line(participant, line) || obey_look_back_line(participant, line) ||
+        obey_case_line(participant, line) || obey_mark_line(participant, line) ||
+        room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -132,9 +133,9 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
         std::fprintf(stderr,
                      "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
                      "MBIT', 'quit', in the room %s, on cases %s, on marks %s, on a recording "
-                     "that the host plays %s, or as an operator %s, %s.\n",
+                     "that the host plays %s, on the last minute %s, or as an operator %s, %s.\n",
                      RoomLines::help(), case_lines_help(), mark_lines_help(), playback_lines_help(),
-                     people_help(), camera_lines_help());
+                     look_back_help(), people_help(), camera_lines_help());
     return true;
 }
 
@@ -321,6 +322,7 @@ void add_join_command(CLI::App& app) {
         "or act in the shared room\n(docs/room.md):\n" +
         RoomLines::help() + ".\nOn the case in the room (docs/cases.md):\n" + case_lines_help() +
         ".\nOn a recording that the host plays (docs/views.md):\n" + playback_lines_help() +
+        ".\nAt the last minute of the session, you alone (docs/views.md):\n" + look_back_help() +
         ".\nOperators decide on people (docs/room.md):\n" + people_help() +
         ".\nThey adjust cameras for all (docs/registration.md):\n" + camera_lines_help() +
         ".\n"

@@ -69,6 +69,8 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"mbit_per_s", figures.mbit_per_second()},
             {"newest_age_ms", depth.age_ms},
             {"age_now_ms", depth.age_now_ms},
+            {"past", depth.past},
+            {"newest_frame", depth.newest},
             {"age_ms", age(depth)},
             {"color_age_ms", age(color)},
             {"dropped", figures.dropped()},

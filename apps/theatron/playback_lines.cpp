@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "base/error.h"
@@ -70,6 +71,29 @@ bool obey_playback_line(client::Participant& participant, const std::string& lin
         if (participant.play(wish.action, wish.position) == 0)
             throw Error("You have not joined yet.");
     });
+}
+
+const char* look_back_help() {
+    return "'back SECONDS', 'live'";
+}
+
+bool obey_look_back_line(client::Participant& participant, const std::string& line) {
+    std::istringstream words(line);
+    std::string what, value, more;
+    words >> what >> value >> more;
+    if (what != "back" && what != "live")
+        return false;
+    double seconds = 0;
+    int used = 0;
+    const bool is_number = std::sscanf(value.c_str(), "%lf%n", &seconds, &used) == 1 &&
+                           std::size_t(used) == value.size() && seconds >= 0 &&
+                           seconds <= most_seconds;
+    if (!more.empty() || (what == "live" ? !value.empty() : !is_number))
+        log::say("Say 'back SECONDS', such as 'back 20', or 'live'.");
+    else if (participant.look_back(seconds_to_duration(seconds)) == 0)
+        log::say(participant.can_look_back() ? "You have not joined yet."
+                                             : wire::text_of(wire::ManageRefusal::nothing_kept));
+    return true;
 }
 
 bool obey_playback_line(host::Host& host, const std::string& line) {

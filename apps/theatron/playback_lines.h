@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines of standard input that play the recording which a host shows to all: of `theatron join`
-// and of `theatron host`.
+// and of `theatron host`; and that look back at the last minute of a session.
 #pragma once
 
 #include <optional>
@@ -23,6 +23,9 @@ std::optional<PlaybackLine> parse_playback_line(const std::string& line, Duratio
 
 // Carries out such a line; false if it is none. A sentence on a wrong line is printed.
 bool obey_playback_line(client::Participant& participant, const std::string& line);
+// The same for "back SECONDS" and "live", with which this person alone looks back.
+const char* look_back_help();
+bool obey_look_back_line(client::Participant& participant, const std::string& line);
 bool obey_playback_line(host::Host& host, const std::string& line);
 
 }  // namespace theatron::app

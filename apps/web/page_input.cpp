@@ -37,6 +37,9 @@ std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code)
         {"=", Action::larger_points},
         {"-", Action::smaller_points},
         {" ", Action::freeze},
+        {",", Action::seek_back},
+        {".", Action::seek_forward},
+        {"end", Action::live},
     };
     const auto found = actions.find(key);
     if (found == actions.end())

@@ -23,6 +23,7 @@ void figure_fields(auto& m, auto&& field) {
     field(m.age_p50_ms);
     field(m.age_p99_ms);
     field(m.age_max_ms);
+    field(m.past);
 }
 
 template <class T>

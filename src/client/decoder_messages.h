@@ -65,6 +65,7 @@ struct WorkerFrame {
     FrameTimes times;
     Size depth_size, color_size;  // color_size is empty without colour
     bool same_color = false;      // colour is that of the camera's frame before
+    bool past = false;            // as in CameraFrame
     ByteView depth;               // rows of 16 bits per pixel
     ByteView color;               // rows of 3 bytes per pixel; empty with same_color
 
@@ -82,6 +83,7 @@ struct WorkerFrame {
             field(size->height);
         }
         field(m.same_color);
+        field(m.past);
         field(m.depth);
         field(m.color);
     }

@@ -69,6 +69,7 @@ private:
         m.number = frame.number;
         m.moment = frame.moment;
         m.times = frame.times;
+        m.past = frame.past;
         m.depth_size = frame.depth.size;
         m.depth = std::as_bytes(std::span(frame.depth.pixels));
         if (frame.color) {

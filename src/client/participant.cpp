@@ -23,7 +23,7 @@ constexpr std::size_t max_poses = 256;
 
 std::vector<wire::Feature> features_of(const Participant::Options& options) {
     std::vector<wire::Feature> features{wire::Feature::adjusting, wire::Feature::playback,
-                                        wire::Feature::screens};
+                                        wire::Feature::screens, wire::Feature::look_back};
     if (options.publishing.published)
         features.push_back(wire::Feature::publish);
     if (options.sends_only)

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -230,6 +231,15 @@ public:
     std::uint32_t play(wire::PlayAction action, Duration position = {});
     // Where that recording is; empty: the host plays none.
     std::optional<wire::Playback> playback() const;
+    // Shows this participant the cameras of the room as they were `ago`, as far as the host keeps
+    // it, and goes on from there; 0: the present again. The others are not concerned. Returns its
+    // number; 0 while not joined, or where the host keeps nothing.
+    std::uint32_t look_back(Duration ago);
+    bool can_look_back() const;
+    // True from the host's answer on, until it sends the present again.
+    bool looks_back() const { return !past_cameras().empty(); }
+    // The cameras whose past the host sends.
+    std::set<CameraId> past_cameras() const;
     // The oldest answer to a decision that is not taken yet, if any.
     std::optional<wire::Managed> take_managed();
 

@@ -82,8 +82,8 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
                              bool is_thinned) {
     constexpr double silent_ms = 2000, silent_ms_thinned = 5000;
-    const bool is_silent =
-        depth.frames > 0 && depth.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
+    const bool is_silent = !depth.past && depth.frames > 0 &&
+                           depth.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
     if (said.condition != wire::CameraCondition::live || !is_silent)
         return said;
     wire::CameraState state = said;

@@ -51,7 +51,8 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
 
 // The state of a camera as it shows here: one that is said to be live is stale while its pictures
 // do not arrive, because its publisher or the host has stopped or the link is cut. `is_thinned`:
-// the host leaves out frames for this participant. Without any frame so far, as it was said.
+// the host leaves out frames for this participant. Without any frame so far, and while this
+// participant looks back, as it was said.
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
                              bool is_thinned);
 

@@ -118,6 +118,24 @@ std::uint32_t Participant::play(wire::PlayAction action, Duration position) {
     return playback() ? decide(wire::Play{0, action, position}) : 0;
 }
 
+std::uint32_t Participant::look_back(Duration ago) {
+    return can_look_back() ? decide(wire::LookBack{0, ago}) : 0;
+}
+
+bool Participant::can_look_back() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->can_look_back;
+}
+
+std::set<CameraId> Participant::past_cameras() const {
+    const std::lock_guard lock(shared_->mutex);
+    std::set<CameraId> cameras;
+    for (const wire::StreamSetting& setting : shared_->settings)
+        if (setting.past)
+            cameras.insert(camera_of(setting.stream));
+    return cameras;
+}
+
 void Participant::on_playback() {
     {
         const std::lock_guard lock(shared_->mutex);

@@ -58,6 +58,7 @@ struct Participant::Shared {
     std::deque<wire::Managed> managed;                       // answers not yet taken
     bool may_adjust = false;                                 // the host knows adjustments
     std::optional<wire::Playback> playback;                  // of the host's recording
+    bool can_look_back = false;                              // the host keeps the last minute
     wire::Patient patient;                                   // empty: not known
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;    // the same for single cameras
     std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer

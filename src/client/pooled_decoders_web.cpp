@@ -145,6 +145,7 @@ void PooledDecoders::on(Worker& worker, const WorkerFrame& m) {
     frame->number = m.number;
     frame->moment = m.moment;
     frame->times = m.times;
+    frame->past = m.past;
     frame->color = color;
     events_.frame(frame, generation_);
 }

@@ -123,6 +123,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     config.patient_for = options.patient_for;
+    config.past.reach = options.look_back;
     page = options.page.empty() ? Page() : Page(options.page);
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);

@@ -15,6 +15,7 @@
 #include "net/link.h"
 #include "send/camera_lane.h"
 #include "session/camera_adjustment.h"
+#include "session/past.h"
 
 namespace theatron::host {
 
@@ -44,6 +45,8 @@ struct HostOptions {
     std::vector<std::string> proxies;         // trusted ones (net::Proxies)
     std::filesystem::path proxy_certificate;  // that they show, for links; needed with `proxies`
     std::filesystem::path page;               // the browser client (host/page.h); empty: none
+    // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
+    Duration look_back = session::Past::longest_reach;
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.

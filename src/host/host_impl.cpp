@@ -52,10 +52,11 @@ net::Server::Handler Host::Impl::handler() {
         heard[peer] = steady_now();
         session->on_control(ParticipantId(std::uint32_t(peer)), bytes, steady_now());
         carry_out();
+        set_alarm();
     };
     h.state = [this](net::PeerId peer, const wire::State& state) { take_state(peer, state); };
     h.voice = [this](net::PeerId peer, const wire::Voice& voice) { forward_voice(peer, voice); };
-    h.alarm = [this] { send_poses(); };
+    h.alarm = [this] { on_alarm(); };
     h.frame_left = [this](net::PeerId) { release_lanes(); };
     h.control_lost = [this](net::PeerId peer) {
         session->resynchronise(ParticipantId(std::uint32_t(peer)));
@@ -74,7 +75,7 @@ net::Server::Handler Host::Impl::handler() {
         session->on_closed(ParticipantId(std::uint32_t(peer)));
         poses.remove(ParticipantId(std::uint32_t(peer)), steady_now());
         voices.remove(ParticipantId(std::uint32_t(peer)));
-        wait_for_poses();
+        set_alarm();
         carry_out();
         addresses.erase(peer);
         heard.erase(peer);
@@ -330,6 +331,7 @@ void Host::Impl::distribute_media() {
         dropped_slow[camera_of(stream)] += dropped;
     for (const send::EncodedMedia& encoded : taken.media)
         distribute(encoded);
+    set_alarm();
 }
 
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
@@ -343,6 +345,7 @@ void Host::Impl::distribute(const send::EncodedMedia& encoded) {
                 header.key,
                 {}},
                session->on_media(header, encoded.message->size(), steady_now()));
+    session->keep(header, *encoded.message, steady_now());
     hold_lane(std::size_t(camera_of(header.stream)));
 }
 
@@ -358,7 +361,7 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
     const wire::State shown{state.key, hides ? ByteView(*without) : state.body};
     if (poses.put(sender, shown, steady_now()) == session::PoseBoard::Answer::flood)
         end_flood(peer, "there were far more poses than a host sends on");
-    wait_for_poses();
+    set_alarm();
 }
 
 void Host::Impl::end_flood(net::PeerId peer, const std::string& why) {
@@ -394,7 +397,7 @@ void Host::Impl::replay_room(const RoomReplay::Change& change) {
     for (const auto& [person, body] : change.poses)
         (void)poses.put(ParticipantId(replayed(person)),
                         {{wire::StateTopic::pose, replayed(person)}, body}, now);
-    wait_for_poses();
+    set_alarm();
 }
 
 void Host::Impl::replay_voices(const std::vector<RoomReplay::Speech>& speech) {
@@ -405,16 +408,7 @@ void Host::Impl::replay_voices(const std::vector<RoomReplay::Speech>& speech) {
                 {ParticipantId(std::uint32_t(said.person) | session::recorded_bit), said.packet});
 }
 
-void Host::Impl::wait_for_poses() {
-    const auto due = poses.due();
-    if (!due || poses_are_due == due)
-        return;
-    poses_are_due = due;
-    server->set_alarm(*due);
-}
-
 void Host::Impl::send_poses() {
-    poses_are_due.reset();
     const auto entries = poses.gather(steady_now());
     std::vector<ParticipantId> receivers;
     for (const auto& [id, participant] : session->participants())
@@ -422,7 +416,6 @@ void Host::Impl::send_poses() {
             receivers.push_back(id);
     for (const ParticipantId receiver : receivers)
         send_poses_to(receiver, entries);
-    wait_for_poses();
 }
 
 // Everybody predicts their own.
@@ -450,6 +443,7 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
                     {}},
                    receivers);
     carry_out();
+    set_alarm();
 }
 
 void Host::Impl::send_media(const net::Media& encoded,

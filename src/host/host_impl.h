@@ -79,8 +79,8 @@ struct Host::Impl {
     session::PoseBoard poses;    // server's thread
     session::VoiceFloor voices;  // server's thread
     std::optional<StateLock> state_lock;
-    std::unique_ptr<RoomFile> room_file;     // server's thread
-    std::optional<TimePoint> poses_are_due;  // time of the server's alarm; server's thread
+    std::unique_ptr<RoomFile> room_file;  // server's thread
+    std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
     mutable std::mutex figures_mutex;
@@ -185,7 +185,9 @@ struct Host::Impl {
     void forward_voice(net::PeerId peer, const wire::Voice& voice);
     void replay_room(const RoomReplay::Change& change);
     void replay_voices(const std::vector<RoomReplay::Speech>& speech);
-    void wait_for_poses();
+    void set_alarm();
+    void on_alarm();
+    void send_past();
     void send_poses();
     void send_poses_to(ParticipantId receiver,
                        const std::vector<session::PoseBoard::Entry>& entries);

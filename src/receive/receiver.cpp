@@ -68,35 +68,60 @@ void Receiver::set_cameras(const std::vector<wire::Camera>& cameras) {
 }
 
 void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
+    std::string problem;
     for (const wire::StreamSetting& s : settings) {
         const auto found = streams_.find(s.stream);
         if (found == streams_.end() || found->second.setting == s.setting)
             continue;
         Stream& stream = found->second;
-        std::string problem;
-        if (stream.is_depth) {
-            const auto parsed = video::parse_depth_setting(s.codec);
-            problem = parsed.problem;
-            if (problem.empty()) {
-                stream.depth = std::make_unique<codec::DepthStreamDecoder>(
-                    video::make_depth_decoder(parsed.setting));
-                stream.depth_setting = parsed.setting;
-                stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
-            }
-        } else {
-            stream.color_is_automatic = s.codec == video::auto_color;
-            const auto parsed = video::parse_color_setting(
-                stream.color_is_automatic ? std::string("jpeg") : s.codec);
-            problem = parsed.problem;
-            if (problem.empty())
-                set_color_codec(stream, parsed.setting.id);
+        if (s.past || stream.past)
+            set_past(stream, s.past);
+        std::string unknown = set_codec(stream, s);
+        if (unknown.empty()) {
+            stream.setting = s.setting;
+            stream.codec = s.codec;
+            stream.asked_for_key = false;
+        } else if (problem.empty()) {
+            problem = std::move(unknown);
         }
-        if (!problem.empty())
-            throw Error("The host sends in a way that this Theatron does not know: " + problem);
-        stream.setting = s.setting;
-        stream.codec = s.codec;
-        stream.asked_for_key = false;
     }
+    if (!problem.empty())
+        throw Error("The host sends in a way that this Theatron does not know: " + problem);
+}
+
+std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setting) {
+    if (stream.is_depth) {
+        const auto parsed = video::parse_depth_setting(setting.codec);
+        if (!parsed.problem.empty())
+            return parsed.problem;
+        stream.depth =
+            std::make_unique<codec::DepthStreamDecoder>(video::make_depth_decoder(parsed.setting));
+        stream.depth_setting = parsed.setting;
+        stream.depth_is_lossless = video::make_depth_codec(parsed.setting)->lossless();
+        return "";
+    }
+    stream.color_is_automatic = setting.codec == video::auto_color;
+    const auto parsed =
+        video::parse_color_setting(stream.color_is_automatic ? std::string("jpeg") : setting.codec);
+    if (parsed.problem.empty())
+        set_color_codec(stream, parsed.setting.id);
+    return parsed.problem;
+}
+
+// Between the past and the present frame numbers jump, and an image that waits has no partner.
+void Receiver::set_past(Stream& stream, bool past) {
+    stream.past = past;
+    stream.counting = false;
+    CameraState& camera = cameras_[stream.camera];
+    camera.depth.reset();
+    camera.color.reset();
+}
+
+void Receiver::add_age(Stream& stream, double ms) {
+    if (stream.past)
+        return;
+    stream.age_ms = ms;
+    stream.ages.add(ms);
 }
 
 Status Receiver::on_media(ByteView message, TimePoint now) {
@@ -161,6 +186,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     frame->camera = stream.camera;
     frame->number = header.frame;
     frame->moment = header.moment;
+    frame->past = stream.past;
     frame->times = {};
     frame->times.captured = header.captured;
     frame->times.delivered = header.delivered;
@@ -171,8 +197,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     frame->times.decoded = decoded;
     ++stream.frames;
     stream.frame_rate.add(decoded);
-    stream.age_ms = to_ms(decoded - header.captured);
-    stream.ages.add(stream.age_ms);
+    add_age(stream, to_ms(decoded - header.captured));
 
     stream.newest_captured = header.captured;
     stream.exact = exactness(stream, payload);
@@ -247,8 +272,7 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
         ++stream.frames;
         stream.newest_captured = header.captured;
         stream.frame_rate.add(done);
-        stream.age_ms = to_ms(done - header.captured);
-        stream.ages.add(stream.age_ms);
+        add_age(stream, to_ms(done - header.captured));
 
         CameraState& camera = cameras_[stream.camera];
         const std::shared_ptr<ColorImage> image = colors_.take();
@@ -282,7 +306,7 @@ std::vector<StreamFigures> Receiver::figures(TimePoint now) {
         sort_ages(s);
         result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
                           s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
-                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms});
+                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms, s.past});
     }
     return result;
 }

@@ -32,6 +32,7 @@ struct CameraFrame {
     FrameTimes times;
     DepthImage depth;
     std::shared_ptr<const ColorImage> color;
+    bool past = false;  // not of the present: this participant looks back
 };
 using CameraFramePtr = std::shared_ptr<const CameraFrame>;
 
@@ -56,6 +57,7 @@ struct StreamFigures {
     double age_now_ms = 0;                 // of the newest frame, now
     Exactness exact = Exactness::nowhere;  // of the newest depth frame
     double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
+    bool past = false;  // as in wire::StreamSetting; no ages but age_now_ms are of such frames
 };
 
 // The largest message of a stream whose pictures have `pixels`; a larger one is refused before
@@ -82,7 +84,8 @@ public:
     // lenses keeps its decoders; streams of other cameras are forgotten. A camera whose
     // calibration cannot be read (Status of decode_calibration) gets no pictures.
     void set_cameras(const std::vector<wire::Camera>& cameras);
-    // Throws Error if this build does not know one of the codecs.
+    // Throws Error if this build does not know one of the codecs; the others are set. A picture is
+    // never put together of the past and the present.
     void set_settings(const std::vector<wire::StreamSetting>& settings);
 
     // Takes one whole media message. Damaged and unknown ones are counted.
@@ -127,6 +130,7 @@ private:
         Exactness exact = Exactness::nowhere;
         bool asked_for_key = false;
         TimePoint asked_at;
+        bool past = false;
     };
     // Images that wait for the other one of the same moment.
     struct CameraState {
@@ -137,6 +141,10 @@ private:
         bool has_color = false;
     };
 
+    // One sentence if this build does not know the codec.
+    static std::string set_codec(Stream& stream, const wire::StreamSetting& setting);
+    void set_past(Stream& stream, bool past);
+    static void add_age(Stream& stream, double ms);
     Status decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
     static void set_color_codec(Stream& stream, video::ColorCodecId codec);

@@ -133,6 +133,53 @@ TEST_F(ReceiverTest, PairsDepthAndColorOfAFrame) {
     EXPECT_TRUE(keys_wanted.empty());
 }
 
+TEST_F(ReceiverTest, PutsNoPictureTogetherOfThePastAndThePresent) {
+    constexpr SettingId past_depth{7}, past_color{8};
+    Source live, past("trvl", past_depth);
+    past.set_color_id(past_color);
+    (void)receiver.on_media(live.depth(90), at(90));
+    (void)receiver.on_media(live.color(90), at(90));
+    (void)receiver.on_media(live.depth(91), at(91));  // waits for its colour
+    receiver.set_settings({{depth_stream(camera), past_depth, "trvl", true},
+                           {color_stream(camera), past_color, "raw", true}});
+    // Still on its way.
+    (void)receiver.on_media(live.color(91), at(91));
+    ASSERT_EQ(frames.size(), 1u);
+    EXPECT_FALSE(frames[0]->past);
+    (void)receiver.on_media(past.depth(10), at(92));
+    ASSERT_EQ(frames.size(), 1u);  // not with the colour of the present
+    (void)receiver.on_media(past.color(10), at(92));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_TRUE(frames[1]->past);
+    EXPECT_EQ(frames[1]->color->pixels[0].r, 10);
+    const StreamFigures figures = receiver.figures(at(92)).at(0);
+    EXPECT_TRUE(figures.past);
+    EXPECT_GT(figures.age_now_ms, 2000);
+    EXPECT_LT(figures.age_ms, 100);
+    EXPECT_LT(figures.age_max_ms, 100);
+
+    (void)receiver.on_media(past.depth(11), at(93));
+    set_depth("trvl", SettingId{1});
+    (void)receiver.on_media(past.color(11), at(93));
+    (void)receiver.on_media(past.depth(12), at(93));
+    ASSERT_EQ(frames.size(), 2u);
+    (void)receiver.on_media(live.depth(94, true), at(94));
+    (void)receiver.on_media(live.color(94), at(94));
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_FALSE(frames[2]->past);
+    EXPECT_EQ(frames[2]->color->pixels[0].r, 94);
+    EXPECT_EQ(receiver.figures(at(94)).at(0).dropped, 0u);
+}
+
+TEST_F(ReceiverTest, AnUnknownCodecOfOneStreamLeavesTheOthers) {
+    const std::vector<wire::StreamSetting> settings{
+        {depth_stream(camera), SettingId{9}, "newer", true},
+        {color_stream(camera), SettingId{10}, "raw", true}};
+    EXPECT_THROW(receiver.set_settings(settings), Error);
+    EXPECT_EQ(receiver.figures({}).at(1).codec, "raw");
+    EXPECT_TRUE(receiver.figures({}).at(1).past);
+}
+
 TEST_F(ReceiverTest, LateColorDoesNotHoldDepthBack) {
     Source source;
     (void)receiver.on_media(source.depth(0), at(0));

@@ -20,8 +20,10 @@ CameraStreams::CameraStreams(wire::Camera description, SettingNumbers& numbers, 
              [&codecs](const std::string& codec) { return depth_traits(codec, codecs); }),
       color_(numbers, usual.color),
       refers_(codecs.refers) {
-    if (const auto calibration = decode_calibration(description_.calibration))
+    if (const auto calibration = decode_calibration(description_.calibration)) {
         registered_ = calibration->room_from_camera;
+        sees_person_ = calibration->person != 0;
+    }
 }
 
 void CameraStreams::set_calibration(const Bytes& calibration) {

@@ -47,6 +47,12 @@ public:
     bool is_for(ParticipantId receiver, bool takes_faces, bool records) const {
         return is_told_to(receiver, takes_faces) && (description_.may_record || !records);
     }
+    // The last minute of it may be shown again: a camera of the room that may be recorded. Nobody
+    // is shown as a person was: the person's pose is that of now.
+    bool may_be_kept() const {
+        return description_.may_record && description_.frame == wire::CameraFrame::room &&
+               !sees_person_;
+    }
     StreamId stream(bool depth) const {
         return depth ? description_.depth_stream : description_.color_stream;
     }
@@ -90,7 +96,8 @@ private:
         int layer = 0;
     };
     wire::Camera description_;
-    Pose registered_;  // the room from the camera
+    Pose registered_;           // the room from the camera
+    bool sees_person_ = false;  // of a recording
     CameraAdjustment adjustment_;
     SettingTable depth_, color_;
     std::function<bool(std::uint8_t)> refers_;              // as in CodecSteps

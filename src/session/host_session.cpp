@@ -57,6 +57,9 @@ Kind kind_of(const wire::AdjustCamera&) {
 Kind kind_of(const wire::Play&) {
     return Kind::manage;
 }
+Kind kind_of(const wire::LookBack&) {
+    return Kind::manage;
+}
 
 // The number of a decision that is answered with Managed; 0: it is none.
 std::uint32_t decision_number(const wire::ToHost& message) {
@@ -65,6 +68,8 @@ std::uint32_t decision_number(const wire::ToHost& message) {
     if (const auto* decision = std::get_if<wire::AdjustCamera>(&message))
         return decision->number;
     if (const auto* decision = std::get_if<wire::Play>(&message))
+        return decision->number;
+    if (const auto* decision = std::get_if<wire::LookBack>(&message))
         return decision->number;
     return 0;
 }
@@ -76,6 +81,7 @@ HostSession::HostSession(Config config)
       admission_(config_.admission),
       membership_(config_.admission.asks),
       streams_(config_.streams, actions_),
+      look_back_(config_.past, streams_, actions_),
       room_(config_.room, actions_, config_.authors) {
     std::vector<wire::Camera> cameras = config_.cameras;
     for (wire::Camera& camera : cameras)
@@ -171,6 +177,9 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
 void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     Participant& participant = *admission_.find(id);
     Admission::admit(participant, hello);
+    // A recording is of the present.
+    if (!look_back_.is_possible() || hello.records || participant.has(wire::Feature::sends_only))
+        std::erase(participant.features, wire::Feature::look_back);
     actions_.push_back(action::Joined{id, participant.name, participant.person});
     audit(AuditEvent::What::joined, id, "", hello.records ? "records" : "");
     describe_session(id);
@@ -323,6 +332,7 @@ void HostSession::on_closed(ParticipantId id) {
             tell_operators();
     }
     renderers_.forget(id);
+    look_back_.leave(id);
     streams_.leave(id);
     room_.leave(id);
     set_budgets();
@@ -337,6 +347,7 @@ void HostSession::on_tick(TimePoint now) {
             carry_out_late(id, participant, now);
     }
     audit_adjustments(now);
+    look_back_.on_tick(now);
     streams_.on_tick(now);
 }
 
@@ -344,6 +355,7 @@ void HostSession::resynchronise(ParticipantId id) {
     Participant* participant = admission_.find(id);
     if (!participant || !participant->takes_part())
         return;
+    look_back_.end(id);
     describe_session(id);
     tell_renderer(id);
     streams_.tell_again(id);
@@ -360,6 +372,7 @@ void HostSession::resynchronise(ParticipantId id) {
 }
 
 void HostSession::end(wire::TextCode reason) {
+    look_back_.clear();
     for (auto& [id, participant] : admission_.participants()) {
         if (!participant.takes_part() && !participant.waits())
             continue;
@@ -422,6 +435,7 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     send(id, std::move(refusal));
     unshare(id, streams_.of(id));
     participant.closing = true;
+    look_back_.leave(id);
     streams_.leave(id);
     room_.leave(id);
     actions_.push_back(action::Close{id, std::move(why)});

@@ -16,6 +16,7 @@
 #include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
+#include "session/look_back.h"
 #include "session/membership.h"
 #include "session/renderer_wishes.h"
 #include "session/streams.h"
@@ -45,6 +46,7 @@ public:
         HostRoom::Authors authors;  // of its marks
         // Those of them that may_know_patient() are told who the patient of the open case is.
         std::vector<Role> patient_for = {Role::operator_};
+        PastBounds past = {};  // that participants may look back at
     };
 
     // Cameras of one publisher at once.
@@ -84,6 +86,15 @@ public:
     // or a setting that is gone, is ignored.
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
+
+    // A frame of a camera of the host was encoded: it may be kept for looking back.
+    void keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
+        look_back_.keep(header, message, now);
+    }
+    // See LookBack.
+    std::vector<LookBack::Due> take_past(TimePoint now) { return look_back_.take_due(now); }
+    std::optional<TimePoint> past_due() const { return look_back_.due(); }
+    std::size_t past_bytes() const { return look_back_.bytes(); }
 
     // A pose of an object in the room, to be sent to the receivers of the result at once.
     HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
@@ -172,6 +183,7 @@ private:
     void carry_out(ParticipantId id, const wire::VoiceConsent& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void tell_cases(ParticipantId id);
     void tell_patient();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
@@ -219,6 +231,7 @@ private:
     Admission admission_;
     Membership membership_;
     Streams streams_;
+    LookBack look_back_;
     HostRoom room_;
     RendererWishes renderers_;
     bool has_ended_ = false;

@@ -25,9 +25,14 @@ void HostSession::carry_out(ParticipantId id, const wire::AdjustCamera& wish, Ti
 
 ManageRefusal HostSession::adjust(CameraId camera, const CameraAdjustment& adjustment,
                                   const std::string& by, TimePoint now) {
+    const CameraStreams* known = streams_.find(camera);
+    const auto before = known ? known->adjustment().region : std::nullopt;
     const ManageRefusal refusal = streams_.adjust(camera, adjustment);
     if (refusal != ManageRefusal::none)
         return refusal;
+    // A region may be there to hide something.
+    if (known->adjustment().region != before)
+        look_back_.forget(camera, now);
     adjusted_[camera] = {by, now};
     actions_.push_back(action::Adjusted{camera});
     return refusal;
@@ -61,6 +66,12 @@ void HostSession::carry_out(ParticipantId id, const wire::Play& wish, TimePoint)
                                         admission_.find(id)->name});
     send(id, wire::Managed{wish.number,
                            playback_ ? ManageRefusal::none : ManageRefusal::nothing_to_play});
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::LookBack& wish, TimePoint now) {
+    const bool may = admission_.find(id)->has(wire::Feature::look_back);
+    send(id, wire::Managed{wish.number, may ? look_back_.begin(id, wish.ago, now)
+                                            : ManageRefusal::nothing_kept});
 }
 
 void HostSession::set_playback(const wire::Playback& playback) {

@@ -75,6 +75,7 @@ HostSession::Config config(bool asks) {
     config.check_depth = config.check_color = check;
     config.streams.codecs = steps();
     config.streams.usual = {"strata", "jpeg"};
+    config.past = {30s, 4096};
     return config;
 }
 
@@ -87,8 +88,8 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::cases,
-                       wire::Feature::screens, wire::Feature::patient};
+    wishes.features = {wire::Feature::publish, wire::Feature::room,      wire::Feature::cases,
+                       wire::Feature::screens, wire::Feature::look_back, wire::Feature::patient};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
@@ -117,6 +118,17 @@ void check_rights(const HostSession& host) {
             std::abort();
     if (host.visitors().size() > wire::max_visitors)
         std::abort();
+}
+
+// Nobody is shown the past of its own camera, nor of a camera that has left.
+void check_past(const HostSession& host, const std::vector<session::LookBack::Due>& pictures) {
+    for (const session::LookBack::Due& due : pictures) {
+        const auto* camera = host.streams().find(camera_of(due.header.stream));
+        const auto found = host.participants().find(due.receiver);
+        if (!camera || !camera->may_be_kept() || camera->publisher() == due.receiver ||
+            found == host.participants().end() || !found->second.takes_part())
+            std::abort();
+    }
 }
 
 session::CaseFacts case_facts(int number) {
@@ -330,6 +342,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 wire::encode(wire::Play{choice, wire::PlayAction(1 + choice % 3),
                                                         Duration(std::int64_t(choice) << 40)}),
                                 now);
+                host.on_control(
+                    id, wire::encode(wire::LookBack{choice, Duration(choice) * 300'000}), now);
                 break;
             }
             case 9:
@@ -342,6 +356,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         now += what < 128 ? 10ms : 200ms;
         host.on_tick(now);
+        check_past(host, host.take_past(now));
         for (const session::Action& action : host.take_actions())
             if (const auto* send = std::get_if<session::action::Send>(&action)) {
                 check_sent(host, *send);

@@ -129,6 +129,7 @@ void HostSession::begin_again() {
     membership_.forget_all();
     room_.clear();
     tell_patient();
+    look_back_.clear();
     actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", at_the_host, config_.name}});
 }
 

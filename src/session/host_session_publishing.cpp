@@ -157,6 +157,7 @@ void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras
         audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
     for (const CameraId camera : cameras)
         room_.remove_screen(camera);
+    look_back_.forget(camera, {});
     streams_.remove(cameras);
     face_paces_.clear();
     set_budgets();
@@ -207,6 +208,7 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
     if (camera->is_face() &&
         !lets_face_through(*participant, *camera, *header, message.size(), now))
         return {};
+    look_back_.keep(*header, message, now);
     return streams_.on_media(*header, message.size(), now);
 }
 

@@ -157,6 +157,22 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
     apply();
 }
 
+void Streams::look_back(ParticipantId id, std::set<CameraId> cameras) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end())
+        return;
+    Receiver& receiver = found->second;
+    for (const CameraId camera : std::exchange(receiver.past, std::move(cameras))) {
+        const auto known = cameras_.find(camera);
+        if (known == cameras_.end() || receiver.past.contains(camera))
+            continue;
+        known->second.receivers[id] = {};
+        receiver.delivery.forget(depth_stream(camera));
+        receiver.delivery.forget(color_stream(camera));
+    }
+    tell_receiver(id, receiver);
+}
+
 std::string Streams::step_of(ParticipantId id) {
     const auto found = receivers_.find(id);
     return found == receivers_.end() ? "" : wire::sent_part(found->second.delivery.message({}));
@@ -225,7 +241,7 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
     wire::Settings message;
     for (auto& [number, camera] : cameras_) {
         const auto announced = camera.receivers.find(id);
-        if (announced == camera.receivers.end())
+        if (announced == camera.receivers.end() || receiver.past.contains(number))
             continue;
         const ActiveSetting& depth = camera.table(true).given(id);
         const ActiveSetting& color = camera.table(false).given(id);

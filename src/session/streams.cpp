@@ -122,6 +122,7 @@ void Streams::remove(const std::vector<CameraId>& cameras) {
             }
         for (auto& [id, receiver] : receivers_) {
             receiver.wishes.erase(camera);
+            receiver.past.erase(camera);
             receiver.delivery.forget(depth_stream(camera));
             receiver.delivery.forget(color_stream(camera));
             if (found->second.is_told_to(id, receiver.takes_faces))
@@ -283,6 +284,8 @@ std::vector<ParticipantId> Streams::on_media(const wire::MediaHeader& header, st
         if (announced.of(depth) != header.setting)
             continue;
         Receiver& receiver = receivers_.at(id);
+        if (receiver.past.contains(found->first))
+            continue;
         const int own_layer = depth ? *layer : camera.color_layer(header.frame, announced.depth);
         if (!chain && !receiver.records &&
             !receiver.delivery.lets_through(header.stream, own_layer, announced.highest_layer))
@@ -290,6 +293,14 @@ std::vector<ParticipantId> Streams::on_media(const wire::MediaHeader& header, st
         result.push_back(id);
     }
     return result;
+}
+
+const ActiveSetting* Streams::kept_setting(StreamId stream) const {
+    const CameraStreams* camera = find(camera_of(stream));
+    if (!camera || !camera->may_be_kept())
+        return nullptr;
+    const auto& active = camera->table(is_depth(stream)).active();
+    return active.empty() ? nullptr : &active.front();
 }
 
 std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting) const {
@@ -331,7 +342,8 @@ bool Streams::all_wait(CameraId id, const std::function<bool(ParticipantId)>& is
     if (!camera || camera->receivers.empty())
         return false;
     return std::all_of(camera->receivers.begin(), camera->receivers.end(), [&](const auto& entry) {
-        return !receivers_.at(entry.first).delivery.adapts() && is_behind(entry.first);
+        const Receiver& receiver = receivers_.at(entry.first);
+        return !receiver.past.contains(id) && !receiver.delivery.adapts() && is_behind(entry.first);
     });
 }
 

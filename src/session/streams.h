@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,12 @@ public:
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(ParticipantId receiver, const Wish& wish, const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
+    // The receiver is shown the past of exactly these cameras (look_back.h): it gets nothing of
+    // their present, and no settings. Those of before that are not among them it gets anew.
+    void look_back(ParticipantId receiver, std::set<CameraId> cameras);
+    // Numbers for settings of the past.
+    SettingId take_number() { return numbers_.take(); }
+    void give_number_back(SettingId number) { numbers_.give_back(number); }
     // The measurements of a receiver's link, ten times a second.
     void on_link(ParticipantId receiver, const LinkMeasure& link, TimePoint now);
     // Messages to this participant were dropped: sends it the current state.
@@ -103,6 +110,9 @@ public:
     // Media. A frame was encoded, `size` bytes. Returns its receivers.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
                                         TimePoint now);
+    // The setting of this stream that is kept for looking back: the one that has been active for
+    // longest. Null if the camera may not be kept, or is not encoded.
+    const ActiveSetting* kept_setting(StreamId stream) const;
     // The receivers of this stream in this setting.
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
     // The stream needs a key frame.
@@ -111,7 +121,8 @@ public:
     void request_key(ParticipantId receiver, StreamId stream, SettingId setting);
     void on_tick(TimePoint now);
 
-    // True if a frame of this camera would have to wait at every receiver. Receivers that are sent
+    // True if a frame of this camera would have to wait at every receiver; those who look back wait
+    // for none. Receivers that are sent
     // less when frames are late do not count as waiting; without any receiver it is false.
     bool all_wait(CameraId camera, const std::function<bool(ParticipantId)>& is_behind) const;
 
@@ -120,6 +131,7 @@ private:
         Wish wish;
         std::map<CameraId, Wish> wishes;  // for single cameras; empty texts: as `wish`
         bool records = false, takes_faces = false;
+        std::set<CameraId> past;  // that it is shown the past of
         Delivery delivery;
 
         const std::string& wished(CameraId camera, bool depth) const;

@@ -175,6 +175,8 @@ std::string warning_of(const Facts& facts) {
     // In other phases the message says it.
     if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture)
         return {};
+    if (!facts.past.empty())
+        return facts.past + (facts.frozen ? ", frozen. Space: go on; " : ". ") + "End: live again";
     if (facts.frozen)
         return "Frozen by you" +
                (facts.age_ms ? ": this picture is " + age_text(*facts.age_ms) + " old" : "") +

@@ -35,6 +35,8 @@ struct Facts {
     std::optional<xr::PanelRow> bar = {};                 // of the recording that the host plays
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
     OwnFace own_face = OwnFace::none;
+    // The moment that is shown, while it is not the present (looking_back.h); else empty.
+    std::string past = {};
     bool trust = false;  // the panel of trust_panel.h is shown, too
 };
 

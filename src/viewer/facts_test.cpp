@@ -47,6 +47,15 @@ TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
     EXPECT_EQ(fact(content, "Host").value, "OR 3");
 }
 
+TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
+    Facts facts = healthy();
+    facts.past = "NOT LIVE: 23 s ago";
+    facts.age_ms = 23'000;
+    EXPECT_EQ(overlay(facts).warning, "NOT LIVE: 23 s ago. End: live again");
+    facts.frozen = true;
+    EXPECT_THAT(overlay(facts).warning, HasSubstr("NOT LIVE: 23 s ago, frozen"));
+}
+
 TEST(Overlay, ShowsTheMicrophoneOfAWindowThatHasOne) {
     Facts facts = healthy();
     EXPECT_EQ(fact(overlay(facts), "Microphone").value, "");

@@ -372,14 +372,20 @@ void LiveScene::set_ages_shown(bool shown) {
     meeting_.set_ages_shown(shown);
 }
 
+bool LiveScene::shows_present(CameraId camera) const {
+    const auto live = live_.find(camera);
+    const auto frame = newest_.find(camera);
+    return (live == live_.end() || live->second) &&
+           (frame == newest_.end() || !frame->second->past);
+}
+
 // True if a warning is another one than before. Other ages are drawn with the next picture.
 bool LiveScene::note_ages(const client::Participant& participant) {
     const auto before = std::exchange(ages_, {});
     bool changed = false;
     if (participant.status().clock_known)
         for (const auto& [id, frame] : newest_) {
-            const auto live = live_.find(id);
-            const bool is_live = live == live_.end() || live->second;
+            const bool is_live = shows_present(id);
             if (!shows_ages_ && is_live)
                 continue;
             const double ms = to_ms(participant.now() - frame->times.captured);
@@ -401,7 +407,7 @@ void LiveScene::add_ages(const render::CameraView& view) {
         const Vec3 lens = camera->second.room_from_camera.translation;
         if (length(lens - eye) < room::camera_label_from_m)
             continue;
-        const bool is_live = live_.count(id) == 0 || live_.at(id);
+        const bool is_live = shows_present(id);
         Pose place = room::facing(lens - Vec3{0, age_below_m, 0}, eye);
         place.translation =
             place * Vec3{-0.5 * age_height_m * letter_width * double(age.size()), 0, 0};

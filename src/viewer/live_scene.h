@@ -134,6 +134,7 @@ private:
     void add_headset_text(const render::CameraView& view);
     void add_ages(const render::CameraView& view);
     bool note_ages(const client::Participant& participant);
+    bool shows_present(CameraId camera) const;
     void make_passes();
     // Everything in the picture except the clouds; null if nothing.
     const render::SceneFrame* scene_for(const render::CameraView& view);

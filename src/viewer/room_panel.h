@@ -75,9 +75,13 @@ struct ChangeScreen {
     enum class What { smaller, larger, pin, unpin, end } what{};
     session::ObjectId screen{};
 };
-using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered,
-                                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall,
-                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen, ShowFace>;
+struct LookBackTo {  // for this person alone; 0: the present
+    Duration ago{};
+};
+using RoomCommand =
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
+                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
+                 ChangeScreen, ShowFace, LookBackTo>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

@@ -11,7 +11,7 @@ namespace theatron::viewer {
 namespace {
 
 bool is_live(const client::CameraFigures& camera) {
-    return camera.camera.state.condition == wire::CameraCondition::live;
+    return camera.camera.state.condition == wire::CameraCondition::live && !camera.depth.past;
 }
 
 // The older one of depth and colour counts.

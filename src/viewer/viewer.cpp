@@ -161,6 +161,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::pause_recording:
         case xr::Action::seek_back:
         case xr::Action::seek_forward:
+        case xr::Action::live:
         case xr::Action::adjust_cameras:
         case xr::Action::nudge:
             on_camera_key(key, picture, now);
@@ -249,6 +250,8 @@ void Viewer::press(int command, TimePoint now) {
             note("This is not in the room any more", now);
         return;
     }
+    if (const auto* moment = std::get_if<LookBackTo>(&chosen))
+        return look_back(moment->ago, now);
     if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
@@ -449,15 +452,19 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     const TimePoint presented = participant_.session_time(end);
     // Screens and faces tell their ages themselves.
     std::optional<double> age_ms;
+    bool is_past = false;
     for (const CameraId camera : updated)
-        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end())
+        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end()) {
             age_ms = std::max(age_ms.value_or(0), to_ms(presented - frame->second->times.captured));
+            is_past = is_past || frame->second->past;
+        }
     if (!age_ms)
         return;
     presented_at_ = end;
     age_at_presentation_ms_ = age_ms;
     ages_ms_.add(*age_ms);
-    all_ages_ms_.add(*age_ms);
+    if (!is_past)
+        all_ages_ms_.add(*age_ms);
 }
 
 Facts Viewer::facts(TimePoint now) {
@@ -484,6 +491,9 @@ Facts Viewer::facts(TimePoint now) {
     facts.help = help_;
     facts.frozen = frozen_;
     RoomPanel panel = call_panel(callers());
+    facts.past = past(now);
+    if (!facts.past.empty() || (shows_panels_ && participant_.can_look_back()))
+        looking_back_.add_panel(facts.past, participant_, now, panel);
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
         panel = joined(std::move(panel),

@@ -23,6 +23,7 @@
 #include "viewer/handling.h"
 #include "viewer/headset.h"
 #include "viewer/live_scene.h"
+#include "viewer/looking_back.h"
 #include "viewer/marking.h"
 #include "viewer/playing.h"
 #include "viewer/renderer_text.h"
@@ -161,6 +162,9 @@ private:
     void follow_cameras(TimePoint now);
     void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
     void play(const PlayStep& play, TimePoint now);
+    bool look_back(const xr::KeyPress& key, TimePoint now);
+    void look_back(Duration ago, TimePoint now);
+    std::string past(TimePoint now) const;
     bool may(session::Right right) const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
@@ -181,6 +185,7 @@ private:
     Marking marking_;
     CameraAdjusting adjusting_;
     Playing playing_;
+    LookingBack looking_back_;
     bool slides_playback_ = false;                   // the slider that was pressed last
     std::optional<room::Pointer> pointer_;           // while this person points
     std::optional<Vec2> mouse_;                      // over the scene

@@ -45,6 +45,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     facts.real_room = scene_.has_real_room();
     facts.drawing = choice_.renderer() == automatic ? way().renderer + " (auto)" : way().renderer;
     facts.people = scene_.meeting().people();
+    facts.past = past(now);
     headset_->on_frame(frame, facts, scene_, participant_, now);
     if (const auto wish = headset_->take_wish())
         follow_wish(*wish, now);
@@ -53,6 +54,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     const auto status = participant_.status();
     const bool is_joined = status.phase == client::Participant::Phase::joined;
     scene_.set_headset_text(!is_joined            ? "Connection lost, trying again..."
+                            : !facts.past.empty() ? facts.past
                             : now < notice_until_ ? notice_
                                                   : "");
 }
@@ -67,6 +69,8 @@ void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
         choose_next_renderer(now);
     } else if (wish.action == MenuAction::new_brick) {
         handling_.make_brick(headset_->head(), participant_);
+    } else if (wish.action == MenuAction::live) {
+        look_back(Duration(0), now);
     } else if (wish.action == MenuAction::go_to_person) {
         if (scene_.has_real_room())
             return;  // the room cannot be moved to another person

@@ -109,7 +109,40 @@ void Viewer::play(const PlayStep& play, TimePoint now) {
         note(wire::text_of(wire::ManageRefusal::nothing_to_play), now);
 }
 
+// The recording that a host plays is moved for all; without one a person looks back alone. False:
+// the key is not meant so.
+bool Viewer::look_back(const xr::KeyPress& key, TimePoint now) {
+    const bool is_looking = participant_.looks_back();
+    const bool moves =
+        key.action == xr::Action::seek_back || key.action == xr::Action::seek_forward;
+    if (key.action == xr::Action::live && is_looking)
+        look_back(Duration(0), now);
+    else if (!moves || (!is_looking && participant_.playback()))
+        return key.action == xr::Action::live;
+    else if (key.action == xr::Action::seek_back)
+        look_back(looking_back_.further(participant_, now), now);
+    else if (is_looking)
+        look_back(looking_back_.nearer(participant_, now), now);
+    return true;
+}
+
+void Viewer::look_back(Duration ago, TimePoint now) {
+    if (!looking_back_.go(ago, participant_, now))
+        note(wire::text_of(wire::ManageRefusal::nothing_kept), now);
+}
+
+std::string Viewer::past(TimePoint now) const {
+    std::map<CameraId, std::string> names;
+    std::uint64_t generation = 0;
+    for (const auto& camera : participant_.cameras(generation))
+        names[camera.description.id] = camera.description.name;
+    return past_text(scene_.newest(), participant_.past_cameras(), names,
+                     participant_.session_time(now));
+}
+
 void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    if (look_back(key, now))
+        return;
     if (key.action == xr::Action::pause_recording)
         play({PlayStep::What::toggle}, now);
     else if (key.action == xr::Action::seek_back)

@@ -14,6 +14,8 @@ constexpr double row_letter_m = 0.0105, text_from_left_m = 0.012, above_panel_m 
 
 std::vector<MenuRow> menu_rows(const MenuFacts& facts) {
     std::vector<MenuRow> rows;
+    if (!facts.past.empty())
+        rows.push_back({MenuAction::live, "Live again", {}});
     rows.push_back({MenuAction::microphone,
                     facts.muted             ? "An operator has muted you"
                     : facts.microphone_open ? "Close microphone"

@@ -24,6 +24,7 @@ enum class MenuAction {
     new_brick,
     place_table,  // with the real room around
     go_to_person,
+    live,  // ends looking back
 };
 
 struct MenuRow {
@@ -39,6 +40,7 @@ struct MenuFacts {
     bool real_room = false;
     std::string drawing;
     std::vector<room::RoomPerson> people;  // the others
+    std::string past = {};                 // as in Facts
 };
 
 // At most `most_people` of them; the text of the last row says how many more there are.

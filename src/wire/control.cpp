@@ -167,6 +167,9 @@ bool is_sound(const Manage& decision) {
 bool is_sound(const Play& play) {
     return play.action >= PlayAction::pause && play.action <= PlayAction::seek;
 }
+bool is_sound(const LookBack& wish) {
+    return wish.ago >= Duration(0);
+}
 bool is_sound(const Playback& playback) {
     return playback.position >= Duration(0) && playback.length >= Duration(0);
 }
@@ -189,7 +192,7 @@ bool is_sound(const Patient& patient) {
     return patient.of_case.empty() || patient.of_case.size() == content_hash_size;
 }
 bool is_sound(const Managed& answer) {
-    return answer.refusal <= ManageRefusal::nothing_to_play;
+    return answer.refusal <= ManageRefusal::nothing_kept;
 }
 
 // False if the table has a value that its kind does not allow.

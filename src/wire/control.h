@@ -53,6 +53,7 @@ enum class Feature : std::uint16_t {
     adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
     playback = 7,       // is told where the host's recording is, and may play it
     screens = 8,        // is told with ShareEnded that others have ended its screens
+    look_back = 9,      // may look back at the last minute: LookBack
     webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
 };
@@ -290,6 +291,19 @@ struct Play {
     }
 };
 
+// The participant is shown the cameras of the room as they were `ago`, which goes on from there, or
+// with 0 the present again; the others are not concerned. The host answers with Settings and with
+// Managed.
+struct LookBack {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    Duration ago{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.ago);
+    }
+};
+
 // The participant asks for `count` bytes of this content from `offset` on. The host answers with
 // Content messages, in order.
 struct RequestContent {
@@ -405,12 +419,14 @@ struct StreamSetting {
     StreamId stream{};
     SettingId setting{};
     std::string codec;
+    bool past = false;  // its pictures are not of the present: see LookBack
     bool operator==(const StreamSetting&) const = default;
 
     static void fields(auto& m, auto&& field) {
         field(m.stream);
         field(m.setting);
         field(m.codec, max_codec);
+        field(m.past);
     }
 };
 
@@ -601,9 +617,10 @@ enum class ManageRefusal : std::uint8_t {
     adjusting_role = 9,    // the sender may not adjust cameras
     playing_role = 10,     // the sender may not play the recording
     nothing_to_play = 11,  // the host plays no recording
+    nothing_kept = 12,     // of the past that the sender may see
 };
 
-// The host has decided on the sender's Manage, AdjustCamera or Play of this number.
+// The host has decided on the sender's Manage, AdjustCamera, Play or LookBack of this number.
 struct Managed {
     std::uint32_t number = 0;
     ManageRefusal refusal{};
@@ -714,7 +731,7 @@ struct Patient {
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
                             Unpublish, CameraState, RoomRequest, Manage, RequestContent,
-                            VoiceConsent, AdjustCamera, Play>;
+                            VoiceConsent, AdjustCamera, Play, LookBack>;
 using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
                  CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,

@@ -26,6 +26,7 @@ static_assert(code_of(ManageRefusal::beyond_limits) == TextCode::beyond_adjustme
 static_assert(code_of(ManageRefusal::adjusting_role) == TextCode::operators_adjust);
 static_assert(code_of(ManageRefusal::playing_role) == TextCode::role_plays_not);
 static_assert(code_of(ManageRefusal::nothing_to_play) == TextCode::nothing_to_play);
+static_assert(code_of(ManageRefusal::nothing_kept) == TextCode::nothing_kept);
 
 // A sentence; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {

@@ -141,6 +141,7 @@ constexpr Row rows[] = {
     {TextCode::operators_adjust, "Only operators adjust cameras."},
     {TextCode::role_plays_not, "Your role does not allow to play the recording."},
     {TextCode::nothing_to_play, "This host plays no recording."},
+    {TextCode::nothing_kept, "The host keeps nothing of the last minute that you may see."},
 };
 
 constexpr bool is_in_order() {

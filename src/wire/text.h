@@ -113,6 +113,7 @@ enum class TextCode : std::uint16_t {
     operators_adjust = 608,
     role_plays_not = 609,
     nothing_to_play = 610,
+    nothing_kept = 611,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;

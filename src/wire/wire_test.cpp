@@ -368,6 +368,13 @@ TEST(Control, EveryMessageRoundTrips) {
     const Play seek = round_trip(Play{5, PlayAction::seek, 90s});
     EXPECT_EQ(seek.action, PlayAction::seek);
     EXPECT_EQ(seek.position, 90s);
+    const LookBack back = round_trip(LookBack{6, 20s});
+    EXPECT_EQ(back.number, 6u);
+    EXPECT_EQ(back.ago, 20s);
+    EXPECT_EQ(decode_to_host(encode(ToHost(LookBack{6, -1s}))).error(),
+              theatron::Status::malformed);
+    const StreamSetting past{StreamId{4}, SettingId{9}, "trvl", true};
+    EXPECT_EQ(round_trip(Settings{{past}, {}}).settings, std::vector{past});
     const Playback playback{3s, from_us(12), 60s, true, "Anna"};
     EXPECT_EQ(round_trip(playback), playback);
     const ShareEnded ended = round_trip(ShareEnded{{CameraId{3}, CameraId{9}}, "Dora"});

@@ -98,6 +98,8 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::seek_back};
         case SDLK_PERIOD:
             return KeyPress{Action::seek_forward};
+        case SDLK_END:
+            return KeyPress{Action::live};
         case SDLK_F6:
             return KeyPress{Action::adjust_cameras};
         case SDLK_LEFT:

@@ -33,6 +33,7 @@ const std::vector<KeyHelp>& key_help() {
         {"0; + and -", "From above; larger and smaller points"},
         {"Space", "Freeze the picture of the cameras, live again"},
         {"F5; comma, full stop", "The host's recording, for all: pause, play; 5 s back, forward"},
+        {"Comma; full stop; End", "Without one, you alone: look 10 s back; nearer; live again"},
         {"F6", "Operators: move and turn a camera a little, for all"},
         {"Arrows, Page Up and Down, [ ]",
          "Then: its picture left, right, away, near, up, down, turned"},

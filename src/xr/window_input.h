@@ -41,8 +41,9 @@ enum class Action {
     larger_points,
     smaller_points,
     pause_recording,  // that the host plays, for all; or goes on
-    seek_back,        // in that
+    seek_back,        // in that; without one: this person alone looks back at the session
     seek_forward,
+    live,            // ends looking back
     adjust_cameras,  // shows or hides the panel of cameras, for operators
     nudge,           // `nudge` of the key press: the chosen camera, while that panel is shown
     freeze,          // keeps the picture of the cameras, or no longer does

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/looking_back.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron::viewer {
+namespace {
+
+constexpr CameraId left{0}, right{1};
+const std::map<CameraId, std::string> names{{left, "left"}, {right, "right"}};
+
+receive::CameraFramePtr frame(double captured_s, bool past) {
+    const auto made = std::make_shared<receive::CameraFrame>();
+    made->times.captured = from_us(std::int64_t(captured_s * 1e6));
+    made->past = past;
+    return made;
+}
+
+std::string text(const std::map<CameraId, receive::CameraFramePtr>& frames,
+                 const std::set<CameraId>& looking) {
+    return past_text(frames, looking, names, from_us(100'000'000));
+}
+
+TEST(PastText, IsEmptyInThePresentOnly) {
+    EXPECT_EQ(text({}, {}), "");
+    EXPECT_EQ(text({{left, frame(99.9, false)}}, {}), "");
+    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(77.5, true)}}, {left, right}),
+              "NOT LIVE: 23 s ago");
+}
+
+TEST(PastText, BeginsWithTheHostsAnswerAndEndsWithTheLastPictureOfThePast) {
+    EXPECT_EQ(text({{left, frame(99.9, false)}}, {left}), "NOT LIVE: looking back...");
+    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(99.9, false)}}, {}),
+              "NOT LIVE: 23 s ago (live: camera right)");
+}
+
+TEST(PastText, NamesCamerasThatAreShownLiveMeanwhile) {
+    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(99.9, false)}}, {left}),
+              "NOT LIVE: 23 s ago (live: camera right)");
+    // Its first picture of the past has not come yet.
+    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(95, false)}}, {left, right}),
+              "NOT LIVE: 23 s ago");
+}
+
+TEST(LookingBack, OffersTheLastMinuteAndOnePressBackToThePresent) {
+    client::Participant::Options options;
+    options.link = {"127.0.0.1", 1, "token", ""};
+    client::Participant nobody(options);
+    const LookingBack looking;
+    const TimePoint now = from_us(5'000'000);
+    RoomPanel present, past;
+    looking.add_panel("", nobody, now, present);
+    ASSERT_EQ(present.panels.size(), 1u);
+    const auto& row = present.panels[0].rows.at(0);
+    ASSERT_EQ(row.buttons.size(), 3u);
+    EXPECT_EQ(std::get<LookBackTo>(present.commands.at(std::size_t(row.buttons[1].command))).ago,
+              std::chrono::seconds(30));
+    looking.add_panel("NOT LIVE: 23 s ago", nobody, now, past);
+    const auto& shown = past.panels.at(0).rows.at(0);
+    EXPECT_EQ(shown.text, "NOT LIVE: 23 s ago");
+    EXPECT_EQ(shown.buttons.at(0).label, "Live");
+    EXPECT_EQ(std::get<LookBackTo>(past.commands.at(std::size_t(shown.buttons[0].command))).ago,
+              Duration(0));
+    LookingBack asking;
+    EXPECT_FALSE(asking.go(std::chrono::seconds(10), nobody, now));
+}
+
+}  // namespace
+}  // namespace theatron::viewer
