@@ -9,7 +9,7 @@ namespace theatron::registration {
 namespace {
 
 constexpr double farthest_m = 1000;
-// Of the squared length of a quaternion that was written with two digits or more.
+// Quaternions are written with two digits or more; this is about their squared length.
 constexpr double largest_deviation = 0.02;
 
 }  // namespace

@@ -28,7 +28,7 @@ Vec3 within(Vec3 vec, double longest) {
 
 std::string value_text(CameraAdjustment adjustment, int part) {
     constexpr const char* names[part_count] = {"Right x", "Up y",   "Back z",
-                                          "Tilt x",  "Turn y", "Roll z"};
+                                               "Tilt x",  "Turn y", "Roll z"};
     char text[64];
     if (part < 3)
         std::snprintf(text, sizeof(text), "%s %+.0f mm", names[part],

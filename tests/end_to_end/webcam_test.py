@@ -10,7 +10,7 @@ import unittest
 from theatron_process import Process, host, make_recording, read_png, run
 
 SIZE = (320, 240)
-# Of the generated picture (capture/face_camera.cpp).
+# The colours of the generated picture (capture/face_camera.cpp).
 RED, BLUE = (220, 60, 40), (40, 90, 220)
 
 
