@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "export/mark_json.h"
+#include "export/screen_json.h"
 #include "room/bricks.h"
 #include "session/case_objects.h"
 #include "session/room_text.h"
@@ -270,12 +271,7 @@ nlohmann::json room_json(const client::Participant& participant) {
             if (const auto mark = session::decode_mark(object.properties))
                 objects.back()["mark"] = exporting::mark_json(*mark);
         if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
-            objects.back()["screen"] = {
-                {"camera",
-                 screen->camera ? nlohmann::json(int(*screen->camera)) : nlohmann::json()},
-                {"name", screen->name},
-                {"publisher", screen->publisher},
-                {"pinned", screen->pinned}};
+            objects.back()["screen"] = exporting::screen_json(*screen);
     }
     return {{"hash", session::hash_text(room.objects)},
             {"recorded_hash", session::hash_text(session::as_recorded(room.objects))},

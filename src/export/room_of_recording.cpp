@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "export/mark_json.h"
+#include "export/screen_json.h"
 #include "files/json_text.h"
 #include "session/room_bytes.h"
 #include "session/room_text.h"
@@ -42,6 +43,8 @@ Json describe(session::ObjectId id, const session::RoomObject& object) {
     if (object.kind == session::ObjectKind::mark)
         if (const std::optional<session::Mark> mark = session::decode_mark(object.properties))
             json["mark"] = mark_json(*mark);
+    if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
+        json["screen"] = screen_json(*screen);
     return json;
 }
 
