@@ -49,8 +49,7 @@ void Host::Impl::note_participants() {
             const auto& state = streams.find(camera.id)->state;
             published.push_back({camera.id, camera.name, camera.publisher,
                                  condition_here(state, is_silent(camera.publisher)),
-                                 dropped_slow[camera.id],
-                                 camera.frame == wire::CameraFrame::face});
+                                 dropped_slow[camera.id], camera.frame == wire::CameraFrame::face});
         }
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);

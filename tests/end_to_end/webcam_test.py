@@ -11,7 +11,7 @@ from theatron_process import Process, host, make_recording, read_png, run
 from virtual_screen import VirtualScreen
 
 SIZE = (320, 240)
-# Of the generated picture (capture/face_camera.cpp).
+# Colours of the generated picture (capture/face_camera.cpp).
 RED, BLUE = (220, 60, 40), (40, 90, 220)
 
 
