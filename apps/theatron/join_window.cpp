@@ -71,8 +71,10 @@ void join_in_window(const JoinFlags& flags) {
         face.show(fields.shows_face);
         try {
             problem.clear();
-            if (show(window, std::move(now)) == WindowEnd::closed || !asks)
+            const WindowEnd end = show(window, std::move(now));
+            if (end == WindowEnd::closed || !asks)
                 return;
+            fields.shows_face = face.is_wanted();
         } catch (const Error& error) {
             if (!asks)
                 throw;

@@ -82,6 +82,7 @@ void HostSession::end_share(CameraId camera, ParticipantId by) {
     const ParticipantId publisher = found->publisher();
     const std::string& name = admission_.find(by)->name;
     audit(AuditEvent::What::unshared, publisher, name, found->description().name);
+    look_back_.forget(camera, {});
     streams_.remove({camera});
     if (admission_.find(publisher)->has(wire::Feature::screens))
         send(publisher, wire::ShareEnded{{camera}, name});
@@ -155,9 +156,10 @@ void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimeP
 void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras) {
     for (const CameraId camera : cameras)
         audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
-    for (const CameraId camera : cameras)
+    for (const CameraId camera : cameras) {
         room_.remove_screen(camera);
-    look_back_.forget(camera, {});
+        look_back_.forget(camera, {});
+    }
     streams_.remove(cameras);
     face_paces_.clear();
     set_budgets();

@@ -8,9 +8,10 @@ import time
 import unittest
 
 from theatron_process import Process, host, make_recording, read_png, run
+from virtual_screen import VirtualScreen
 
 SIZE = (320, 240)
-# The colours of the generated picture (capture/face_camera.cpp).
+# Colours of the generated picture (capture/face_camera.cpp).
 RED, BLUE = (220, 60, 40), (40, 90, 220)
 
 
@@ -75,6 +76,16 @@ class Webcam(unittest.TestCase):
                 time.sleep(3)
                 rows = self.seen(link, "stopped")
                 self.assertLess(len(places(rows, RED)) + len(places(rows, BLUE)), 50)
+
+    def test_in_the_window_f4_switches_it(self):
+        with VirtualScreen(480, 360) as screen, host(self.folder / "state3", self.lamp) as h:
+            environment = {**screen.environment, "XDG_STATE_HOME": str(self.folder / "home")}
+            with Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
+                    Process("join", h.greeting["link"], "--name", "Wim", "--webcam", "test", "--size", "480x360", env=environment):
+                ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 3, 30)
+                for is_on in (False, True):
+                    screen.do("key", "F4")
+                    ada.wait_for(lambda f: bool(faces(f)) == is_on, 20)
 
     def test_a_missing_webcam_and_an_observer_s_one_keep_nobody_out(self):
         with host(self.folder / "state2", self.lamp) as h:

@@ -173,10 +173,10 @@ function run({ client, voice, face, module, flat }) {
         show_face(face, page.way);
     };
     const show_state = () => {
-        follow_face();
         page.state = JSON.parse(client.state());
         if (page.state.phase === "left")
             return leave(voice, face, page.state.problem);
+        follow_face();
         show(page.state);
         show_way(page.state);
         place_voices(voice, page.state);
