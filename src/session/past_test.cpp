@@ -88,7 +88,7 @@ TEST_F(PastOfACamera, AsksForAKeyFrameEveryTwoSeconds) {
         const TimePoint now = at(10.2 + i / 30.0);
         if (wanted)
             keys.push_back(now);
-        wanted = add(depth, now, wanted);
+        wanted = add(kept_depth, now, wanted);
     }
     ASSERT_EQ(keys.size(), 5u);
     for (std::size_t i = 1; i < keys.size(); ++i)
