@@ -184,6 +184,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"published", published},
             {"overlaps", overlaps},
             {"visitors", visitors},
+            {"past_bytes", figures.past_bytes},
             {"turned_away", figures.turned_away},
             {"faults", figures.faults},
             {"certificates", certificates}};
@@ -281,6 +282,8 @@ std::string to_prometheus(const HostFigures& figures) {
                   double(participant.refused_faces));
     out.family("visitors", "gauge", "People who wait to be let in.");
     out.value("", double(figures.visitors.size()));
+    out.family("past_bytes", "gauge", "Encoded pictures that are kept for looking back.");
+    out.value("", double(figures.past_bytes));
     out.family("strangers_turned_away_total", "counter",
                "Connections that showed no token in time.");
     out.value("", double(figures.turned_away));

@@ -54,6 +54,7 @@ struct HostFigures {
     PlaceWatch::Figures places;                // whether cameras stay where they were registered
     bool has_ended = false;                    // the session
     std::vector<wire::Visitor> visitors;       // who wait for admission
+    std::size_t past_bytes = 0;                // encoded pictures that are kept for looking back
     std::uint64_t turned_away = 0;             // strangers, since the host began
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
@@ -76,7 +77,7 @@ struct HostFigures {
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"turned_away","faults",
+// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 

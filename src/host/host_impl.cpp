@@ -485,6 +485,7 @@ HostFigures Host::Impl::figures() const {
     figures.visitors = visitor_figures;
     figures.certificates = certificate_figures;
     figures.has_ended = ended_figure;
+    figures.past_bytes = past_figure;
     figures.turned_away = turned_away;
     figures.faults = fault_count();
     return figures;

@@ -89,6 +89,7 @@ struct Host::Impl {
     std::map<CameraId, session::CameraAdjustment> adjusted_figures;
     std::vector<wire::Visitor> visitor_figures;
     bool ended_figure = false;
+    std::size_t past_figure = 0;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
     std::vector<HostFigures::Certificate> certificate_figures;
     std::string name;

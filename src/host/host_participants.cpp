@@ -55,6 +55,7 @@ void Host::Impl::note_participants() {
     participant_figures = std::move(list);
     visitor_figures = session->visitors();
     ended_figure = session->has_ended();
+    past_figure = session->past_bytes();
     published_figures = std::move(published);
     adjusted_figures = std::move(adjusted);
     dropped_slow_figures = dropped_slow;

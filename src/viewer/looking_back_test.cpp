@@ -6,39 +6,44 @@
 namespace theatron::viewer {
 namespace {
 
-constexpr CameraId left{0}, right{1};
-const std::map<CameraId, std::string> names{{left, "left"}, {right, "right"}};
+constexpr CameraId past_left{0}, past_right{1};
+const std::map<CameraId, std::string> past_names{{past_left, "left"}, {past_right, "right"}};
 
-receive::CameraFramePtr frame(double captured_s, bool past) {
+receive::CameraFramePtr past_frame(double captured_s, bool past) {
     const auto made = std::make_shared<receive::CameraFrame>();
     made->times.captured = from_us(std::int64_t(captured_s * 1e6));
     made->past = past;
     return made;
 }
 
-std::string text(const std::map<CameraId, receive::CameraFramePtr>& frames,
-                 const std::set<CameraId>& looking) {
-    return past_text(frames, looking, names, from_us(100'000'000));
+std::string shown_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
+                       const std::set<CameraId>& looking) {
+    return past_text(frames, looking, past_names, from_us(100'000'000));
 }
 
 TEST(PastText, IsEmptyInThePresentOnly) {
-    EXPECT_EQ(text({}, {}), "");
-    EXPECT_EQ(text({{left, frame(99.9, false)}}, {}), "");
-    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(77.5, true)}}, {left, right}),
+    EXPECT_EQ(shown_text({}, {}), "");
+    EXPECT_EQ(shown_text({{past_left, past_frame(99.9, false)}}, {}), "");
+    EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(77.5, true)}},
+                         {past_left, past_right}),
               "NOT LIVE: 23 s ago");
 }
 
 TEST(PastText, BeginsWithTheHostsAnswerAndEndsWithTheLastPictureOfThePast) {
-    EXPECT_EQ(text({{left, frame(99.9, false)}}, {left}), "NOT LIVE: looking back...");
-    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(99.9, false)}}, {}),
-              "NOT LIVE: 23 s ago (live: camera right)");
+    EXPECT_EQ(shown_text({{past_left, past_frame(99.9, false)}}, {past_left}),
+              "NOT LIVE: looking back...");
+    EXPECT_EQ(
+        shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(99.9, false)}}, {}),
+        "NOT LIVE: 23 s ago (live: camera right)");
 }
 
 TEST(PastText, NamesCamerasThatAreShownLiveMeanwhile) {
-    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(99.9, false)}}, {left}),
+    EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(99.9, false)}},
+                         {past_left}),
               "NOT LIVE: 23 s ago (live: camera right)");
     // Its first picture of the past has not come yet.
-    EXPECT_EQ(text({{left, frame(77, true)}, {right, frame(95, false)}}, {left, right}),
+    EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(95, false)}},
+                         {past_left, past_right}),
               "NOT LIVE: 23 s ago");
 }
 

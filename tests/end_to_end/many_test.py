@@ -201,7 +201,7 @@ class Many(unittest.TestCase):
         choice = random.Random(int(os.environ.get("THEATRON_MANY_SEED", "1")))
         self.publishers, self.left_out, self.publisher_dropped, self.memory, self.events = {}, {}, {}, [], []
         with contextlib.ExitStack() as stack:
-            self.host = stack.enter_context(host(self.folder / "state", self.lamp, options=("--filter", "off")))
+            self.host = stack.enter_context(host(self.folder / "state", self.lamp, options=("--filter", "off", "--look-back", "5")))
             self.viewers = [Viewer(self.host.greeting["link"], codec) for codec in CODECS]
             for viewer in self.viewers:
                 stack.callback(viewer.process.__exit__)

@@ -89,7 +89,7 @@ class Stage:
 
     def _host_words(self, number, _):
         address = "0.0.0.0" if self.shaped else "127.0.0.1"
-        words = [*self._near(), PROGRAM, "host", "--json", "--state", self.folder / "state", "--filter", "off",
+        words = [*self._near(), PROGRAM, "host", "--json", "--state", self.folder / "state", "--filter", "off", "--look-back", "10",
                  "--listen", f"{address}:{self.port}"]
         for camera in self.camera_words:
             words += ["--camera", camera]
