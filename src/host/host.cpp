@@ -67,8 +67,8 @@ wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed)
 
 void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
     // First, since cameras may take long to open.
-    state = options.state.empty() ? default_state_folder() : options.state;
-    state_lock.emplace(state);
+    state_folder = options.state.empty() ? default_state_folder() : options.state;
+    state_lock.emplace(state_folder);
     net::require_free(options.listen);
     played = find_played_recording(options.cameras);
     const std::vector<std::string> specifications = without_room_only(played, options.cameras);
@@ -102,7 +102,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
                 played_cameras[CameraId(i)] = {number, &first};
         }
     const bool has_room = played && played->recording->room().present;
-    room_file = std::make_unique<RoomFile>(state / "room");
+    room_file = std::make_unique<RoomFile>(state_folder / "room");
     const net::Access access = open_access(options);
     session::HostSession::Config config;
     if (!options.token.empty())
@@ -112,13 +112,13 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     if (options.link_lifetime > Duration(0))
         roles_expire = steady_now() + options.link_lifetime;
     // Monitoring systems need not be able to join.
-    metrics_token = load_or_make_token(state, "metrics.token");
-    (void)load_links(state);  // makes files, whose times the watch reads
-    link_watch.emplace(state);
+    metrics_token = load_or_make_token(state_folder, "metrics.token");
+    (void)load_links(state_folder);  // makes files, whose times the watch reads
+    link_watch.emplace(state_folder);
     config.admission.tokens = load_tokens();
     config.admission.asks = options.asks;
     if (options.is_audited)
-        audit = std::make_unique<AuditLog>(options.audit.empty() ? state / "audit.jsonl"
+        audit = std::make_unique<AuditLog>(options.audit.empty() ? state_folder / "audit.jsonl"
                                                                  : options.audit);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;

@@ -30,7 +30,7 @@ net::Access Host::Impl::open_access(const HostOptions& options) {
     constexpr std::uint16_t https_port = 443;
     check_access(options);
     if (options.certificate.empty())
-        certificate.emplace(net::load_or_make_certificate(state), state);
+        certificate.emplace(net::load_or_make_certificate(state_folder), state_folder);
     else
         certificate.emplace(net::CertificateFiles(options.certificate, options.key));
     if (!options.proxy_certificate.empty())
@@ -53,7 +53,7 @@ void Host::Impl::note_link(const HostOptions& options, const net::Access& access
                                              : options.listen.address;
     link.port = access.name && access.name->port != 0 ? access.name->port : server->port();
     link.fingerprint = linked_certificate().fingerprint;
-    write_address(state, link);
+    write_address(state_folder, link);
     note_certificates();
 }
 
@@ -101,7 +101,7 @@ void Host::follow_certificates() {
             address = host.link;
         }
         try {
-            write_address(host.state, address);
+            write_address(host.state_folder, address);
         } catch (const Error& error) {
             log::warning("host", "'theatron link' shows old links", {{"problem", error.what()}});
         }

@@ -39,7 +39,7 @@ struct Host::Impl {
     std::map<std::string, std::string> told_of_certificates;  // problems that were logged
     mutable std::mutex link_mutex;
     net::Link link;  // without a token; changed by the owner of the host, guarded by link_mutex
-    std::filesystem::path state;
+    std::filesystem::path state_folder;
     std::optional<LinkWatch> link_watch;    // used by the owner of the host
     std::optional<TimePoint> roles_expire;  // the links of the roles
     std::string metrics_token;

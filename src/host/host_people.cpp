@@ -14,7 +14,7 @@ namespace theatron::host {
 using What = session::AuditEvent::What;
 
 std::vector<session::Admission::Token> Host::Impl::load_tokens() {
-    const KnownLinks book = load_links(state);
+    const KnownLinks book = load_links(state_folder);
     for (const std::string& problem : book.problems)
         log::warning("host", "a link admits nobody", {{"problem", problem}});
     const TimePoint now = steady_now();
@@ -131,7 +131,7 @@ void Host::Impl::carry_out(const session::action::RevokeLink& a) {
             own_token.clear();
     }
     try {
-        (void)revoke_link(state, a.link);
+        (void)revoke_link(state_folder, a.link);
     } catch (const Error& error) {
         log::error("host", "a revoked link will be valid again after a restart",
                    {{"link", a.link}, {"problem", error.what()}});
