@@ -81,8 +81,10 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
             stream.setting = s.setting;
             stream.codec = s.codec;
             stream.asked_for_key = false;
-        } else if (problem.empty()) {
-            problem = std::move(unknown);
+        } else {
+            stream.setting.reset();  // its pictures are ignored, also those on their way
+            if (problem.empty())
+                problem = std::move(unknown);
         }
     }
     if (!problem.empty())

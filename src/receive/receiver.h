@@ -105,7 +105,8 @@ private:
         // By the calibration. Pictures of other sizes are refused.
         Size size;
         std::size_t max_message = 0;
-        // Empty before the first set_settings(); a decoder exists afterwards.
+        // Empty before the first set_settings(), and where this build does not know the codec; else
+        // a decoder exists.
         std::optional<SettingId> setting;
         std::string codec;
         codec::DepthSetting depth_setting;

@@ -132,12 +132,16 @@ void Viewer::look_back(Duration ago, TimePoint now) {
 }
 
 std::string Viewer::past(TimePoint now) const {
+    const std::set<CameraId> looking = participant_.past_cameras();
+    const auto& shown = scene_.newest();
+    if (looking.empty() && std::none_of(shown.begin(), shown.end(),
+                                        [](const auto& entry) { return entry.second->past; }))
+        return "";
     std::map<CameraId, std::string> names;
     std::uint64_t generation = 0;
     for (const auto& camera : participant_.cameras(generation))
         names[camera.description.id] = camera.description.name;
-    return past_text(scene_.newest(), participant_.past_cameras(), names,
-                     participant_.session_time(now));
+    return past_text(shown, looking, names, participant_.session_time(now));
 }
 
 void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now) {
