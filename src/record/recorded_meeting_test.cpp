@@ -11,12 +11,12 @@
 namespace theatron::record {
 namespace {
 
-constexpr ParticipantId anna{3};
-constexpr StreamId depth = depth_stream(CameraId{0}), color = color_stream(CameraId{0});
-
 // A session that takes a part of its room each 100 ms; Anna has agreed to be recorded.
 class RecordedMeeting : public ::testing::Test {
 protected:
+    static constexpr ParticipantId anna{3};
+    static constexpr StreamId depth = depth_stream(CameraId{0}), color = color_stream(CameraId{0});
+
     RecordedMeeting() { intake_.describe_voices({{anna, "Anna"}}); }
 
     TimePoint now() const { return session_begin.session + passed_; }

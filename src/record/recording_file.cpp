@@ -362,12 +362,14 @@ void RecordingFile::place_segments() {
             const Duration step = clock_step(original) - clock_step(original_before);
             const Duration session_pause =
                 (original.info.clock.session + original.begin) -
-                (original_before.info.clock.session + original_before.last);
+                (original_before.info.clock.session + original_before.end);
             const Duration utc_pause = session_pause + step;
             const bool is_same = -same_clock < step && step < same_clock;
+            // Speech may go on where the pictures have ended.
             constexpr Duration shortest = std::chrono::milliseconds(1);
+            const Duration longest = before->last - before->end + max_pause;
             begin =
-                before->last + std::clamp(is_same ? session_pause : utc_pause, shortest, max_pause);
+                before->end + std::clamp(is_same ? session_pause : utc_pause, shortest, longest);
             begin = std::min(begin, Duration(2 * max_time_us));
         }
         const Duration move = segment.blocks > 0 ? begin - segment.begin : Duration(0);
