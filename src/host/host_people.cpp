@@ -21,13 +21,13 @@ std::vector<session::Admission::Token> Host::Impl::load_tokens() {
     const files::UtcSeconds utc = files::utc_now();
     std::vector<session::Admission::Token> loaded;
     const std::lock_guard lock(tokens_mutex);
-    for (const KnownLink& link : book.links) {
-        const bool is_of_role = wire::parse_role(link.name).has_value();
+    for (const KnownLink& known : book.links) {
+        const bool is_of_role = wire::parse_role(known.name).has_value();
         std::optional<TimePoint> expires = is_of_role ? roles_expire : std::nullopt;
-        if (link.expires)
-            expires = now + std::chrono::seconds(*link.expires - utc);
-        const bool is_own = link.name == wire::text_of(wire::Role::expert) && !own_token.empty();
-        loaded.push_back({is_own ? own_token : link.token, link.role, expires, link.name});
+        if (known.expires)
+            expires = now + std::chrono::seconds(*known.expires - utc);
+        const bool is_own = known.name == wire::text_of(wire::Role::expert) && !own_token.empty();
+        loaded.push_back({is_own ? own_token : known.token, known.role, expires, known.name});
     }
     return tokens = std::move(loaded);
 }
