@@ -118,9 +118,9 @@ TEST_F(ScreensInRoom, AHeldScreenIsNotTakenAndPosesKeepItsWidth) {
     EXPECT_EQ(ask(sharer, request::Grab{id_of(scope)}), Refusal::held_by_another);
     const Grip grip{guest, number};
     const auto pose = [&](int us, double width_m) {
-        const wire::State state{
-            {wire::StateTopic::object, std::uint32_t(id_of(scope))},
-            encode_object_pose({id_of(scope), grip, from_us(us), Pose{{}, {1, 1, 1}}, width_m})};
+        const Bytes body =
+            encode_object_pose({id_of(scope), grip, from_us(us), Pose{{}, {1, 1, 1}}, width_m});
+        const wire::State state{{wire::StateTopic::object, std::uint32_t(id_of(scope))}, body};
         return host.on_pose(guest, state, from_us(us)).receivers.size();
     };
     EXPECT_EQ(pose(10, 0.8), 3u);
