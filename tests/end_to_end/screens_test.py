@@ -35,6 +35,14 @@ def is_green(pixel):
     return pixel[0] < 40 and pixel[1] > 235 and pixel[2] < 40
 
 
+def row_of(buttons, count):
+    """The first row with so many buttons."""
+    rows = {}
+    for x, y in buttons:
+        rows.setdefault(y, []).append((x, y))
+    return next((row for row in rows.values() if len(row) == count), [])
+
+
 class Screens(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -109,8 +117,8 @@ class Screens(unittest.TestCase):
             ben.say(f"grab {number}")
             ben.say("move 0 1.5 -0.5")
             ben.say("width 0.4")
-            dora.wait_for(lambda f: screen(f, "scope")["held_by"] and screen(f, "scope")["position"] == [0, 1.5, -0.5]
-                          and screen(f, "scope")["scale"] == 0.4, 10)
+            dora.wait_for(lambda f: screen(f, "scope") and screen(f, "scope")["held_by"]
+                          and screen(f, "scope")["position"] == [0, 1.5, -0.5] and screen(f, "scope")["scale"] == 0.4, 10)
             ben.say("release")
             ben.say(f"pin {number}")
             self.wait_for_error(ben, "Only the person who shares this and operators may do that")
@@ -132,7 +140,7 @@ class Screens(unittest.TestCase):
             dora.say(f"end {screen(both, 'tower')['id']}")
             ben.wait_for(lambda f: not screen(f, "tower") and not camera(f, "tower"), 10)
             self.wait_for_error(cart, 'Dora has ended the share of "tower"')
-            self.assertEqual([c["share_ended"] for c in cart.newest_json()["cameras"]], [False, True])
+            cart.wait_for(lambda f: [c["share_ended"] for c in f["cameras"]] == [False, True], 10)
             h.send(signal.SIGTERM)
             self.assertEqual(h.end(), 0)
         with host(self.folder / "state3", self.lamp) as h, \
@@ -187,13 +195,14 @@ class Screens(unittest.TestCase):
 
             x11.do("mousemove", 700, 590, "key", "p")
             buttons = lambda: x11.buttons(width, height)
-            # Smaller, Larger, Pin in place, End share.
-            wait_until(lambda: len(buttons()) >= 4)
-            x11.do("mousemove", *buttons()[-2], "click", 1)
+            # Smaller, Larger, Pin in place, End share: the first row of four.
+            wait_until(lambda: len(row_of(buttons(), 4)) == 4)
+            x11.do("mousemove", *row_of(buttons(), 4)[2], "click", 1)
             ben.wait_for(lambda f: scope(f)["screen"]["pinned"], 10)
             x11.do("mousemove", 440, 300, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2, "mouseup", 1)
             self.assertEqual(scope(ben.newest_json())["position"], moved["position"])
-            x11.do("mousemove", *buttons()[-1], "click", 1)
+            wait_until(lambda: len(row_of(buttons(), 2)) == 2)
+            x11.do("mousemove", *row_of(buttons(), 2)[1], "click", 1)
             ben.wait_for(lambda f: not scope(f), 10)
             self.assertEqual(cart.end(), 0)
             x11.do("key", "Escape", "sleep", 0.3, "key", "Escape")
