@@ -75,7 +75,7 @@ TEST(ScreenPanel, AHeldScreenSaysByWhom) {
     session::RoomObject held = shared_by(ben);
     held.grip.holder = ben;
     const auto row = shown(held, wire::Role::expert);
-    EXPECT_EQ(row->detail, "Ben shares it, 1.20 m wide, Ben holds it");
+    EXPECT_EQ(row->detail, "shared by Ben, 1.20 m wide, Ben holds it");
     EXPECT_EQ(row->labels, Labels{});
 }
 
