@@ -74,7 +74,8 @@ public:
         std::uint64_t denied = 0;                // messages that its role does not allow
         std::uint64_t refused_faces = 0;         // pictures beyond face_limits.h
         bool records = false;                    // as in wire::Join
-        wire::Patient patient;                   // that it was told; empty: none
+        // The newest message about the patient; nullopt: it may be lost.
+        std::optional<wire::Patient> patient = wire::Patient{};
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
         std::string renderer;                    // as it reports it; may be empty

@@ -173,8 +173,10 @@ void HostSession::tell_patient() {
         const bool may_know = may_know_patient(person.role) && !person.records &&
                               std::find(roles.begin(), roles.end(), person.role) != roles.end();
         const wire::Patient now = may_know ? known : wire::Patient{};
-        if (now != person.patient)
-            send(id, person.patient = now);
+        if (person.patient == now)
+            continue;
+        person.patient = now;
+        send(id, now);
     }
 }
 
