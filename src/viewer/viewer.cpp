@@ -462,6 +462,8 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
         return;
     presented_at_ = end;
     age_at_presentation_ms_ = age_ms;
+    if (std::exchange(presented_past_, is_past) != is_past)
+        ages_ms_.clear();
     ages_ms_.add(*age_ms);
     if (!is_past)
         all_ages_ms_.add(*age_ms);
