@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "base/error.h"
-#include "files/file_bytes.h"
 #include "sound/wav_bytes.h"
 #include "testing/temporary_folder.h"
 
@@ -22,7 +22,8 @@ std::string refusal_of_rate(std::uint32_t samples_per_second) {
     for (std::size_t i = 0; i < 4; ++i)
         bytes[rate_at + i] = std::byte(samples_per_second >> (8 * i));
     const std::string file = (folder.path() / "said.wav").string();
-    files::write_file(file, bytes);
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     try {
         (void)open_wav_microphone(file, [](std::span<const float>) {});
     } catch (const Error& error) {
