@@ -45,12 +45,9 @@ protected:
     ObjectId id_of(CameraId camera) {
         return find_screen(host.snapshot().objects, camera, "").value();
     }
-    const RoomObject& object_of(CameraId camera) {
-        seen_ = members[guest].objects();
-        return seen_.at(id_of(camera));
-    }
+    RoomObject object_of(CameraId camera) { return members[guest].objects().at(id_of(camera)); }
     SharedScreen facts_of(CameraId camera) {
-        const RoomObject& object = object_of(camera);
+        const RoomObject object = object_of(camera);
         return *decode_shared_screen(object.kind, object.properties);
     }
     Refusal pin(ParticipantId by, CameraId camera, bool pinned) {
@@ -72,7 +69,6 @@ protected:
     }
 
 private:
-    RoomObjects seen_;
 };
 
 TEST_F(ScreensInRoom, GetPlacesThatOverlapNeitherEachOtherNorTheFurniture) {
