@@ -84,21 +84,20 @@ bool Proxies::contains(std::string_view address) const {
 }
 
 std::optional<std::string> Proxies::client_of(std::string_view forwarded_for) const {
-    while (!forwarded_for.empty()) {
+    while (true) {
         const std::size_t comma = forwarded_for.rfind(',');
         const bool is_first = comma == forwarded_for.npos;
         const auto address = parse(
             without_port(trimmed(is_first ? forwarded_for : forwarded_for.substr(comma + 1))));
         if (!address)
             return std::nullopt;
-        if (!contains(*address)) {
+        if (is_first || !contains(*address)) {
             const ip::address_v6 six(*address);
             return six.is_v4_mapped() ? ip::make_address_v4(ip::v4_mapped, six).to_string()
                                       : six.to_string();
         }
-        forwarded_for = forwarded_for.substr(0, is_first ? 0 : comma);
+        forwarded_for = forwarded_for.substr(0, comma);
     }
-    return std::nullopt;
 }
 
 }  // namespace theatron::net

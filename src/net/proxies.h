@@ -27,9 +27,9 @@ public:
     bool contains(std::string_view address) const;
 
     // The address for which a proxy connects: in its X-Forwarded-For (all such headers, joined by
-    // commas) the last address that is no proxy's, since each proxy appends the one from which it
-    // was asked, and whatever stands before may be invented. nullopt if there is none. The result
-    // is written as Asio writes it. Safe for untrusted input.
+    // commas) the last address that is no proxy's, since each proxy appends the one that asked it,
+    // and earlier ones may be invented; the first one if all are proxies'. nullopt if there is
+    // none. The result is written as Asio writes it. Safe for untrusted input.
     std::optional<std::string> client_of(std::string_view forwarded_for) const;
 
 private:

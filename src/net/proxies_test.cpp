@@ -39,8 +39,13 @@ TEST(Proxies, SomeWriteAPortBracketsOrQuotes) {
     EXPECT_EQ(proxies.client_of("\"[2001:db8::7]\""), "2001:db8::7");
 }
 
+TEST(Proxies, WhereAllAreProxiesSomebodyOnTheFirstOneIsTheClient) {
+    EXPECT_EQ(proxies.client_of("127.0.0.1"), "127.0.0.1");
+    EXPECT_EQ(proxies.client_of("10.1.0.9, 127.0.0.1"), "10.1.0.9");
+}
+
 TEST(Proxies, WithoutAClientThereIsNone) {
-    for (const char* text : {"", ",", " ", "127.0.0.1", "127.0.0.1, 10.1.0.9", "unknown", "192.0.2",
+    for (const char* text : {"", ",", " ", ",127.0.0.1", "unknown, 127.0.0.1", "unknown", "192.0.2",
                              "192.0.2.7, nonsense", "192.0.2.7,", "[", "[]", "\"", ":",
                              "fe80::1%lo", "192.0.2.7 192.0.2.8"})
         EXPECT_FALSE(proxies.client_of(text)) << text;

@@ -227,6 +227,7 @@ private:
     std::uint64_t pictures_ = 0;
     TimePoint presented_at_, first_picture_at_;
     std::optional<double> age_at_presentation_ms_;
+    bool presented_past_ = false;  // the last picture was
 };
 
 }  // namespace theatron::viewer

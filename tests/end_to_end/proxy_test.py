@@ -126,6 +126,7 @@ class BehindNginx(unittest.TestCase):
                 peer.receive_control("Welcome")
                 wait_until(lambda: self.lines("joined", name, f"address={address}"), 10)
         self.assertEqual(self.lines("203.0.113.5"), [])
+        self.assertEqual(self.lines("names no client"), [])
 
 
 if __name__ == "__main__":
