@@ -94,11 +94,12 @@ class Screens(unittest.TestCase):
 
     def middle_of_picture(self, link):
         picture = self.folder / "middle.png"
-        code, _, errors = run("join", link, "--offscreen", picture, "--size", "320x240", "--seconds", "1", "--color-codec", "raw")
+        code, _, errors = run("join", link, "--offscreen", picture, "--size", "160x120", "--seconds", "1",
+                              "--color-codec", "raw", timeout=180)
         if "GL" in errors or "EGL" in errors:
             return None
         self.assertEqual(code, 0, errors)
-        return tuple(read_png(picture)[3][120][3 * 160:3 * 160 + 3])
+        return tuple(read_png(picture)[3][60][3 * 80:3 * 80 + 3])
 
     def wait_for_error(self, process, words):
         try:
@@ -142,7 +143,7 @@ class Screens(unittest.TestCase):
             self.assertNotEqual(drawn, False)
             if drawn:
                 code, _, errors = run("join", h.greeting["link"], "--or-screen", "--offscreen", self.folder / "or.png",
-                                      "--size", "640x480", "--seconds", "1")
+                                      "--size", "640x480", "--seconds", "1", timeout=180)
                 self.assertEqual(code, 0, errors)
             recorder.send(signal.SIGTERM)
             self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
