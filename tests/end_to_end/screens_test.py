@@ -94,14 +94,18 @@ class Screens(unittest.TestCase):
 
     def middle_of_picture(self, link):
         picture = self.folder / "middle.png"
-        code, _, errors = run("join", link, "--offscreen", picture, "--size", "320x240", "--seconds", "1", "--color-codec", "raw")
+        code, _, errors = run("join", link, "--offscreen", picture, "--size", "160x120", "--seconds", "1",
+                              "--color-codec", "raw", timeout=180)
         if "GL" in errors or "EGL" in errors:
             return None
         self.assertEqual(code, 0, errors)
-        return tuple(read_png(picture)[3][120][3 * 160:3 * 160 + 3])
+        return tuple(read_png(picture)[3][60][3 * 80:3 * 80 + 3])
 
     def wait_for_error(self, process, words):
-        wait_until(lambda: any(words in line for line in process.errors), WAIT)
+        try:
+            wait_until(lambda: any(words in line for line in process.errors), WAIT)
+        except AssertionError:
+            self.fail(f"not said: {words}; but: {process.errors}")
 
     def test_screens_are_moved_scaled_pinned_kept_recorded_and_ended(self):
         tower = self.folder / "tower.y4m"
@@ -128,18 +132,18 @@ class Screens(unittest.TestCase):
             dora.wait_for(lambda f: screen(f, "scope") and screen(f, "scope")["held_by"]
                           and screen(f, "scope")["position"] == [0, 1.5, -0.5] and screen(f, "scope")["scale"] == 0.4, WAIT)
             ben.say("release")
-            ben.say(f"pin {number}")
-            self.wait_for_error(ben, "Only the person who shares this and operators may do that")
             dora.wait_for(lambda f: not screen(f, "scope")["held_by"], WAIT)
             dora.say(f"pin {number}")
             ben.wait_for(lambda f: screen(f, "scope")["screen"]["pinned"], WAIT)
             ben.say(f"grab {number}")
             self.wait_for_error(ben, "This screen is pinned")
+            ben.say(f"unpin {number}")
+            self.wait_for_error(ben, "Only the person who shares this and operators may do that")
             drawn = self.is_green_in_the_middle(h.greeting["link"])
             self.assertNotEqual(drawn, False)
             if drawn:
                 code, _, errors = run("join", h.greeting["link"], "--or-screen", "--offscreen", self.folder / "or.png",
-                                      "--size", "640x480", "--seconds", "1")
+                                      "--size", "640x480", "--seconds", "1", timeout=180)
                 self.assertEqual(code, 0, errors)
             recorder.send(signal.SIGTERM)
             self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
