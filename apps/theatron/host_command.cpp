@@ -320,10 +320,13 @@ void add_host_command(CLI::App& app) {
     command->add_flag("--hsts", flags->options.insists_on_https,
                       "With --certificate: browsers use only HTTPS for this name for a year "
                       "(Strict-Transport-Security)");
-    command->add_option(
-        "--public-name", flags->options.public_name,
-        "NAME or NAME:PORT under which participants reach this host: part of the links; requests "
-        "for other names are refused");
+    command
+        ->add_option("--public-name", flags->options.public_name,
+                     "NAME or NAME:PORT under which participants reach this host: part of the "
+                     "links; requests for other names are refused")
+        ->check([](const std::string& text) -> std::string {
+            return text.empty() ? "it is empty; say NAME or NAME:PORT, or leave it out" : "";
+        });
     command
         ->add_option("--behind-proxy", flags->options.proxies,
                      "ADDRESS or NETWORK/BITS of a proxy (nginx, Caddy) whose X-Forwarded-For is "
