@@ -7,6 +7,7 @@
 // machine's own steady clock; the session's clock is only written into the file.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -29,6 +30,7 @@ public:
 
     // If no picture has begun the recording or continued it for this time after the description of
     // its cameras, the room begins a segment: people speak and point while no camera is there.
+    // Where the description has no cameras, what comes meanwhile is kept for that segment.
     static constexpr Duration picture_patience = std::chrono::seconds(2);
 
     // Nothing is created before the first picture or part of the room.
@@ -55,8 +57,8 @@ public:
 
     // A part of the room's state, which begins at session time `begin`. A key part needs no part
     // before it; the first one of each segment must be one. False if it was not recorded, because
-    // it is none or nothing is recorded yet: then the next part must be a key part. A key part
-    // begins a segment of its own after picture_patience. Never waits, never throws. From any
+    // it is none or nothing is recorded or kept yet: then the next part must be a key part. A key
+    // part begins a segment of its own after picture_patience. Never waits, never throws. From any
     // thread, in order.
     [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, const Now& now);
 
@@ -69,7 +71,8 @@ public:
     // A packet of such a person, in the order of arrival. Voices go into the file as gapless
     // sequences (voice_track.h), silence up to voice_patience before the newest picture, or up to
     // quiet_patience before now while no picture comes. Nothing is recorded of a person who has not
-    // agreed, or before the first segment. Never waits, never throws. From any thread.
+    // agreed, or before the first segment and what is kept for it. Never waits, never throws. From
+    // any thread.
     static constexpr Duration voice_patience = std::chrono::seconds(1),
                               quiet_patience = std::chrono::seconds(10);
     void take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
@@ -150,6 +153,9 @@ private:
     void fill_voices(TimePoint until, TimePoint now);
     void keep_voice_figures();
     bool begin(Description description, TimePoint captured, const Now& now);
+    bool keeps() const;
+    bool put_room(ByteView part, bool key, TimePoint begin, TimePoint now);
+    void put_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
     bool room_begins_segment(TimePoint now) const;
     bool is_described_anew() const;
     bool can_begin_with(const Entry& entry) const;
@@ -165,6 +171,9 @@ private:
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
     TimePoint waits_since_;               // for a picture of pending_, on the machine's own clock
+    // Parts of the room and voices since session time kept_from_, for the segment of pending_.
+    std::vector<std::function<void()>> kept_;
+    TimePoint kept_from_;
     bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;
