@@ -51,8 +51,10 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         const auto& [id, camera] = streams[i];
         const auto phase =
             StreamGate::key_period * std::int64_t(i + 1) / std::int64_t(streams.size());
-        auto [at, is_new] = entries_.try_emplace(id, Entry{.gate = StreamGate(phase)});
+        auto [at, is_new] = entries_.try_emplace(id);
         Entry& entry = at->second;
+        if (is_new)
+            entry.gate = StreamGate(phase);
         entry.stream.id = id;
         entry.stream.camera = camera->name;
         entry.patience =
