@@ -164,7 +164,7 @@ bool Intake::keeps() const {
 }
 
 // A segment of this description begins with what was captured then: a frame or a part of the room.
-// What was kept comes before it.
+// Kept parts and voices come before it.
 bool Intake::begin(Description description, TimePoint captured, const Now& now) {
     // Block times count from this clock: as late as possible, but not after the frame.
     ClockPair clock = now.clock;
