@@ -51,8 +51,10 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         const auto& [id, camera] = streams[i];
         const auto phase =
             StreamGate::key_period * std::int64_t(i + 1) / std::int64_t(streams.size());
-        auto [at, is_new] = entries_.try_emplace(id, Entry{.gate = StreamGate(phase)});
+        auto [at, is_new] = entries_.try_emplace(id);
         Entry& entry = at->second;
+        if (is_new)
+            entry.gate = StreamGate(phase);
         entry.stream.id = id;
         entry.stream.camera = camera->name;
         entry.patience =
@@ -73,7 +75,9 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         current_.settings.clear();
     const bool was_pending = pending_ && pending_->new_connection;
     const bool was_without = pending_ && pending_->cameras.empty();
-    if (new_connection || (cameras.empty() && !was_without))
+    if (new_connection)
+        kept_.clear();
+    if (new_connection || (cameras.empty() && !was_without && kept_.empty()))
         waits_since_ = now;
     pending_ = {std::move(cameras), std::move(settings), new_connection || was_pending};
     if (!pending_->new_connection && pending_->cameras == current_.cameras) {
@@ -155,10 +159,20 @@ bool Intake::room_begins_segment(TimePoint now) const {
     return now - waits_since_ >= picture_patience && (!recorder_ || pending_->new_connection);
 }
 
+// True if the room and the voices are kept for the described segment. It waits for the pictures of
+// cameras, but if there are none at first, people believe that the recording has begun.
+bool Intake::keeps() const {
+    return pending_ && (!recorder_ || pending_->new_connection) &&
+           (pending_->cameras.empty() || !kept_.empty());
+}
+
 // A segment of this description begins with what was captured then: a frame or a part of the room.
+// Kept parts and voices come before it.
 bool Intake::begin(Description description, TimePoint captured, const Now& now) {
     // Block times count from this clock: as late as possible, but not after the frame.
     ClockPair clock = now.clock;
+    if (!kept_.empty())
+        captured = std::min(captured, kept_from_);
     const Duration age = between(captured, clock.session);
     if (age > Duration(0) && age < oldest_beginning)
         clock = {captured, clock.utc - age};
@@ -179,6 +193,8 @@ bool Intake::begin(Description description, TimePoint captured, const Now& now) 
     begin_voices(clock.session);
     ++segments_begun_;
     wants_segment_ = false;
+    for (const auto& put : std::exchange(kept_, {}))
+        put();
     return true;
 }
 
@@ -199,12 +215,25 @@ bool Intake::take_room(ByteView part, bool key, TimePoint begins, const Now& now
         return false;
     if (room_begins_segment(now.local)) {
         // The next part is a key part, if this one is none.
-        if (!key || !begin(*std::exchange(pending_, std::nullopt), begins, now))
+        if ((!key && kept_.empty()) || !begin(*std::exchange(pending_, std::nullopt), begins, now))
             return false;
+    } else if (keeps()) {
+        if (kept_.empty()) {
+            if (!key)
+                return false;
+            kept_from_ = begins;
+        }
+        kept_.push_back([this, bytes = Bytes(part.begin(), part.end()), key, begins,
+                         at = now.clock.session] { put_room(bytes, key, begins, at); });
+        return true;
     }
     // Until the segment of a new connection begins, times are of another clock.
     const bool is_between = pending_ && pending_->new_connection;
-    if (!recorder_ || is_between || (room_segment_ != segments_begun_ && !key))
+    return recorder_ && !is_between && put_room(part, key, begins, now.clock.session);
+}
+
+bool Intake::put_room(ByteView part, bool key, TimePoint begins, TimePoint now) {
+    if (room_segment_ != segments_begun_ && !key)
         return false;
     wire::MediaHeader header;
     header.codec = room_codec;
@@ -218,8 +247,7 @@ bool Intake::take_room(ByteView part, bool key, TimePoint begins, const Now& now
     wire::write_media_header(header, message->data());
     message->insert(message->end(), part.begin(), part.end());
     ++room_parts_;
-    const bool is_taken =
-        recorder_->add(header, std::move(message), now.clock.session) == Recorder::Added::taken;
+    const bool is_taken = recorder_->add(header, std::move(message), now) == Recorder::Added::taken;
     room_segment_ = is_taken ? segments_begun_ : 0;
     return is_taken;
 }

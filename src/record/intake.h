@@ -7,6 +7,7 @@
 // machine's own steady clock; the session's clock is only written into the file.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -28,7 +29,8 @@ public:
     static constexpr Duration news_interval = std::chrono::seconds(1);
 
     // So long after a description without cameras the room begins a segment: people speak and point
-    // also then. With cameras, if none has sent a picture so long after it.
+    // also then, and what comes meanwhile is kept for that segment. With cameras, if none has sent
+    // a picture so long after it.
     static constexpr Duration camera_patience = std::chrono::seconds(2),
                               picture_patience = std::chrono::seconds(5);
 
@@ -56,8 +58,8 @@ public:
 
     // A part of the room's state, which begins at session time `begin`. A key part needs no part
     // before it; the first one of each segment must be one. False if it was not recorded, because
-    // it is none or nothing is recorded yet: then the next part must be a key part. A key part
-    // begins a segment of its own after camera_patience. Never waits, never throws. From any
+    // it is none or nothing is recorded or kept yet: then the next part must be a key part. A key
+    // part begins a segment of its own after camera_patience. Never waits, never throws. From any
     // thread, in order.
     [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, const Now& now);
 
@@ -70,7 +72,8 @@ public:
     // A packet of such a person, in the order of arrival. Voices go into the file as gapless
     // sequences (voice_track.h), silence up to voice_patience before the newest picture, or up to
     // quiet_patience before now while no picture comes. Nothing is recorded of a person who has not
-    // agreed, or before the first segment. Never waits, never throws. From any thread.
+    // agreed, or before the first segment and what is kept for it. Never waits, never throws. From
+    // any thread.
     static constexpr Duration voice_patience = std::chrono::seconds(1),
                               quiet_patience = std::chrono::seconds(10);
     void take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
@@ -151,6 +154,9 @@ private:
     void fill_voices(TimePoint until, TimePoint now);
     void keep_voice_figures();
     bool begin(Description description, TimePoint captured, const Now& now);
+    bool keeps() const;
+    bool put_room(ByteView part, bool key, TimePoint begin, TimePoint now);
+    void put_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
     bool room_begins_segment(TimePoint now) const;
     bool is_described_anew() const;
     bool can_begin_with(const Entry& entry) const;
@@ -166,6 +172,9 @@ private:
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
     TimePoint waits_since_;               // for a picture of pending_, on the machine's own clock
+    // Parts of the room and voices since session time kept_from_, for the segment of pending_.
+    std::vector<std::function<void()>> kept_;
+    TimePoint kept_from_;
     bool wants_segment_ = false;
     TimePoint looked_, said_;
     bool disk_is_late_ = false;

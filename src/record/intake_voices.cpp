@@ -88,8 +88,20 @@ void Intake::take_voice(ParticipantId person, const VoicePacket& packet, TimePoi
     const std::lock_guard lock(mutex_);
     // Until the segment of a new connection begins, times are of another clock.
     const bool is_between = pending_ && pending_->new_connection;
-    if (!problem_.empty() || !recorder_ || is_between || !names(agreed_, person))
+    if (!problem_.empty() || !names(agreed_, person))
         return;
+    if (keeps() && !kept_.empty())
+        kept_.push_back(
+            [this, person, packet, now, opus = Bytes(packet.opus.begin(), packet.opus.end())] {
+                VoicePacket own = packet;
+                own.opus = opus;
+                put_voice(person, own, now);
+            });
+    else if (recorder_ && !is_between)
+        put_voice(person, packet, now);
+}
+
+void Intake::put_voice(ParticipantId person, const VoicePacket& packet, TimePoint now) {
     VoiceLane* const lane = voice_lane_of(person);
     if (!lane)
         return;

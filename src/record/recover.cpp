@@ -197,9 +197,12 @@ bool saved_all(const RecordingFile& recording, const Recovered& result) {
     return all;
 }
 
-void require(const std::string& problem) {
+// The writer's own sentence is about a recording that ends early, and keeps what it has.
+void require_written(const std::string& problem, const std::filesystem::path& file) {
     if (!problem.empty())
-        throw Error(problem);
+        throw Error("'" + file.string() +
+                    "' could not be written to its end, since its disk is full or fails. What was "
+                    "copied is removed; the recording itself is as it was.");
 }
 
 }  // namespace
@@ -246,7 +249,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
                 ++(message.header.stream == room_stream ? written.room_parts
                    : is_voice(message.header.stream)    ? written.voice_blocks
                                                         : written.pictures);
-            require(writer.write(messages));
+            require_written(writer.write(messages), file);
             messages.clear();
             waiting = 0;
         };
@@ -282,7 +285,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
                 progress(double(bytes_before + frame->payload_at) / double(recording.bytes()));
         }
         flush();
-        require(writer.finish());
+        require_written(writer.finish(), file);
         check(file, written);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();
