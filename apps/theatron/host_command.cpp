@@ -320,10 +320,13 @@ void add_host_command(CLI::App& app) {
     command->add_flag("--hsts", flags->options.insists_on_https,
                       "With --certificate: browsers use only HTTPS for this name for a year "
                       "(Strict-Transport-Security)");
-    command->add_option(
-        "--public-name", flags->options.public_name,
-        "NAME or NAME:PORT under which participants reach this host: part of the links; requests "
-        "for other names are refused");
+    command
+        ->add_option("--public-name", flags->options.public_name,
+                     "NAME or NAME:PORT under which participants reach this host: part of the "
+                     "links; requests for other names are refused")
+        ->check([](const std::string& text) -> std::string {
+            return text.empty() ? "it is empty; say NAME or NAME:PORT, or leave it out" : "";
+        });
     command
         ->add_option("--behind-proxy", flags->options.proxies,
                      "ADDRESS or NETWORK/BITS of a proxy (nginx, Caddy) whose X-Forwarded-For is "
@@ -366,7 +369,14 @@ void add_host_command(CLI::App& app) {
                      "How many seconds participants may look back at the cameras of the room, 0 to "
                      "60; they are kept in memory only, 512 MiB at most. 0: nothing is kept")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, to_seconds(session::Past::longest_reach)));
+        ->check([](const std::string& text) -> std::string {
+            double seconds = -1;
+            // A range check of CLI11 takes "nan".
+            const bool is_number = CLI::detail::lexical_cast(text, seconds);
+            if (is_number && seconds >= 0 && seconds <= to_seconds(session::Past::longest_reach))
+                return "";
+            return "'" + text + "' is not a number of seconds from 0 to 60";
+        });
     command->add_option("--audit", flags->audit,
                         "File for the log of people, JSON lines; none: no log (default: "
                         "audit.jsonl in the state folder)");

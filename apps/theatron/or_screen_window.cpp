@@ -149,6 +149,7 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
     for (const or_screen::PersonCard& card : content.people)
         people.push_back({{"id", std::uint32_t(card.id)},
                           {"name", card.name},
+                          {"recorded", card.is_recorded},
                           {"state", card.state},
                           {"speaks", card.speaks}});
     for (const or_screen::PointerMark& pointer : content.pointers)
@@ -156,10 +157,11 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
                             {"sight", text_of(pointer.place.sight)},
                             {"x", pointer.place.pixel.x},
                             {"y", pointer.place.pixel.y}});
-    json["or_screen"] = {
-        {"camera", content.camera},      {"age", content.age},    {"warning", content.warning},
-        {"message", content.message},    {"people", people},      {"pointers", pointers},
-        {"marks", content.marks.size()}, {"slice", content.slice}};
+    json["or_screen"] = {{"camera", content.camera},   {"age", content.age},
+                         {"warning", content.warning}, {"recording", content.playback},
+                         {"message", content.message}, {"people", people},
+                         {"pointers", pointers},       {"marks", content.marks.size()},
+                         {"slice", content.slice}};
 }
 
 }  // namespace theatron::app

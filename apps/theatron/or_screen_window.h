@@ -35,9 +35,9 @@ public:
     void take(client::Participant& participant);
     void take(client::Participant& participant, RoomLines&) override { take(participant); }
     void write() override;
-    // "or_screen": {"camera","age","warning","message","people":[{"id","name","state",
-    // "speaks"}],"pointers":[{"id","sight","x","y"}],"marks","slice"}; x and y are pixels of the
-    // camera's picture
+    // "or_screen": {"camera","age","warning","recording","message","people":[{"id","name",
+    // "recorded","state","speaks"}],"pointers":[{"id","sight","x","y"}],"marks","slice"}; x and y
+    // are pixels of the camera's picture
     void add_to(nlohmann::json& json) const override;
     bool has_picture() const { return screen_.has_picture(); }
 

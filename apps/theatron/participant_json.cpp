@@ -6,7 +6,7 @@
 
 #include "base/hex_text.h"
 #include "base/utc.h"
-#include "client/participant_figures.h"
+#include "viewer/age_text.h"
 #include "viewer/playing.h"
 #include "wire/condition_text.h"
 
@@ -25,22 +25,26 @@ const char* text_of(receive::Exactness exact) {
     return "unknown";
 }
 
-nlohmann::json age(const receive::StreamFigures& f) {
-    return {{"p50", f.age_p50_ms}, {"p99", f.age_p99_ms}, {"max", f.age_max_ms}};
+nlohmann::json age_json(const StreamAge& age) {
+    return {{"p50", age.p50}, {"p99", age.p99}, {"max", age.max}};
 }
 
-struct OldestAge {
-    double p50 = 0, p99 = 0, max = 0;
+StreamAge oldest_age(const client::ParticipantFigures& figures) {
+    StreamAge oldest;
+    for (const client::CameraFigures& camera : figures.cameras)
+        for (const receive::StreamFigures* stream : {&camera.depth, &camera.color}) {
+            const StreamAge one = age_of(*stream);
+            oldest.p50 = std::max(oldest.p50, one.p50);
+            oldest.p99 = std::max(oldest.p99, one.p99);
+            oldest.max = std::max(oldest.max, one.max);
+        }
+    return oldest;
+}
 
-    explicit OldestAge(const client::ParticipantFigures& figures) {
-        for (const client::CameraFigures& camera : figures.cameras)
-            for (const receive::StreamFigures* stream : {&camera.depth, &camera.color}) {
-                p50 = std::max(p50, stream->age_p50_ms);
-                p99 = std::max(p99, stream->age_p99_ms);
-                max = std::max(max, stream->age_max_ms);
-            }
-    }
-};
+bool is_past(const client::ParticipantFigures& figures) {
+    return std::any_of(figures.cameras.begin(), figures.cameras.end(),
+                       [](const client::CameraFigures& one) { return one.depth.past; });
+}
 
 std::string codecs_of_last(const client::ParticipantFigures& figures) {
     if (figures.cameras.empty())
@@ -71,8 +75,8 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"age_now_ms", depth.age_now_ms},
             {"past", depth.past},
             {"newest_frame", depth.newest},
-            {"age_ms", age(depth)},
-            {"color_age_ms", age(color)},
+            {"age_ms", age_json(age_of(depth))},
+            {"color_age_ms", age_json(age_of(color))},
             {"dropped", figures.dropped()},
             {"depth_codec", depth.codec},
             {"depth_exact", text_of(depth.exact)},
@@ -101,13 +105,27 @@ nlohmann::json visitors_json(const std::vector<wire::Visitor>& visitors) {
 
 }  // namespace
 
+StreamAge age_of(const receive::StreamFigures& stream) {
+    if (stream.past)
+        return {stream.age_now_ms, stream.age_now_ms, stream.age_now_ms};
+    return {stream.age_p50_ms, stream.age_p99_ms, stream.age_max_ms};
+}
+
+std::string age_part(const client::ParticipantFigures& figures) {
+    const double p50 = oldest_age(figures).p50;
+    if (is_past(figures))
+        return "NOT LIVE: " + viewer::age_text(p50) + " ago";
+    char text[40];
+    std::snprintf(text, sizeof(text), "age %.0f ms", p50);
+    return text;
+}
+
 nlohmann::json participant_json(const client::Participant& participant) {
     const client::ParticipantFigures figures = client::figures_of(participant);
     const client::Participant::Status& status = figures.status;
     nlohmann::json cameras = nlohmann::json::array();
     for (const client::CameraFigures& camera : figures.cameras)
         cameras.push_back(camera_json(camera));
-    const OldestAge age(figures);
     nlohmann::json recordings = nlohmann::json::array();
     for (const auto& [name, lasts] : figures.recordings)
         recordings.push_back({{"name", name}, {"seconds", to_seconds(lasts)}});
@@ -120,7 +138,8 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"cameras", cameras},
             {"fps", figures.frames_per_second()},
             {"mbit_per_s", figures.mbit_per_second()},
-            {"age_ms", {{"p50", age.p50}, {"p99", age.p99}, {"max", age.max}}},
+            {"age_ms", age_json(oldest_age(figures))},
+            {"past", is_past(figures)},
             {"dropped", figures.dropped()},
             {"codec", codecs_of_last(figures)},
             {"round_trip_ms", to_ms(status.round_trip)},
@@ -145,11 +164,13 @@ std::string status_line(const client::Participant& participant) {
                (status.problem.empty() ? "" : ": " + status.problem);
     char text[200];
     std::snprintf(text, sizeof(text),
-                  "%s: %zu camera(s)  %.1f fps  %.1f Mbit/s  age %.0f ms  dropped %llu  ",
+                  "%s: %zu camera(s)  %.1f fps  %.1f Mbit/s  %s  dropped %llu  ",
                   status.host_name.c_str(), figures.cameras.size(), figures.frames_per_second(),
-                  figures.mbit_per_second(), OldestAge(figures).p50,
+                  figures.mbit_per_second(), age_part(figures).c_str(),
                   static_cast<unsigned long long>(figures.dropped()));
     std::string line = text + codecs_of_last(figures);
+    if (const auto playback = participant.playback())
+        line += "  " + viewer::playback_text(*playback, participant.now());
     if (const std::string recorded = client::recorded_text(figures); !recorded.empty())
         line += "  " + recorded;
     if (status.delivery.level > 0)

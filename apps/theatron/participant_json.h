@@ -5,12 +5,21 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "client/participant.h"
+#include "client/participant_figures.h"
 
 namespace theatron::app {
 
+// Milliseconds from capture to decoding, over the last minutes. While the past is shown: how long
+// ago it was, in all three.
+struct StreamAge {
+    double p50 = 0, p99 = 0, max = 0;
+};
+StreamAge age_of(const receive::StreamFigures& stream);
+// The age in status_line(), of the oldest stream: "age 38 ms", "NOT LIVE: 23 s ago".
+std::string age_part(const client::ParticipantFigures& figures);
+
 // {"host","cameras":[{"name","state","fps","mbit_per_s","age_ms":{…},"dropped","depth_codec",
-// "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"dropped","codec",
+// "color_codec",…}],"fps","mbit_per_s","age_ms":{"p50","p99","max"},"past","dropped","codec",
 // "level","levels","sent","level_reason",…}
 nlohmann::json participant_json(const client::Participant& participant);
 

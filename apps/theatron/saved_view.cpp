@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "files/file_bytes.h"
 #include "files/utc_text.h"
+#include "viewer/age_text.h"
 
 namespace theatron::app {
 namespace {
@@ -29,8 +30,38 @@ bool make_new(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string save_view(const std::filesystem::path& folder, const std::string& extension,
-                      ByteView bytes) {
+std::string name_part(const viewer::ShownMoment& moment) {
+    std::string part = moment.is_recording ? "-recording" : "";
+    if (!moment.is_live)
+        part += "-" + viewer::age_text(moment.age_ms) + "-ago";
+    std::erase(part, ' ');
+    return part;
+}
+
+std::string moment_text(const viewer::ShownMoment& moment, UtcTime now) {
+    const auto age = std::chrono::microseconds(std::int64_t(moment.age_ms * 1000));
+    const std::string ago =
+        moment.is_live ? "" : ", " + viewer::age_text(moment.age_ms) + " before it was saved";
+    if (moment.is_recording)
+        return "of a recording, played " + utc_text(now - age) + ago + ", not live";
+    return "captured " + utc_text(now - age) + ago + (moment.is_live ? ", live" : ", not live");
+}
+
+Bytes with_ply_comment(const Bytes& ply, std::string_view line) {
+    // Comments may stand anywhere behind the second line, the format.
+    auto at = ply.begin();
+    for (int lines = 0; lines < 2; ++lines)
+        at = std::find(at, ply.end(), std::byte('\n')) + 1;
+    const std::string comment = "comment " + std::string(line) + "\n";
+    const ByteView added = as_bytes(comment);
+    Bytes result(ply.begin(), at);
+    result.insert(result.end(), added.begin(), added.end());
+    result.insert(result.end(), at, ply.end());
+    return result;
+}
+
+std::string save_view(const std::filesystem::path& folder, const std::string& when,
+                      const std::string& extension, ByteView bytes) {
     std::string time = files::utc_text(files::utc_now());
     // Some file systems allow no colon in a name.
     std::replace(time.begin(), time.end(), ':', '-');
@@ -38,7 +69,7 @@ std::string save_view(const std::filesystem::path& folder, const std::string& ex
         for (int n = 1; n <= names_tried; ++n) {
             const std::filesystem::path path =
                 std::filesystem::absolute(folder) /
-                ("theatron-" + time + (n > 1 ? "-" + std::to_string(n) : "") + extension);
+                ("theatron-" + time + when + (n > 1 ? "-" + std::to_string(n) : "") + extension);
             if (!make_new(path))
                 continue;
             try {

@@ -18,7 +18,7 @@ TEST(SaveView, EveryPictureGetsAFileOfItsOwnAndThePersonIsToldWhich) {
     constexpr std::string_view saved = "Saved: ";
     std::vector<std::filesystem::path> files;
     for (const std::string content : {"first", "second", "third"}) {
-        const std::string told = save_view(folder.path(), ".png", as_bytes(content));
+        const std::string told = save_view(folder.path(), "", ".png", as_bytes(content));
         ASSERT_THAT(told, StartsWith(std::string(saved)));
         files.emplace_back(told.substr(saved.size()));
     }
@@ -28,8 +28,38 @@ TEST(SaveView, EveryPictureGetsAFileOfItsOwnAndThePersonIsToldWhich) {
     EXPECT_EQ(files[2].extension(), ".png");
 }
 
+TEST(SaveView, ThePastIsNotSavedAsThePresent) {
+    viewer::ShownMoment moment;
+    moment.age_ms = 80;
+    const UtcTime now{std::chrono::seconds(1'795'444'800)};
+    EXPECT_EQ(name_part(moment), "");
+    EXPECT_THAT(moment_text(moment, now), HasSubstr("920Z, live"));
+    moment.is_live = false;
+    moment.age_ms = 31'400;
+    EXPECT_EQ(name_part(moment), "-31s-ago");
+    EXPECT_EQ(moment_text(moment, now), "captured " +
+                                            utc_text(now - std::chrono::milliseconds(31'400)) +
+                                            ", 31 s before it was saved, not live");
+    moment = {};
+    moment.is_recording = true;
+    EXPECT_EQ(name_part(moment), "-recording");
+    EXPECT_THAT(moment_text(moment, now), HasSubstr("not live"));
+    const testing::TemporaryFolder folder;
+    EXPECT_THAT(save_view(folder.path(), "-31s-ago", ".png", ByteView{}),
+                HasSubstr("-31s-ago.png"));
+}
+
+TEST(PlyComment, StandsInTheHeader) {
+    const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 0\nend_header\n";
+    const ByteView bytes = as_bytes(ply);
+    const Bytes with = with_ply_comment(Bytes(bytes.begin(), bytes.end()), "not live");
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(with.data()), with.size()),
+              "ply\nformat binary_little_endian 1.0\ncomment not live\nelement vertex 0\n"
+              "end_header\n");
+}
+
 TEST(SaveView, AFolderThatCannotBeWrittenIsNamed) {
-    EXPECT_THAT(save_view("/no/such/folder", ".ply", ByteView{}), HasSubstr("/no/such/folder"));
+    EXPECT_THAT(save_view("/no/such/folder", "", ".ply", ByteView{}), HasSubstr("/no/such/folder"));
 }
 
 }  // namespace

@@ -62,15 +62,18 @@ private:
 };
 
 std::string save_seen(xr::Action action, viewer::Viewer& viewer, Size pixels,
-                      const std::filesystem::path& folder) {
+                      const std::filesystem::path& folder, TimePoint now) {
     if (viewer.first_picture_at() == TimePoint{})
         return "There is no picture yet";
+    const viewer::ShownMoment moment = viewer.shown_moment(now);
+    const std::string when = name_part(moment);
     if (action == xr::Action::save_picture)
-        return save_view(folder, ".png", files::encode_png(viewer.picture(pixels).view()));
+        return save_view(folder, when, ".png", files::encode_png(viewer.picture(pixels).view()));
     const std::vector<ColoredPoint> points = viewer.points();
     if (points.empty())
         return "No camera of the room has sent points";
-    return save_view(folder, ".ply", encode_ply(points));
+    return save_view(folder, when, ".ply",
+                     with_ply_comment(encode_ply(points), moment_text(moment, utc_now())));
 }
 
 // Each returns a line about it.
@@ -235,7 +238,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
                 viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
             else if (key.action == xr::Action::save_picture ||
                      key.action == xr::Action::save_points)
-                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to), now);
+                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
+                            now);
             else if (leave)
                 viewer.note("Press Esc again to leave the session", now);
         }

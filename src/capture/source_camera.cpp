@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <thread>
 
 #include "base/error.h"
@@ -240,6 +242,24 @@ std::unique_ptr<Camera> open_v4l2_camera(Options& options, const Progress&) {
         device, opening, taken.name.empty() ? path.filename().string() : taken.name, taken.width_m);
 }
 
+namespace {
+
+// A source that was away is opened anew by the same text, which may now name another window: that
+// one is not shown.
+void require_shared_window(const std::string& text, const X11Window& found) {
+    static std::mutex mutex;
+    static std::map<std::string, X11Window> shared;  // by text
+    const std::lock_guard lock(mutex);
+    const auto [first, is_new] = shared.try_emplace(text, found);
+    if (!is_new && !is_same_window(first->second, found))
+        throw Error("The window '" + text +
+                    "' that is there now is another one than the shared one; share it anew to "
+                    "show it.");
+    first->second = found;
+}
+
+}  // namespace
+
 std::unique_ptr<Camera> open_x11_camera(Options& options, const Progress&) {
     const ScreenOptions taken = take_screen_options(options);
     const bool cursor = options.take_flag("cursor", true);
@@ -249,6 +269,7 @@ std::unique_ptr<Camera> open_x11_camera(Options& options, const Progress&) {
             "Name a window, or display for all of it, as in x11:display; 'theatron cameras' lists "
             "the windows.");
     const X11Window window = find_window(options.value());
+    require_shared_window(options.value(), window);
     const X11Connection x11 = connect_to_x11();
     const std::string subject = window.number == 0
                                     ? "the display '" + x11.display + "'"

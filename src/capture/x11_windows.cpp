@@ -87,6 +87,9 @@ public:
         if (!found.title.empty() || !names.empty())
             found.number = window;
         found.size = {geometry->width, geometry->height};
+        if (const std::string id = property(window, atom("_NET_WM_PID"), 1);
+            id.size() == sizeof(found.process))
+            std::memcpy(&found.process, id.data(), sizeof(found.process));
         return found;
     }
 
@@ -152,6 +155,12 @@ std::string cookie_for(int number) {
 
 }  // namespace
 
+bool is_same_window(const X11Window& shared, const X11Window& found) {
+    // The title of a window may change while it is away, for example minimised.
+    const bool is_as_before = shared.number == found.number && shared.process == found.process;
+    return shared.program == found.program && (is_as_before || shared.title == found.title);
+}
+
 std::string number_text(std::uint32_t window) {
     char text[16];
     std::snprintf(text, sizeof(text), "0x%x", window);
@@ -170,7 +179,7 @@ std::vector<X11Window> list_windows() {
 X11Window find_window(const std::string& text) {
     Display display;
     if (text == "display")
-        return {0, "", "display", display.size()};
+        return {0, "", "display", display.size(), 0};
     const bool is_hex = text.starts_with("0x");
     std::uint32_t number = 0;
     const char* const begin = text.data() + (is_hex ? 2 : 0);

@@ -16,7 +16,13 @@ struct X11Window {
     std::string title;         // as its program wrote it, without control characters
     std::string program;       // its class, without what the title may tell
     Size size;
+    std::uint32_t process = 0;  // 0: its program does not say
 };
+
+// True if `found` is the window that was shared before, or the one that the same program opened in
+// its place: numbers and parts of titles are also those of other windows, which nobody agreed to
+// show.
+bool is_same_window(const X11Window& shared, const X11Window& found);
 
 // "0x1e00003"
 std::string number_text(std::uint32_t window);

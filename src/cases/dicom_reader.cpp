@@ -79,16 +79,28 @@ using gdcm::Tag;
 constexpr struct {
     const char* name;
     std::uint16_t group, element;
-} identifying[] = {
-    {"PatientName", 0x0010, 0x0010},        {"PatientID", 0x0010, 0x0020},
-    {"PatientBirthDate", 0x0010, 0x0030},   {"PatientSex", 0x0010, 0x0040},
-    {"PatientAge", 0x0010, 0x1010},         {"OtherPatientIDs", 0x0010, 0x1000},
-    {"OtherPatientNames", 0x0010, 0x1001},  {"PatientAddress", 0x0010, 0x1040},
-    {"StudyDate", 0x0008, 0x0020},          {"StudyDescription", 0x0008, 0x1030},
-    {"SeriesDescription", 0x0008, 0x103e},  {"AccessionNumber", 0x0008, 0x0050},
-    {"InstitutionName", 0x0008, 0x0080},    {"ReferringPhysicianName", 0x0008, 0x0090},
-    {"StudyInstanceUID", 0x0020, 0x000d},   {"SeriesInstanceUID", 0x0020, 0x000e},
-    {"FrameOfReferenceUID", 0x0020, 0x0052}};
+} identifying[] = {{"PatientName", 0x0010, 0x0010},
+                   {"PatientID", 0x0010, 0x0020},
+                   {"PatientBirthDate", 0x0010, 0x0030},
+                   {"PatientSex", 0x0010, 0x0040},
+                   {"PatientAge", 0x0010, 0x1010},
+                   {"OtherPatientIDs", 0x0010, 0x1000},
+                   {"OtherPatientNames", 0x0010, 0x1001},
+                   {"PatientAddress", 0x0010, 0x1040},
+                   {"PatientBirthName", 0x0010, 0x1005},
+                   {"PatientMotherBirthName", 0x0010, 0x1060},
+                   {"PatientTelephoneNumbers", 0x0010, 0x2154},
+                   {"PerformingPhysicianName", 0x0008, 0x1050},
+                   {"OperatorsName", 0x0008, 0x1070},
+                   {"StudyDate", 0x0008, 0x0020},
+                   {"StudyDescription", 0x0008, 0x1030},
+                   {"SeriesDescription", 0x0008, 0x103e},
+                   {"AccessionNumber", 0x0008, 0x0050},
+                   {"InstitutionName", 0x0008, 0x0080},
+                   {"ReferringPhysicianName", 0x0008, 0x0090},
+                   {"StudyInstanceUID", 0x0020, 0x000d},
+                   {"SeriesInstanceUID", 0x0020, 0x000e},
+                   {"FrameOfReferenceUID", 0x0020, 0x0052}};
 
 class Tags {
 public:

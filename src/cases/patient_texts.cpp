@@ -86,7 +86,14 @@ std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& fold
                     "' is not a regular file; replace it with one, or remove it.");
     const auto text = files::read_private_file(folder / identifiers_name, files::Privacy::secret,
                                                max_identifiers_bytes);
-    return text ? parse_patient_texts(*text) : std::nullopt;
+    if (!text)
+        return std::nullopt;
+    const json all = json::parse(*text, nullptr, false);
+    if (!all.is_object() || !all.contains("series"))
+        throw Error("'" + clean_text((folder / identifiers_name).string(), 300) +
+                    "' is not what `theatron case import` writes; import the case anew, or remove "
+                    "the file.");
+    return parse_patient_texts(*text);
 }
 
 }  // namespace theatron::cases

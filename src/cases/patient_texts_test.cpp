@@ -59,6 +59,10 @@ TEST(PatientTexts, AreReadFromAFileOfThisUserAlone) {
         }
         return "";
     };
+    for (const char* damaged : {"", "{", "7", "[]", R"({"name": "Doe^Jane"})"}) {
+        std::ofstream(file) << damaged;
+        EXPECT_THAT(refusal(), ::testing::HasSubstr("import the case anew")) << damaged;
+    }
     fs::permissions(file, fs::perms(0640));
     EXPECT_THAT(refusal(), ::testing::HasSubstr("chmod 600"));
     EXPECT_THAT(refusal(), ::testing::Not(::testing::HasSubstr("Doe")));

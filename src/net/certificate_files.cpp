@@ -3,6 +3,8 @@
 
 #include <sys/stat.h>
 
+#include "base/error.h"
+
 namespace theatron::net {
 
 CertificateFiles::CertificateFiles(std::filesystem::path certificate, std::filesystem::path key)
@@ -18,6 +20,18 @@ CertificateFiles::States CertificateFiles::states() const {
                          std::int64_t(info.st_ctim.tv_sec) * 1'000'000'000 + info.st_ctim.tv_nsec};
     }
     return states;
+}
+
+Certificate CertificateFiles::read() const {
+    for (const std::filesystem::path& file : {certificate_, key_}) {
+        std::error_code failed;
+        const auto kind = std::filesystem::status(file, failed).type();
+        if (kind != std::filesystem::file_type::regular &&
+            kind != std::filesystem::file_type::not_found && !file.empty())
+            throw Error("'" + file.string() +
+                        "' is no file; --certificate and --key name files in PEM.");
+    }
+    return read_certificate(certificate_, key_);
 }
 
 std::optional<Certificate> CertificateFiles::changed() {

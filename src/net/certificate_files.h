@@ -20,8 +20,8 @@ public:
     CertificateFiles(std::filesystem::path certificate, std::filesystem::path key);
 
     const std::filesystem::path& certificate() const { return certificate_; }
-    // Throws Error.
-    Certificate read() const { return read_certificate(certificate_, key_); }
+    // Throws Error, also for what is no regular file: reading a pipe could wait without end.
+    Certificate read() const;
 
     // Call it about twice a second. After a change, and when a file was not changed again until
     // the next call (certificate and key are replaced one after the other): what the files hold.

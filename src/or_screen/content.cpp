@@ -21,6 +21,7 @@ PersonCard card_of(const PersonNow& person) {
     card.initials = session::initials_of(person.name);
     card.color = room::srgb_of(room::color_of(person.id));
     card.speaks = person.speaks;
+    card.is_recorded = person.is_recorded;
     if (person.pose_age_ms.value_or(0) > silent_person_ms && !person.speaks) {
         card.state = "no sign for " + viewer::age_text(*person.pose_age_ms);
         card.warns = true;
@@ -87,11 +88,17 @@ ScreenMessage message_of(const Participant::Status& status) {
 void describe_picture(const client::CameraFigures& camera, double age_ms, Content& content) {
     const wire::CameraState& state = camera.camera.state;
     content.camera = camera.camera.description.name;
-    content.age = viewer::age_text(age_ms);
     const bool is_live = state.condition == wire::CameraCondition::live;
-    content.age_warns = !is_live || age_ms > viewer::old_picture_ms;
     constexpr double frozen_ms = 2000;
-    if (!is_live || age_ms > frozen_ms)
+    const bool stands_still = !is_live || age_ms > frozen_ms;
+    if (!content.playback.empty()) {
+        if (stands_still)
+            content.warning = content.playback + ": no new picture for " + viewer::age_text(age_ms);
+        return;
+    }
+    content.age = viewer::age_text(age_ms);
+    content.age_warns = !is_live || age_ms > viewer::old_picture_ms;
+    if (stands_still)
         content.warning = "NOT LIVE: this picture is " + viewer::age_text(age_ms) + " old";
 }
 

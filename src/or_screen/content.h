@@ -24,6 +24,7 @@ struct PersonNow {
     std::optional<double> pose_age_ms;  // none: no pose has come, as from people without a window
     bool points = false;
     bool points_at_images = false;  // at the slice on the monitor
+    bool is_recorded = false;       // part of the recording that the host plays
     std::optional<Sight> pointed;   // the end of the pointer in the shown picture, if it has one
 };
 
@@ -34,6 +35,7 @@ struct PersonCard {
     Rgb color;
     bool speaks = false;
     bool warns = false;  // the state is one to notice
+    bool is_recorded = false;
     bool operator==(const PersonCard&) const = default;
 };
 
@@ -75,7 +77,9 @@ struct Content {
     std::string camera;
     std::string age;  // of the picture; empty: none
     bool age_warns = false;
-    std::string warning;   // over the picture: it is not what happens now
+    std::string warning;  // over the picture: it is not what happens now
+    std::string
+        playback;  // over the picture: "RECORDING 0:12 / 1:02"; empty: it is of no recording
     std::string recorded;  // "recorded by Anna, 12 s"; empty: by nobody
     std::vector<PersonCard> people;
     std::size_t people_left_out = 0;
@@ -94,7 +98,8 @@ struct ScreenMessage {
 };
 ScreenMessage message_of(const client::Participant::Status& status);
 
-// Sets `camera`, `age`, `age_warns` and `warning` for the shown picture, which is so old.
+// Sets `camera`, `age`, `age_warns` and `warning` for the shown picture, which is so old. The age
+// of a picture of a recording (`playback` is set) is not told: it is the time since it was played.
 void describe_picture(const client::CameraFigures& camera, double age_ms, Content& content);
 
 }  // namespace theatron::or_screen

@@ -103,6 +103,31 @@ TEST(Picture, ItsAgeIsToldAndAnOldOneIsNotTakenForLive) {
     EXPECT_THAT(stale.warning, HasSubstr("NOT LIVE"));
 }
 
+TEST(Picture, ThatOfARecordingIsNotCalledSoManyMillisecondsOld) {
+    const auto described = [](bool live, double age_ms) {
+        client::CameraFigures camera;
+        camera.camera.state.condition =
+            live ? wire::CameraCondition::live : wire::CameraCondition::ended;
+        Content content;
+        content.playback = "RECORDING 0:12 / 1:02";
+        describe_picture(camera, age_ms, content);
+        return content;
+    };
+    EXPECT_EQ(described(true, 131).age, "");
+    EXPECT_FALSE(described(true, 800).age_warns);
+    EXPECT_EQ(described(true, 131).warning, "");
+    EXPECT_EQ(described(true, 12'300).warning, "RECORDING 0:12 / 1:02: no new picture for 12 s");
+    EXPECT_EQ(described(false, 300).warning, "RECORDING 0:12 / 1:02: no new picture for 300 ms");
+}
+
+TEST(Cards, TellWhoIsPartOfARecording) {
+    PersonNow anna = person(1, "Anna"), ben = person(2, "Ben");
+    anna.is_recorded = true;
+    const auto cards = cards_of({anna, ben}, 8);
+    EXPECT_TRUE(cards.at(0).is_recorded);
+    EXPECT_FALSE(cards.at(1).is_recorded);
+}
+
 TEST(Message, OnlyASessionThatIsJoinedHasNone) {
     client::Participant::Status status;
     status.phase = Phase::joined;

@@ -12,6 +12,7 @@
 #include "room/srgb.h"
 #include "session/room_bytes.h"
 #include "viewer/placed_marks.h"
+#include "viewer/playing.h"
 
 namespace theatron::or_screen {
 namespace {
@@ -205,9 +206,15 @@ void OrScreen::describe(client::Participant& participant, const std::set<Partici
     content_.camera.clear();
     content_.age.clear();
     content_.warning.clear();
+    content_.playback.clear();
     content_.age_warns = false;
-    if (const auto known = camera_ ? figures_.find(*camera_) : figures_.end();
-        known != figures_.end() && frame_ && status.clock_known) {
+    const auto known = camera_ ? figures_.find(*camera_) : figures_.end();
+    // Cameras of participants are not the host's recording.
+    if (const auto playback = participant.playback();
+        playback && known != figures_.end() &&
+        known->second.camera.description.publisher == ParticipantId{})
+        content_.playback = viewer::playback_text(*playback, participant.now());
+    if (known != figures_.end() && frame_ && status.clock_known) {
         const double age_ms = to_ms(participant.now() - frame_->times.captured);
         // Late colour belongs to an earlier moment than the frame.
         describe_picture(known->second, std::max(age_ms, known->second.color.age_now_ms), content_);
@@ -233,6 +240,7 @@ void OrScreen::describe_people(client::Participant& participant,
         const auto facts = session::decode_person(object.properties);
         PersonNow person;
         person.id = object.creator;
+        person.is_recorded = session::is_recorded(id);
         if (facts) {
             person.name = facts->name;
             person.role = facts->role;

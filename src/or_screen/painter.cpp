@@ -206,11 +206,11 @@ void Painter::camera(const Content& content, const Rect& rect,
             label(place_in(rect, content.picture, end.pixel), one.color, "",
                   colors::with_opacity(one.color), one.label, rect);
     }
-    if (is_old) {
+    if (const std::string& words = is_old ? content.warning : content.playback; !words.empty()) {
         const Rect bar{rect.x, rect.y, rect.width, 2.4 * letter_};
         list_.AddRectFilled(from(bar), to(bar), colors::warning, rounding,
                             ImDrawFlags_RoundCornersTop);
-        centred(fonts_.name, bar, IM_COL32(20, 14, 4, 255), content.warning);
+        centred(fonts_.name, bar, IM_COL32(20, 14, 4, 255), words);
     }
     list_.PopClipRect();
 }
@@ -304,11 +304,13 @@ void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {
         }
         right -= padding;
     }
-    // A long name in smaller letters.
+    // A long name in smaller letters; that it is recorded is never cut off.
+    const std::string behind = card.is_recorded ? " (recorded)" : "";
     const ImFont* font =
-        measure(fonts_.name, card.name).x <= right - left ? fonts_.name : fonts_.small;
+        measure(fonts_.name, card.name + behind).x <= right - left ? fonts_.name : fonts_.small;
+    const float name_width = right - left - (behind.empty() ? 0 : measure(font, behind).x);
     text(font, {left, name_middle - font->FontSize / 2}, colors::text,
-         shortened(font, card.name, right - left));
+         shortened(font, card.name, name_width) + behind);
     if (!two_lines)
         return;
     text(fonts_.small, {left, from(rect).y + 3 * letter_ - fonts_.small->FontSize / 2},

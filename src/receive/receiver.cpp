@@ -74,18 +74,20 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
         if (found == streams_.end() || found->second.setting == s.setting)
             continue;
         Stream& stream = found->second;
-        if (s.past || stream.past)
+        const bool changes_time = s.past || stream.past;
+        if (changes_time)
             set_past(stream, s.past);
-        std::string unknown = set_codec(stream, s);
+        const std::string unknown = set_codec(stream, s);
         if (unknown.empty()) {
             stream.setting = s.setting;
             stream.codec = s.codec;
             stream.asked_for_key = false;
-        } else {
-            stream.setting.reset();  // its pictures are ignored, also those on their way
-            if (problem.empty())
-                problem = std::move(unknown);
+            continue;
         }
+        problem = problem.empty() ? unknown : problem;
+        // Pictures that are still on their way would be taken for those of the other time.
+        if (changes_time)
+            stream.setting.reset();
     }
     if (!problem.empty())
         throw Error("The host sends in a way that this Theatron does not know: " + problem);

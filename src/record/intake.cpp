@@ -148,8 +148,11 @@ bool Intake::can_begin_with(const Entry& entry) const {
 // True if a key part of the room begins the described segment, since no picture does. While a
 // segment is open, that is so only where the cameras have gone: others are about to send.
 bool Intake::room_begins_segment(TimePoint now) const {
-    return pending_ && now - waits_since_ >= picture_patience &&
-           (!recorder_ || pending_->new_connection || pending_->cameras.empty());
+    if (!pending_)
+        return false;
+    if (pending_->cameras.empty())
+        return now - waits_since_ >= camera_patience;
+    return now - waits_since_ >= picture_patience && (!recorder_ || pending_->new_connection);
 }
 
 // A segment of this description begins with what was captured then: a frame or a part of the room.

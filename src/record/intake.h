@@ -27,9 +27,10 @@ public:
     // Time between two reports of a stream while more of it gets lost.
     static constexpr Duration news_interval = std::chrono::seconds(1);
 
-    // If no picture has begun the recording or continued it for this time after the description of
-    // its cameras, the room begins a segment: people speak and point while no camera is there.
-    static constexpr Duration picture_patience = std::chrono::seconds(2);
+    // So long after a description without cameras the room begins a segment: people speak and point
+    // also then. With cameras, if none has sent a picture so long after it.
+    static constexpr Duration camera_patience = std::chrono::seconds(2),
+                              picture_patience = std::chrono::seconds(5);
 
     // Nothing is created before the first picture or part of the room.
     Intake(std::filesystem::path file, const Recorder::Options& options)
@@ -56,7 +57,7 @@ public:
     // A part of the room's state, which begins at session time `begin`. A key part needs no part
     // before it; the first one of each segment must be one. False if it was not recorded, because
     // it is none or nothing is recorded yet: then the next part must be a key part. A key part
-    // begins a segment of its own after picture_patience. Never waits, never throws. From any
+    // begins a segment of its own after camera_patience. Never waits, never throws. From any
     // thread, in order.
     [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, const Now& now);
 

@@ -72,7 +72,7 @@ protected:
 
 TEST_F(RecordedMeeting, WithoutACameraHasItsRoomAndVoices) {
     describe(0, true);
-    pass(Intake::picture_patience);
+    pass(Intake::camera_patience);
     EXPECT_EQ(intake_.recorder(), nullptr) << "a camera may still come";
     pass(500ms);
     say(1);
@@ -132,7 +132,7 @@ TEST_F(RecordedMeeting, ACameraThatComesLaterBeginsASegmentAndOneThatGoesToo) {
 
 TEST_F(RecordedMeeting, ACameraThatSendsNothingYetDelaysNothing) {
     describe(1, true);
-    pass(5s);
+    pass(8s);
     picture(0);
     pass(1s);
     const auto recording = finish();

@@ -50,7 +50,7 @@ inline Message message(StreamId stream, FrameNumber frame, Duration at, std::siz
 
 // A machine and a session with the same clock.
 inline Intake::Now at_once(TimePoint now) {
-    return {now, {now, UtcTime(1s)}};
+    return {now, {now, session_begin.utc + (now - session_begin.session)}};
 }
 
 // Arrives ten milliseconds after its exposure.

@@ -9,7 +9,7 @@
 namespace theatron::record {
 namespace {
 
-constexpr TimePoint begin = from_us(7'000'000'123);
+constexpr TimePoint speech_begin = from_us(7'000'000'123);
 const Bytes opus(40, std::byte{0x78});
 
 struct Written {
@@ -40,7 +40,7 @@ protected:
         };
     }
     void say(std::uint32_t number, Duration at, bool pauses = false, int frame_ms = 20) {
-        sequence_.put({number, begin + at, frame_ms, pauses, -20, opus}, write());
+        sequence_.put({number, speech_begin + at, frame_ms, pauses, -20, opus}, write());
     }
     std::vector<Duration> speech() const {
         std::vector<Duration> places;
@@ -58,7 +58,7 @@ protected:
         }
     }
 
-    VoiceSequence sequence_{begin};
+    VoiceSequence sequence_{speech_begin};
     std::vector<Written> blocks_;
 };
 
@@ -92,11 +92,11 @@ TEST_F(Sequence, JitterOfTheSpeakersClockMovesNothing) {
 // A sound card that is 200 ppm slow or fast, for an hour without a pause.
 TEST_F(Sequence, StaysAtTheSpeakersTimeWhenItsClockDrifts) {
     for (const double rate : {1 - 200e-6, 1 + 200e-6}) {
-        sequence_ = VoiceSequence(begin);
+        sequence_ = VoiceSequence(speech_begin);
         std::size_t blocks = 0;
         for (std::uint32_t i = 0; i < 180'000; ++i) {
             const Duration at(std::int64_t(20'000.0 * i * rate));
-            sequence_.put({i, begin + at, 20, false, -20, opus},
+            sequence_.put({i, speech_begin + at, 20, false, -20, opus},
                           [&](const VoiceSequence::Block& block) {
                               blocks += !block.is_silence;
                               const auto error = block.is_silence ? 0 : (block.at - at).count();
@@ -109,7 +109,7 @@ TEST_F(Sequence, StaysAtTheSpeakersTimeWhenItsClockDrifts) {
 
 TEST_F(Sequence, WhatComesAfterItsPlaceWasFilledIsLeftOut) {
     say(0, 0ms, true);
-    sequence_.fill(begin + 1s, write());
+    sequence_.fill(speech_begin + 1s, write());
     say(10, 200ms);
     EXPECT_EQ(sequence_.figures().left_out, 1u);
     say(60, 1200ms);

@@ -67,14 +67,15 @@ public:
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;
-        bool voice_recorded = false;             // it agrees that others record its voice
-        std::string link, token;                 // by which it came
-        std::optional<wire::Join> asked;         // while it waits for admission
-        bool asks_to_publish = false;            // as in wire::Join
-        std::uint64_t denied = 0;                // messages that its role does not allow
-        std::uint64_t refused_faces = 0;         // pictures beyond face_limits.h
-        bool records = false;                    // as in wire::Join
-        wire::Patient patient;                   // that it was told; empty: none
+        bool voice_recorded = false;      // it agrees that others record its voice
+        std::string link, token;          // by which it came
+        std::optional<wire::Join> asked;  // while it waits for admission
+        bool asks_to_publish = false;     // as in wire::Join
+        std::uint64_t denied = 0;         // messages that its role does not allow
+        std::uint64_t refused_faces = 0;  // pictures beyond face_limits.h
+        bool records = false;             // as in wire::Join
+        // The newest message about the patient; nullopt: it may be lost.
+        std::optional<wire::Patient> patient = wire::Patient{};
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
         std::string renderer;                    // as it reports it; may be empty

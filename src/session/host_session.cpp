@@ -363,9 +363,7 @@ void HostSession::resynchronise(ParticipantId id) {
     if (!room_.cases().empty())
         tell_cases(id);
     tell_playback(id);
-    // Its last message may be lost: an empty one, too.
-    if (participant->has(wire::Feature::patient))
-        send(id, participant->patient = {});
+    participant->patient.reset();
     tell_patient();
     if (participant->may(Right::manage))
         tell_operators();

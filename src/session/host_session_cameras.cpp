@@ -26,12 +26,12 @@ void HostSession::carry_out(ParticipantId id, const wire::AdjustCamera& wish, Ti
 ManageRefusal HostSession::adjust(CameraId camera, const CameraAdjustment& adjustment,
                                   const std::string& by, TimePoint now) {
     const CameraStreams* known = streams_.find(camera);
-    const auto before = known ? known->adjustment().region : std::nullopt;
+    const bool changes_region = known && known->adjustment().region != adjustment.region;
     const ManageRefusal refusal = streams_.adjust(camera, adjustment);
     if (refusal != ManageRefusal::none)
         return refusal;
     // A region may be there to hide something.
-    if (known->adjustment().region != before)
+    if (changes_region)
         look_back_.forget(camera, now);
     adjusted_[camera] = {by, now};
     actions_.push_back(action::Adjusted{camera});

@@ -139,6 +139,8 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_manage = person.may(Right::manage);
     person.role = role;
     membership_.set_role(person.person, person.of_link, role);
+    if (person.records && !person.may(Right::record))
+        return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {
         std::erase(person.features, wire::Feature::publish);
         std::vector<CameraId> forbidden = streams_.of(id);
@@ -173,8 +175,10 @@ void HostSession::tell_patient() {
         const bool may_know = may_know_patient(person.role) && !person.records &&
                               std::find(roles.begin(), roles.end(), person.role) != roles.end();
         const wire::Patient now = may_know ? known : wire::Patient{};
-        if (now != person.patient)
-            send(id, person.patient = now);
+        if (person.patient == now)
+            continue;
+        person.patient = now;
+        send(id, now);
     }
 }
 

@@ -122,6 +122,20 @@ TEST_F(People, AnObserverSeesButChangesNothingAndSendsNothing) {
     EXPECT_NE(refusal_of(bob).find("cannot record"), std::string::npos);
 }
 
+TEST_F(People, ARecordingEndsWithTheRightToRecord) {
+    come(alice, "or");
+    come(bob, "secret", 0, true);
+    EXPECT_EQ(manage(alice, ManageAction::set_role, bob, Role::publisher), ManageRefusal::none);
+    EXPECT_TRUE(is_in(bob)) << "a publisher may record";
+    EXPECT_EQ(manage(alice, ManageAction::set_role, bob, Role::observer), ManageRefusal::none);
+    EXPECT_EQ(audited(), std::vector{What::role_changed});
+    EXPECT_FALSE(is_in(bob));
+    EXPECT_NE(refusal_of(bob).find("cannot record"), std::string::npos);
+    session_->on_closed(bob);
+    come(carol, "secret", int(bob), true);
+    EXPECT_NE(refusal_of(carol).find("cannot record"), std::string::npos);
+}
+
 TEST_F(People, ANewRoleHoldsAtOnceAndWhenThePersonComesAgain) {
     come(alice, "or");
     come(bob, "secret");

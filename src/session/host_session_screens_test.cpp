@@ -93,6 +93,8 @@ TEST_F(SharedScreens, AnOlderPublisherIsNotToldAndItsPicturesAreIgnored) {
     EXPECT_TRUE(sent<wire::ShareEnded>(alice, session.take_actions()).empty());
     wire::MediaHeader header;
     header.stream = color_stream(CameraId{1});
+    header.key = true;
+    header.captured = now;
     Bytes message(wire::media_header_size);
     wire::write_media_header(header, message.data());
     EXPECT_TRUE(session.on_media_from(alice, message, now).empty());

@@ -28,15 +28,17 @@ constexpr Upright box(double left, double right, double back, double front, doub
             high};
 }
 
-// The high furniture between the table and the walls; lower pieces are below every screen. The
-// boxes of the supply unit and of the hanging monitor go on to the corners of the room, so that
-// neither hides a screen from the table.
+// The furniture that reaches up to screens. The boxes of the supply unit and of the hanging monitor
+// go on to the corners of the room, so that neither hides a screen from the table.
 constexpr Upright furniture_boxes[] = {
     box(-0.80, 0.80, -0.72, 0.72, 1.90, 3.00),    // table lamps
     box(-1.10, -0.64, -2.20, -1.85, 0.00, 2.05),  // infusion stand
-    box(-2.65, -2.08, 0.34, 1.15, 0.00, 1.82),    // anaesthesia machine
+    box(-2.79, -1.75, 0.34, 1.51, 0.00, 1.81),    // anaesthesia machine
     box(-3.50, -1.55, -3.50, -0.90, 0.00, 3.00),  // supply unit
     box(1.42, 3.50, -3.50, -1.18, 0.00, 3.00),    // hanging monitor
+    box(0.19, 0.89, 1.92, 2.57, 0.00, 1.24),      // electrosurgery cart
+    box(-3.42, -2.78, 2.08, 2.67, 0.00, 1.46),    // ultrasound cart
+    box(-3.37, -2.43, 2.91, 3.45, 0.00, 1.42),    // linen trolley
 };
 // A room has at least these walls, and its ceiling is at least so high.
 constexpr double wall_m = 3.3, ceiling_m = 2.95, lowest_m = 0.9;

@@ -45,12 +45,9 @@ protected:
     ObjectId id_of(CameraId camera) {
         return find_screen(host.snapshot().objects, camera, "").value();
     }
-    const RoomObject& object_of(CameraId camera) {
-        seen_ = members[guest].objects();
-        return seen_.at(id_of(camera));
-    }
+    RoomObject object_of(CameraId camera) { return members[guest].objects().at(id_of(camera)); }
     SharedScreen facts_of(CameraId camera) {
-        const RoomObject& object = object_of(camera);
+        const RoomObject object = object_of(camera);
         return *decode_shared_screen(object.kind, object.properties);
     }
     Refusal pin(ParticipantId by, CameraId camera, bool pinned) {
@@ -72,7 +69,6 @@ protected:
     }
 
 private:
-    RoomObjects seen_;
 };
 
 TEST_F(ScreensInRoom, GetPlacesThatOverlapNeitherEachOtherNorTheFurniture) {
@@ -118,9 +114,9 @@ TEST_F(ScreensInRoom, AHeldScreenIsNotTakenAndPosesKeepItsWidth) {
     EXPECT_EQ(ask(sharer, request::Grab{id_of(scope)}), Refusal::held_by_another);
     const Grip grip{guest, number};
     const auto pose = [&](int us, double width_m) {
-        const wire::State state{
-            {wire::StateTopic::object, std::uint32_t(id_of(scope))},
-            encode_object_pose({id_of(scope), grip, from_us(us), Pose{{}, {1, 1, 1}}, width_m})};
+        const Bytes body =
+            encode_object_pose({id_of(scope), grip, from_us(us), Pose{{}, {1, 1, 1}}, width_m});
+        const wire::State state{{wire::StateTopic::object, std::uint32_t(id_of(scope))}, body};
         return host.on_pose(guest, state, from_us(us)).receivers.size();
     };
     EXPECT_EQ(pose(10, 0.8), 3u);

@@ -57,6 +57,8 @@ private:
     std::thread thread_;
 };
 
+// Sample rates of sound cards. Converting from one far below would need memory without end.
+constexpr int least_wav_rate = 4000, most_wav_rate = 384'000;
 // An hour of the best quality.
 constexpr std::uintmax_t max_wav_bytes = std::uintmax_t(2) << 30;
 
@@ -75,6 +77,9 @@ std::vector<float> read_wav(const std::string& path) {
     if (!SDL_LoadWAV(path.c_str(), &spec, &bytes, &size))
         throw Error(name + " cannot be read (" + SDL_GetError() + "); it must be a WAV file.");
     const std::unique_ptr<Uint8, void (*)(Uint8*)> owner(bytes, SDL_FreeWAV);
+    if (spec.freq < least_wav_rate || spec.freq > most_wav_rate)
+        throw Error(name + " has " + std::to_string(spec.freq) +
+                    " samples a second; it must have from 4,000 to 384,000.");
     const std::unique_ptr<SDL_AudioStream, void (*)(SDL_AudioStream*)> stream(
         SDL_NewAudioStream(spec.format, spec.channels, spec.freq, AUDIO_F32SYS, 1,
                            voice::sample_rate),

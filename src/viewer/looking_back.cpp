@@ -61,7 +61,9 @@ void LookingBack::add_panel(const std::string& past, const client::Participant& 
         panel.commands.push_back(LookBackTo{ago});
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
-    xr::PanelRow row{past.empty() ? "The present" : past, "People and voices are of now", {}};
+    xr::PanelRow row{past.empty() ? "The present" : past,
+                     past.empty() ? "" : "People and voices are of now",
+                     {}};
     if (past.empty())
         row.buttons = {button("10 s ago", seconds(10)), button("30 s ago", seconds(30)),
                        button("60 s ago", seconds(60))};

@@ -29,6 +29,14 @@ std::string clock_text(Duration position) {
     return text;
 }
 
+std::string playback_text(const wire::Playback& playback, TimePoint session_time) {
+    const std::string text = "RECORDING " + clock_text(position_at(playback, session_time)) +
+                             " / " + clock_text(playback.length);
+    if (!playback.paused)
+        return text;
+    return text + (playback.by.empty() ? ", paused at its end" : ", paused by " + playback.by);
+}
+
 bool Playing::carry_out(const PlayStep& play, client::Participant& participant, TimePoint now) {
     const auto playback = participant.playback();
     if (!playback)

@@ -14,6 +14,9 @@ Duration position_at(const wire::Playback& playback, TimePoint session_time);
 // "1:02"; "1:00:02" from an hour on.
 std::string clock_text(Duration position);
 
+// For pictures of it: "RECORDING 0:12 / 1:02", "RECORDING 0:12 / 1:02, paused by Anna".
+std::string playback_text(const wire::Playback& playback, TimePoint session_time);
+
 // Use from one thread.
 class Playing {
 public:

@@ -12,14 +12,14 @@ namespace {
 
 namespace request = session::request;
 
-// "Ben shares it, 1.20 m wide, pinned, Anna holds this".
+// "shared by Ben, 1.20 m wide, pinned, Anna holds it".
 std::string state_of(const session::RoomObject& object, const session::SharedScreen& screen,
                      const ScreenPanelFacts& facts) {
     char width[32];
     std::snprintf(width, sizeof(width), "%.2f m wide", object.scale);
     std::string text = (object.creator == ParticipantId{} ? "of the host"
                         : object.creator == facts.self    ? "you share it"
-                                                          : screen.publisher + " shares it") +
+                                                          : "shared by " + screen.publisher) +
                        ", " + width;
     if (screen.pinned)
         text += ", pinned";

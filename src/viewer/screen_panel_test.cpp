@@ -9,7 +9,7 @@ namespace theatron::viewer {
 namespace {
 
 using What = ChangeScreen::What;
-constexpr ParticipantId self{1}, ben{2};
+constexpr ParticipantId onlooker{1}, other_sharer{2};
 constexpr session::ObjectId scope{7};
 
 session::RoomObject shared_by(ParticipantId by, bool pinned = false,
@@ -19,7 +19,7 @@ session::RoomObject shared_by(ParticipantId by, bool pinned = false,
     object.creator = by;
     object.scale = 1.2;
     object.properties = session::encode_shared_screen(
-        {camera, pinned, {1920, 1080}, by == self ? "Anna" : "Ben", "scope"});
+        {camera, pinned, {1920, 1080}, by == onlooker ? "Anna" : "Ben", "scope"});
     return object;
 }
 
@@ -33,7 +33,7 @@ std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
     const session::RoomObjects objects{{scope, object}};
     RoomPanel panel;
     panel.commands.push_back(Call{});  // of another panel
-    add_screen_panel({&objects, self, role, {{ben, "Ben"}}}, panel);
+    add_screen_panel({&objects, onlooker, role, {{other_sharer, "Ben"}}}, panel);
     if (panel.panels.empty())
         return std::nullopt;
     const xr::PanelRow& row = panel.panels.at(0).rows.at(0);
@@ -51,36 +51,37 @@ std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
 using Labels = std::vector<std::string>;
 
 TEST(ScreenPanel, TheSharerPinsAndEndsTheirShare) {
-    const auto own = shown(shared_by(self), wire::Role::publisher);
+    const auto own = shown(shared_by(onlooker), wire::Role::publisher);
     ASSERT_TRUE(own);
     EXPECT_EQ(own->detail, "you share it, 1.20 m wide");
     EXPECT_EQ(own->labels, (Labels{"Smaller", "Larger", "Pin in place", "End share"}));
     EXPECT_EQ(own->commands[2].what, What::pin);
     EXPECT_EQ(own->commands[3].what, What::end);
-    const auto pinned = shown(shared_by(self, true), wire::Role::publisher);
+    const auto pinned = shown(shared_by(onlooker, true), wire::Role::publisher);
     EXPECT_EQ(pinned->detail, "you share it, 1.20 m wide, pinned");
     EXPECT_EQ(pinned->labels, (Labels{"Unpin", "End share"}));
     EXPECT_EQ(pinned->commands[0].what, What::unpin);
 }
 
 TEST(ScreenPanel, OthersScaleItAndOperatorsDoAll) {
-    EXPECT_EQ(shown(shared_by(ben), wire::Role::expert)->labels, (Labels{"Smaller", "Larger"}));
-    EXPECT_EQ(shown(shared_by(ben), wire::Role::operator_)->labels,
+    EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::expert)->labels,
+              (Labels{"Smaller", "Larger"}));
+    EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::operator_)->labels,
               (Labels{"Smaller", "Larger", "Pin in place", "End share"}));
-    EXPECT_EQ(shown(shared_by(ben), wire::Role::observer)->labels, Labels{});
-    EXPECT_EQ(shown(shared_by(ben, true), wire::Role::expert)->labels, Labels{});
+    EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::observer)->labels, Labels{});
+    EXPECT_EQ(shown(shared_by(other_sharer, true), wire::Role::expert)->labels, Labels{});
 }
 
 TEST(ScreenPanel, AHeldScreenSaysByWhom) {
-    session::RoomObject held = shared_by(ben);
-    held.grip.holder = ben;
+    session::RoomObject held = shared_by(other_sharer);
+    held.grip.holder = other_sharer;
     const auto row = shown(held, wire::Role::expert);
-    EXPECT_EQ(row->detail, "Ben shares it, 1.20 m wide, Ben holds it");
+    EXPECT_EQ(row->detail, "shared by Ben, 1.20 m wide, Ben holds it");
     EXPECT_EQ(row->labels, Labels{});
 }
 
 TEST(ScreenPanel, AScreenWhoseSourceIsAwayIsNotListed) {
-    EXPECT_FALSE(shown(shared_by(ben, false, std::nullopt), wire::Role::operator_));
+    EXPECT_FALSE(shown(shared_by(other_sharer, false, std::nullopt), wire::Role::operator_));
 }
 
 }  // namespace

@@ -462,6 +462,8 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
         return;
     presented_at_ = end;
     age_at_presentation_ms_ = age_ms;
+    if (std::exchange(presented_past_, is_past) != is_past)
+        ages_ms_.clear();
     ages_ms_.add(*age_ms);
     if (!is_past)
         all_ages_ms_.add(*age_ms);
@@ -496,16 +498,16 @@ Facts Viewer::facts(TimePoint now) {
         looking_back_.add_panel(facts.past, participant_, now, panel);
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
-        panel = joined(std::move(panel),
-                       room_panel({scene_.meeting().room(), scene_.meeting().people(),
-                                   places_of(cameras()), followed_, role == wire::Role::operator_,
-                                   facts.visitors, session::may(role, session::Right::point),
-                                   is_calling(now), voices_.speaking, own_face_}));
         const client::Participant::Room& room = scene_.meeting().room();
         ScreenPanelFacts screens{&room.objects, room.self, role, {}};
         for (const room::RoomPerson& person : scene_.meeting().people())
             screens.names[person.id] = person.name;
         add_screen_panel(screens, panel);
+        panel = joined(std::move(panel),
+                       room_panel({scene_.meeting().room(), scene_.meeting().people(),
+                                   places_of(cameras()), followed_, role == wire::Role::operator_,
+                                   facts.visitors, session::may(role, session::Right::point),
+                                   is_calling(now), voices_.speaking, own_face_}));
     }
     if (shows_case_)
         add_case(panel);

@@ -28,6 +28,7 @@
 #include "viewer/playing.h"
 #include "viewer/renderer_text.h"
 #include "viewer/room_panel.h"
+#include "viewer/shown_moment.h"
 #include "xr/drawing_pace.h"
 #include "xr/window_input.h"
 
@@ -98,6 +99,9 @@ public:
     ColorImage picture(Size size);
     // As LiveScene::points().
     std::vector<ColoredPoint> points() const { return scene_.points(); }
+
+    // The moment of both.
+    ShownMoment shown_moment(TimePoint now) const;
 
     // The picture that was drawn since `begin` is on screen at `end`.
     void on_presented(TimePoint begin, TimePoint end);
@@ -227,6 +231,7 @@ private:
     std::uint64_t pictures_ = 0;
     TimePoint presented_at_, first_picture_at_;
     std::optional<double> age_at_presentation_ms_;
+    bool presented_past_ = false;  // the last picture was
 };
 
 }  // namespace theatron::viewer

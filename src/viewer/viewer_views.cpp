@@ -144,6 +144,21 @@ std::string Viewer::past(TimePoint now) const {
     return past_text(shown, looking, names, participant_.session_time(now));
 }
 
+ShownMoment Viewer::shown_moment(TimePoint now) const {
+    const client::ParticipantFigures figures = client::figures_of(participant_);
+    std::set<CameraId> stale;
+    for (const client::CameraFigures& one : figures.cameras)
+        if (one.camera.state.condition != wire::CameraCondition::live)
+            stale.insert(one.camera.description.id);
+    ShownMoment moment;
+    // Without the session's clock no age is known.
+    if (figures.status.clock_known)
+        moment = viewer::shown_moment(scene_.newest(), stale, participant_.session_time(now));
+    moment.is_live = moment.is_live && !frozen_;
+    moment.is_recording = participant_.playback().has_value();
+    return moment;
+}
+
 void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now) {
     if (look_back(key, now))
         return;

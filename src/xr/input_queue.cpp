@@ -52,6 +52,14 @@ void InputQueue::release() {
     newest().released = true;
 }
 
+bool InputQueue::has_more() const {
+    const WindowInput& oldest = waiting_.front();
+    const Steering& way = oldest.steering;
+    const bool moves = way.turn != Vec2{} || way.slide != Vec2{} || way.approach != 0;
+    return waiting_.size() > 1 || has_button(oldest) || !oldest.keys.empty() || moves ||
+           oldest.redraw || oldest.close;
+}
+
 WindowInput InputQueue::take() {
     WindowInput oldest = std::move(waiting_.front());
     waiting_.pop_front();

@@ -26,8 +26,8 @@ public:
     // The oldest input: keys, or one press of a button, or its release. Without any only the
     // states.
     WindowInput take();
-    // The next take() has something that came before.
-    bool has_more() const { return waiting_.size() > 1; }
+    // Something has come that was not taken yet.
+    bool has_more() const;
 
 private:
     bool begin_next();

@@ -34,6 +34,8 @@ class LookBack(unittest.TestCase):
                 f = ben.wait_for(lambda f: camera(f)["past"] and camera(f)["age_now_ms"] > 3900, 10)
                 shown = camera(f)["newest_frame"]
                 self.assertLess(shown, first)
+                self.assertTrue(f["past"])
+                self.assertGreater(f["age_ms"]["p50"], 3900)
                 f = ben.wait_for(lambda f: camera(f)["newest_frame"] >= shown + FPS, 10)
                 self.assertTrue(camera(f)["past"])
                 self.assertEqual(camera(f)["state"], "live")

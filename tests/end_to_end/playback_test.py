@@ -49,6 +49,12 @@ class Playback(unittest.TestCase):
                 ben.say("seek +0.5")
                 anna.wait_for(lambda f: f["playback"]["position_s"] == 1 and f["playback"]["by"] == "Ben", 10)
                 self.assertAlmostEqual(self.box_at(link), 20 + 3 * 20, delta=4)
+                # The screen in the operating room does not call it the present.
+                with Process("join", link, "--or-screen", "--offscreen", self.folder / "or.png", "--seconds", "60",
+                             "--every", "0.2") as screen:
+                    view = screen.wait_for(lambda f: f.get("or_screen", {}).get("recording"), 20)["or_screen"]
+                    self.assertEqual(view["recording"], "RECORDING 0:01 / 0:02, paused by Ben")
+                    self.assertEqual((view["age"], view["warning"]), ("", ""))
                 h.say("play")
                 ben.wait_for(lambda f: not f["playback"]["paused"] and f["playback"]["by"] == "host", 10)
                 ben.wait_for(lambda f: f["playback"]["position_s"] > 1.5, 10)

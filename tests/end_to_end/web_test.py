@@ -172,7 +172,8 @@ class Web(unittest.TestCase):
 
     def test_a_link_without_a_token_or_with_a_wrong_one_is_explained(self):
         page = self.browser.open(self.link.split("#")[0], SIZE)
-        page.wait_for("document.getElementById('enter')?.disabled")
+        page.wait_for("!!document.getElementById('invitation')?.textContent")
+        self.assertTrue(page.evaluate("document.getElementById('enter').disabled"))
         self.assertIn("no invitation", page.evaluate("document.getElementById('invitation').textContent"))
         page = self.enter(self.link.replace("join=", "join=wrong"), "Eve")
         page.wait_for("theatron.state.phase === 'left' && document.getElementById('problem').textContent")

@@ -70,7 +70,6 @@ class Webcam(unittest.TestCase):
 
                 ben.say("webcam on")
                 ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 5, 20)
-                self.assertGreater(len(places(self.seen(link, "again"), RED)), 1500)
                 # One who joins later is sent the last picture. It is too old to be shown.
                 ben.send(signal.SIGSTOP)
                 time.sleep(3)

@@ -239,8 +239,8 @@ class Window(unittest.TestCase):
 
     def test_the_demo_is_a_window_where_there_is_a_display(self):
         with Process("demo", "--out", str(self.folder / "demo"), *self.small_room, env=self.screen.environment) as demo:
-            wait_until(lambda: self.screen.title().startswith("demo operating room"), 60)
-            wait_until(lambda: brightness(self.picture()) > 70, 60)
+            demo.wait_until(lambda: self.screen.title().startswith("demo operating room"))
+            demo.wait_until(lambda: brightness(self.picture()) > 70)
             demo.send(signal.SIGTERM)
             self.assertEqual(demo.end(20), 0, demo.errors)
         self.assertEqual(list((self.folder / "demo").glob("*.png")), [])
@@ -249,7 +249,7 @@ class Window(unittest.TestCase):
         folder = self.folder / "demo_pictures"
         with Process("demo", "--out", str(folder), "--seconds", "8", *self.small_room,
                      env={**self.screen.environment, "DISPLAY": ":31999"}) as demo:
-            self.assertEqual(demo.end(60), 0, demo.errors)
+            self.assertEqual(demo.end(200), 0, demo.errors)
             self.assertIn("No window can be opened on this display.", "".join(demo.errors))
         self.assertTrue((folder / "from_between.png").exists())
 

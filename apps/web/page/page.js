@@ -375,6 +375,7 @@ function leave(voice, face, problem) {
 async function main() {
     document.documentElement.lang = language;
     fill_texts();
+    $("problem").textContent = "";
     // Anybody can write into a link; only roles are shown.
     const role = link.get("role");
     $("invitation").textContent = ["operator", "expert", "observer", "publisher"].includes(role)
@@ -436,6 +437,7 @@ async function main() {
             $("enter").disabled = false;
         }
     });
+    $("enter").disabled = false;
     $("name").focus();
 }
 

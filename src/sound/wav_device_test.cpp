@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sound/wav_device.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "sound/wav_bytes.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::sound {
+namespace {
+
+constexpr std::size_t rate_at = 24;  // in the head of a WAV file
+
+std::string refusal_of_rate(std::uint32_t samples_per_second) {
+    const testing::TemporaryFolder folder;
+    Bytes bytes = wav_bytes(std::vector<std::int16_t>(480, 100));
+    for (std::size_t i = 0; i < 4; ++i)
+        bytes[rate_at + i] = std::byte(samples_per_second >> (8 * i));
+    const std::string file = (folder.path() / "said.wav").string();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    try {
+        (void)open_wav_microphone(file, [](std::span<const float>) {});
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(WavMicrophone, RefusesARateOfNoSoundCard) {
+    EXPECT_THAT(refusal_of_rate(1), ::testing::HasSubstr("1 samples a second"));
+    EXPECT_THAT(refusal_of_rate(4'000'000), ::testing::HasSubstr("from 4,000 to 384,000"));
+    EXPECT_EQ(refusal_of_rate(8000), "");
+    EXPECT_EQ(refusal_of_rate(192'000), "");
+}
+
+}  // namespace
+}  // namespace theatron::sound
