@@ -58,7 +58,8 @@ Door::Events Server::Impl::door_events() {
 void Server::Impl::tick() {
     timer.expires_after(std::chrono::milliseconds(100));
     timer.async_wait([this](beast::error_code error) {
-        if (error)
+        // A wait that was over before it was cancelled has no error.
+        if (error || ended)
             return;
         (void)contain("net", [this] {
             // look() may close and erase a connection.

@@ -154,7 +154,7 @@ class Screens(unittest.TestCase):
             self.wait_for_error(cart, 'Dora has ended the share of "tower"')
             cart.wait_for(lambda f: [c["share_ended"] for c in f["cameras"]] == [False, True], WAIT)
             h.send(signal.SIGTERM)
-            self.assertEqual(h.end(), 0)
+            self.assertEqual(h.end(), 0, "".join(h.errors))
         with host(self.folder / "state3", self.lamp) as h, \
                 self.person(h.greeting["links"]["operator"], "Dora") as dora, \
                 Process("publish", h.greeting["publish_link"], *share, env=environment) as cart:
