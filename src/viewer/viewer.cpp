@@ -494,7 +494,8 @@ Facts Viewer::facts(TimePoint now) {
     facts.frozen = frozen_;
     RoomPanel panel = call_panel(callers());
     facts.past = past(now);
-    if (!facts.past.empty() || (shows_panels_ && participant_.can_look_back()))
+    // The way back to the present comes first, the offer to look back last.
+    if (!facts.past.empty())
         looking_back_.add_panel(facts.past, participant_, now, panel);
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
@@ -508,6 +509,8 @@ Facts Viewer::facts(TimePoint now) {
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
                                    is_calling(now), voices_.speaking, own_face_}));
+        if (facts.past.empty() && participant_.can_look_back())
+            looking_back_.add_panel(facts.past, participant_, now, panel);
     }
     if (shows_case_)
         add_case(panel);
