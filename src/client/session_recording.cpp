@@ -135,6 +135,9 @@ public:
         {
             // Its thread may be in on_media(), which uses the participant.
             const std::lock_guard lock(mutex_);
+            // The room may still be missing.
+            if (clock_known_ && !stopped_)
+                record_early();
             stopped_ = true;
         }
         participant_.reset();
@@ -225,7 +228,8 @@ private:
         if (status.clock_known && !clock_known_)
             clock_known_at_ = steady_now();
         clock_known_ = status.clock_known;
-        record_early();
+        if (is_ready())
+            record_early();
     }
 
     // The mutex is held; on the participant's thread. The people in the room say whose voices have
@@ -235,8 +239,6 @@ private:
                (room_version_ > 0 || steady_now() - clock_known_at_ > room_patience);
     }
     void record_early() {
-        if (!is_ready())
-            return;
         for (Early& early : std::exchange(early_, {}))
             record(early.stream, early.header, std::move(early.message));
         early_bytes_ = 0;
@@ -384,9 +386,10 @@ private:
         const StreamId stream = header.stream;
         header.stream = is_depth(stream) ? depth_stream(*number) : color_stream(*number);
         wire::write_media_header(header, message->data());
-        record_early();
-        if (is_ready())
+        if (is_ready()) {
+            record_early();
             return record(stream, header, std::move(message));
+        }
         early_bytes_ += message->size();
         // A message that is left out shows as a gap in the frames' numbers.
         if (early_bytes_ <= max_early_bytes)
