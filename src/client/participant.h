@@ -109,6 +109,7 @@ public:
         int pongs = 0;                 // exchanges so far
         Duration clock_error{};
         bool clock_known = false;  // now() is the session's time
+        bool has_room = false;     // people and objects will come, or are here
         int joins = 0;             // successful joins; 1 if the connection was never lost
         wire::ChooseDelivery goal;
         std::uint64_t media_dropped = 0;  // frames of send_media() that were too late to be sent

@@ -45,6 +45,7 @@ void Participant::on_welcome() {
     shared_->status.delivery = {};
     shared_->may_adjust = session_.has(wire::Feature::adjusting);
     shared_->can_look_back = session_.has(wire::Feature::look_back);
+    shared_->status.has_room = session_.has(wire::Feature::room);
     shared_->playback.reset();
     shared_->patient = {};
     shared_->renderer_word = wire::SetRenderer{};

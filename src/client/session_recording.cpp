@@ -228,6 +228,7 @@ private:
         if (status.clock_known && !clock_known_)
             clock_known_at_ = steady_now();
         clock_known_ = status.clock_known;
+        has_room_ = status.has_room;
         if (is_ready())
             record_early();
     }
@@ -236,7 +237,7 @@ private:
     // tracks from the beginning; an old host may have no room.
     bool is_ready() const {
         return clock_known_ &&
-               (room_version_ > 0 || steady_now() - clock_known_at_ > room_patience);
+               (!has_room_ || room_version_ > 0 || steady_now() - clock_known_at_ > room_patience);
     }
     void record_early() {
         for (Early& early : std::exchange(early_, {}))
@@ -419,7 +420,7 @@ private:
     bool stopped_ = false;
     int joins_ = 0;
     bool new_connection_ = false;
-    bool clock_known_ = false;
+    bool clock_known_ = false, has_room_ = false;
     TimePoint clock_known_at_;
     std::vector<Early> early_;  // came before the clock and the room were known
     std::size_t early_bytes_ = 0;
