@@ -112,6 +112,10 @@ void Intake::put_voice(ParticipantId person, const VoicePacket& packet, TimePoin
 
 void Intake::pass_time(const Now& now) {
     const std::lock_guard lock(mutex_);
+    // A room in which nothing changes sends no further part.
+    if (problem_.empty() && !kept_.empty() && room_begins_segment(now.local) &&
+        !begin(*std::exchange(pending_, std::nullopt), kept_from_, now))
+        return;
     const bool is_between = pending_ && pending_->new_connection;
     const bool pictures_come = std::any_of(entries_.begin(), entries_.end(), [&](const auto& e) {
         return !e.second.ended && now.local - e.second.heard <= quiet_patience;

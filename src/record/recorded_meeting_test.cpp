@@ -131,6 +131,14 @@ TEST_F(RecordedMeeting, ACameraThatComesLaterBeginsASegmentAndOneThatGoesToo) {
                                [](const auto& a, const auto& b) { return a.time() < b.time(); }));
 }
 
+TEST_F(RecordedMeeting, ARoomInWhichNothingChangesBeginsAllTheSame) {
+    describe(0, true);
+    EXPECT_TRUE(intake_.take_room(Bytes(30), true, now() - 5ms, at_once(now())));
+    passed_ += Intake::camera_patience;
+    intake_.pass_time(at_once(now()));
+    EXPECT_NE(intake_.recorder(), nullptr);
+}
+
 TEST_F(RecordedMeeting, ACameraThatComesAtOnceIsInTheSegmentOfWhatWasSaidBefore) {
     describe(0, true);
     pass(300ms);
