@@ -243,6 +243,10 @@ void Viewer::press(int command, TimePoint now) {
         face_wish_ = face->shown;
         return;
     }
+    if (const auto* sound = std::get_if<UseSound>(&chosen)) {
+        sound_wish_ = *sound;
+        return;
+    }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
     if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
@@ -509,6 +513,7 @@ Facts Viewer::facts(TimePoint now) {
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
                                    is_calling(now), voices_.speaking, own_face_}));
+        add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, participant_, now, panel);
     }
