@@ -26,7 +26,6 @@ std::string sentence_of(const SourceRemarks::Source& source) {
 }  // namespace
 
 std::vector<std::string> SourceRemarks::take(const std::vector<Source>& sources, TimePoint now) {
-    constexpr int most_said = 2;
     std::vector<std::string> sentences;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const Source& source = sources[i];
@@ -40,7 +39,7 @@ std::vector<std::string> SourceRemarks::take(const std::vector<Source>& sources,
         if (!known.stands)
             known = {true, now, 0, ""};
         std::string sentence = sentence_of(source);
-        if (now - known.since < patience || known.said == most_said || sentence == known.last)
+        if (now - known.since < patience || known.said == 2 || sentence == known.last)
             continue;
         sentences.push_back(sentence);
         known.last = std::move(sentence);
