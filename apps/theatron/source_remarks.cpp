@@ -39,7 +39,7 @@ std::vector<std::string> SourceRemarks::take(const std::vector<Source>& sources,
         if (!known.stands)
             known = {true, now, 0, ""};
         std::string sentence = sentence_of(source);
-        if (now - known.since < patience || known.said == 2 || sentence == known.last)
+        if (now - known.since < patience || known.said > 1 || sentence == known.last)
             continue;
         sentences.push_back(sentence);
         known.last = std::move(sentence);

@@ -188,7 +188,7 @@ bool is_ascii(std::string_view word) {
     return std::all_of(word.begin(), word.end(), [](char c) { return std::uint8_t(c) < 0x80; });
 }
 
-// Of at most four digits.
+// The word is a number of at most four digits with this value.
 bool has_value(const std::string& word, int value) {
     return is_number(word) && word.size() <= 4 && std::stoi(word) == value;
 }
