@@ -526,7 +526,7 @@ Facts Viewer::facts(TimePoint now) {
     if (marking_.tool())
         add_mark_panel(marking_.tool(),
                        facts.received.status.standing.role == wire::Role::operator_, panel);
-    add_camera_pictures(facts, panel);
+    add_camera_pictures(facts, panel, now);
     facts.pointed = pointed_text();
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);

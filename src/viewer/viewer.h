@@ -142,7 +142,7 @@ private:
     void change_point_size(double factor, TimePoint now);
     void freeze(TimePoint now);
     void take_pictures(TimePoint now);
-    void add_camera_pictures(Facts& facts, RoomPanel& panel);
+    void add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now);
     std::string pointed_text();
     void choose_next_renderer(TimePoint now);
     void choose_depth_codec();
