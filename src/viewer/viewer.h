@@ -112,6 +112,9 @@ public:
     // which the program carries out.
     void set_own_face(OwnFace face) { own_face_ = face; }
     std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
+    // The codec of colour that was requested last, and another one, which no text says.
+    const std::string& color_codec() const { return options_.color_codec; }
+    void choose_color_codec(const std::string& codec);
     // The newest voices, for the panels and the names of people.
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
