@@ -116,6 +116,9 @@ public:
     // The devices to choose from, and the choice in the panel, likewise.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
+    // The codec of colour that was requested last, and another one, which no text says.
+    const std::string& color_codec() const { return options_.color_codec; }
+    void choose_color_codec(const std::string& codec);
     // The newest voices, for the panels and the names of people.
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
