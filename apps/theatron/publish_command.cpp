@@ -30,7 +30,7 @@ struct Flags {
     std::string places;
     double seconds = 0, every = 0;
     bool may_record = false;
-    std::string direct = "on";
+    std::string direct = "off";
 };
 
 nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {

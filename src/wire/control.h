@@ -68,8 +68,8 @@ inline constexpr std::size_t content_hash_size = 32;             // base/content
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
 
-// Of direct sending (docs/decisions/direct-sending.md): addresses of one publisher, receivers of
-// one publisher, publishers that one receiver may connect to.
+// Direct sending (docs/decisions/direct-sending.md): addresses of one publisher, receivers of one
+// publisher, publishers that one receiver may connect to.
 inline constexpr std::size_t max_direct_addresses = 6;
 inline constexpr std::size_t max_direct_receivers = 32;
 inline constexpr std::size_t max_direct_grants = 32;
