@@ -56,6 +56,7 @@ struct Flags {
     std::string certificate, key, proxy_certificate;
     double seconds = 0;
     double link_hours = 0;
+    std::string direct = "on";
     double look_back_s = to_seconds(session::Past::longest_reach);
     bool json = false;
     bool prints_links = false;
@@ -183,6 +184,7 @@ void run(Flags& flags) {
         flags.options.audit = flags.audit;
     flags.options.asks = flags.admit == "ask";
     flags.options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
+    flags.options.direct = flags.direct == "on";
     flags.options.look_back = seconds_to_duration(flags.look_back_s);
     if (!flags.token_file.empty())
         flags.options.token = host::read_token(flags.token_file);
@@ -377,6 +379,12 @@ void add_host_command(CLI::App& app) {
                 return "";
             return "'" + text + "' is not a number of seconds from 0 to 60";
         });
+    command
+        ->add_option("--direct", flags->direct,
+                     "on: pictures of a participant's cameras go from it to those who can reach "
+                     "it; off: all pictures go through this host")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
     command->add_option("--audit", flags->audit,
                         "File for the log of people, JSON lines; none: no log (default: "
                         "audit.jsonl in the state folder)");

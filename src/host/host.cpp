@@ -124,6 +124,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.name = name = options.name;
     config.patient_for = options.patient_for;
     config.past.reach = options.look_back;
+    if (options.direct)
+        config.make_secret = [] { return net::random_bytes(wire::direct_secret_size); };
     page = options.page.empty() ? Page() : Page(options.page);
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);

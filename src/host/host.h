@@ -47,6 +47,8 @@ struct HostOptions {
     std::filesystem::path page;               // the browser client (host/page.h); empty: none
     // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
     Duration look_back = session::Past::longest_reach;
+    // Pictures of participants' cameras may go directly to receivers (session/direct_paths.h).
+    bool direct = true;
 };
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
