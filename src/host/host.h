@@ -14,29 +14,12 @@
 #include "codec/strata_region.h"
 #include "host/host_figures.h"
 #include "host/port_options.h"
+#include "host/session_options.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
 #include "session/camera_adjustment.h"
-#include "session/past.h"
 
 namespace theatron::host {
-
-// The options of one session.
-struct SessionOptions {
-    std::vector<std::string> cameras;  // specifications; none: people meet without cameras
-    std::filesystem::path places;      // docs/formats/places.md; empty: none
-    std::vector<std::string> filters;  // filter_choice.h
-    std::string name = "operating room";
-    std::string token;            // of experts; empty: from the state folder
-    Duration link_lifetime{};     // the roles' links become invalid after it; 0: never
-    bool asks = false;            // experts and observers wait until an operator admits them
-    std::filesystem::path state;  // keys, tokens and links; empty: the user's state folder
-    std::filesystem::path cases;  // the folder of cases that are offered; empty: none
-    // The roles that are told who the patient of the open case is; never observers.
-    std::vector<wire::Role> patient_for = {wire::Role::operator_};
-    // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
-    Duration look_back = session::Past::longest_reach;
-};
 
 // The options of the first session of a host, and of the port that all its sessions share.
 struct HostOptions : SessionOptions, PortOptions {};
