@@ -16,6 +16,7 @@
 #include "participant_json.h"
 #include "saved_view.h"
 #include "sound/device_watch.h"
+#include "source_remarks.h"
 #include "viewer/renderer_text.h"
 #include "xr/overlay_native.h"
 #include "xr/scaled_picture.h"
@@ -233,6 +234,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     xr::OverlayContent texts;
     std::string title;
     Leaving leaving;
+    SourceRemarks sources;
     TimePoint next_picture{}, next_texts{}, next_voices{};
     std::optional<xr::Overlay::Slider> slider;  // held with the mouse
     std::optional<sound::DeviceWatch> sound_devices;
@@ -320,6 +322,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.note(std::exchange(options.greeting, {}), now);
         for (const std::string& text : remarks.take())
             viewer.note(text, now);
+        if (options.publisher)
+            for (const std::string& text : sources.take(*options.publisher, now))
+                viewer.note(text, now);
         if (now < next_picture)
             continue;
 

@@ -116,6 +116,9 @@ public:
     // The devices to choose from, and the choice in the panel, likewise.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
+    // The codec of colour that was requested last, and another one, which no text says.
+    const std::string& color_codec() const { return options_.color_codec; }
+    void choose_color_codec(const std::string& codec);
     // The newest voices, for the panels and the names of people.
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
@@ -142,7 +145,7 @@ private:
     void change_point_size(double factor, TimePoint now);
     void freeze(TimePoint now);
     void take_pictures(TimePoint now);
-    void add_camera_pictures(Facts& facts, RoomPanel& panel);
+    void add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now);
     std::string pointed_text();
     void choose_next_renderer(TimePoint now);
     void choose_depth_codec();

@@ -11,6 +11,7 @@ import { put_bytes, with_program } from "./program.js";
 import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
 import { language, text } from "./texts.js";
+import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
 const $ = id => document.getElementById(id);
@@ -42,8 +43,8 @@ async function load_client() {
     });
     const numbers = count => Array(count).fill("number");
     const functions = {
-        join: [null, ["string", "number", "string", "string", "string"]],
-        join_flat: [null, ["string", "number", "string", "string", "string"]],
+        join: [null, ["string", "number", "string", "string", "string", "string", "number"]],
+        join_flat: [null, ["string", "number", "string", "string", "string", "string", "number"]],
         flat_picture: ["number", []],
         flat_width: ["number", []],
         flat_height: ["number", []],
@@ -89,6 +90,9 @@ async function load_client() {
     };
     page.memory = () => module.HEAPU8.length;
     page.workers = await starting;
+    // Also where workers decode: they may end.
+    const page_has_h264 = await offer_h264(module);
+    page.has_h264 = () => page.workers.length ? page.workers.every(({ has_h264 }) => has_h264) : page_has_h264;
     join_workers(module, page.workers, () => {
         client.leave();
         leave(voice, face, text("decoder_ended"));
@@ -355,7 +359,8 @@ function enter(client) {
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
-    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id());
+    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id(),
+        link.get("color") ?? "auto", page.has_h264() ? 1 : 0);
     allow_voice_recording(client, page.voice_may_record);
 }
 
