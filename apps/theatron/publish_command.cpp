@@ -18,6 +18,7 @@
 #include "files/state_folder.h"
 #include "link_argument.h"
 #include "published_cameras.h"
+#include "source_remarks.h"
 #include "wire/condition_text.h"
 
 namespace theatron::app {
@@ -99,6 +100,7 @@ void run(const Flags& flags) {
     const bool live_line = flags.every <= 0 && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line{};
+    SourceRemarks remarks;
     while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(50ms);
@@ -112,6 +114,7 @@ void run(const Flags& flags) {
         // Others have ended all that it shared.
         if (publisher->has_ended())
             break;
+        say(remarks.take(*publisher, steady_now()), live_line);
         if (steady_now() < next_line)
             continue;
         if (flags.every > 0)

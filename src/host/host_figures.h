@@ -83,9 +83,13 @@ struct HostFigures {
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
+// The same of the first session of a host; those of its further ones are in "sessions", which is
+// missing where there are none. `all` is not empty.
+nlohmann::json to_json(const std::vector<HostFigures>& all);
 
-// The text format of Prometheus, version 0.0.4.
-std::string to_prometheus(const HostFigures& figures);
+// The text format of Prometheus, version 0.0.4. Lines about a session other than the first have its
+// name in the label `session`. `all` is not empty.
+std::string to_prometheus(const std::vector<HostFigures>& all);
 
 // A table of the output of to_json(), perhaps of another version; fields may be missing.
 std::string to_table(const nlohmann::json& figures);

@@ -94,7 +94,7 @@ HostSession::HostSession(Config config)
     const std::vector<PlacedScreen> screens = place_screens({}, cameras, Placing::only_unplaced);
     streams_.add(host_publisher, std::move(cameras));
     for (const PlacedScreen& screen : screens)
-        room_.add_screen(screen.camera, screen.offer, screen.place);
+        room_.add_screen(screen.camera, screen.offer, screen.chosen);
 }
 
 void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {

@@ -216,7 +216,7 @@ private:
     struct PlacedScreen {
         CameraId camera{};
         ScreenOffer offer;
-        ScreenPlace place;
+        HostRoom::ChosenPlace chosen;
     };
     enum class Placing { all, only_unplaced };
     // Gives the screens among these cameras their places in the room, one after the other. `offer`

@@ -48,7 +48,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
         place_screens({id, publisher.name, publisher.person, {}, {}}, cameras);
     streams_.add(id, std::move(cameras), publisher.name);
     for (const PlacedScreen& screen : screens)
-        room_.add_screen(screen.camera, screen.offer, screen.place);
+        room_.add_screen(screen.camera, screen.offer, screen.chosen);
     take_media(id);
     set_budgets();
 }
@@ -56,7 +56,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
 std::vector<HostSession::PlacedScreen> HostSession::place_screens(
     const ScreenOffer& offer, std::vector<wire::Camera>& cameras, Placing which) const {
     std::vector<PlacedScreen> screens;
-    std::vector<ScreenPlace> places;
+    std::vector<HostRoom::ChosenPlace> places;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const auto calibration = decode_calibration(cameras[i].calibration);
         if (cameras[i].frame == wire::CameraFrame::face || !calibration ||
@@ -66,11 +66,12 @@ std::vector<HostSession::PlacedScreen> HostSession::place_screens(
         ScreenOffer one = offer;
         one.name = cameras[i].name;
         one.calibration = *calibration;
-        const ScreenPlace place = room_.place_screen(one, places);
+        const HostRoom::ChosenPlace chosen = room_.place_screen(one, places);
+        const ScreenPlace& place = chosen.place;
         cameras[i].calibration = encode_calibration(
             screen_calibration(calibration->color.size, place.width_m, place.room_from_screen));
-        places.push_back(place);
-        screens.push_back({streams_.next_id(i), std::move(one), place});
+        places.push_back(chosen);
+        screens.push_back({streams_.next_id(i), std::move(one), chosen});
     }
     return screens;
 }
