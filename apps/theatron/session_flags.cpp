@@ -134,6 +134,12 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
                 return "";
             return "'" + text + "' is not a number of seconds from 0 to 60";
         });
+    command
+        .add_option("--direct", flags.direct,
+                    "on: pictures of a participant's cameras go from it to those who can reach "
+                    "it; off: all pictures go through this host")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
 }
 
 host::SessionOptions session_options(const SessionFlags& flags) {
@@ -144,6 +150,7 @@ host::SessionOptions session_options(const SessionFlags& flags) {
     options.asks = flags.admit == "ask";
     options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
     options.look_back = seconds_to_duration(flags.look_back_s);
+    options.direct = flags.direct == "on";
     return options;
 }
 
@@ -167,6 +174,7 @@ std::vector<std::string> words_of(const SessionFlags& flags, const fs::path& fol
     add("--admit", flags.admit);
     add("--link-hours", number_text(flags.link_hours));
     add("--look-back", number_text(flags.look_back_s));
+    add("--direct", flags.direct);
     return words;
 }
 

@@ -142,7 +142,10 @@ nlohmann::json to_json(const HostFigures& figures) {
     for (const auto& pair : figures.places.pairs)
         overlaps.push_back(
             {{"a", pair.a}, {"b", pair.b}, {"apart_mm", pair.apart_mm}, {"alarm", pair.is_alarm}});
-    for (const auto& participant : figures.participants)
+    for (const auto& participant : figures.participants) {
+        nlohmann::json direct = nlohmann::json::array();
+        for (const CameraId camera : participant.direct)
+            direct.push_back(int(camera));
         participants.push_back({{"id", int(participant.id)},
                                 {"name", participant.name},
                                 {"sent", participant.sent},
@@ -152,7 +155,9 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"refused_faces", participant.refused_faces},
                                 {"role", wire::text_of(participant.role)},
                                 {"muted", participant.muted},
+                                {"direct", direct},
                                 {"age_ms", age_ms(participant)}});
+    }
     nlohmann::json published = nlohmann::json::array();
     for (const auto& camera : figures.published)
         published.push_back({{"id", int(camera.id)},
@@ -160,7 +165,8 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"publisher", int(camera.publisher)},
                              {"state", wire::text_of(camera.condition)},
                              {"adjusted", figures.adjustment(camera.id)},
-                             {"dropped_slow", camera.dropped_slow}});
+                             {"dropped_slow", camera.dropped_slow},
+                             {"bytes", camera.bytes}});
     nlohmann::json visitors = nlohmann::json::array();
     for (const auto& visitor : figures.visitors)
         visitors.push_back({{"id", std::uint32_t(visitor.participant)},

@@ -36,7 +36,7 @@ net::Server::Handler Host::Impl::handler() {
     net::Server::Handler h;
     h.connected = [this](net::PeerId peer, const std::string& address, bool) {
         addresses[peer] = address;
-        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
+        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now(), address);
         carry_out();
     };
     h.control = [this](net::PeerId peer, ByteView bytes) {
@@ -423,7 +423,8 @@ void Host::Impl::send_poses_to(ParticipantId receiver,
 void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> message) {
     const auto receivers =
         session->on_media_from(ParticipantId(std::uint32_t(publisher)), *message, steady_now());
-    if (const auto header = wire::parse_media_header(*message))
+    if (const auto header = wire::parse_media_header(*message)) {
+        received[camera_of(header->stream)] += message->size();
         send_media({std::move(message),
                     header->stream,
                     header->setting,
@@ -433,6 +434,7 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
                     header->key,
                     {}},
                    receivers);
+    }
     carry_out();
     set_alarm();
 }

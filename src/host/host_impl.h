@@ -75,6 +75,7 @@ struct Host::Impl {
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
+    std::map<CameraId, std::uint64_t> received;  // bytes of participants' cameras; likewise
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
