@@ -356,6 +356,13 @@ void add_join_command(CLI::App& app) {
                      "needs the host's link for those who may. Repeat for more")
         ->allow_extra_args(false);
     add_share_option(*command, flags->shared);
+    command
+        ->add_option("--direct", flags->direct,
+                     "on: pictures go directly between participants that can reach each other, "
+                     "those of --publish from a free port that the host tells them; off: through "
+                     "the host only")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record your cameras and screens; without it "
                       "the host sends them to no recorder");

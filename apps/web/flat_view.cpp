@@ -36,12 +36,14 @@ bool FlatView::take(TimePoint now) {
         });
     });
     for (const receive::CameraFramePtr& frame : participant_.take_frames()) {
-        auto& color = newest_[frame->camera];
-        if (frame->color && frame->color != color && camera_ == frame->camera)
+        Picture& picture = newest_[frame->camera];
+        if (frame->color == picture.color)
+            continue;
+        if (frame->color && camera_ == frame->camera)
             changed_ = true;
-        color = frame->color;
+        picture = {frame->color, frame->times.captured};
     }
-    std::erase_if(newest_, [](const auto& known) { return !known.second; });
+    std::erase_if(newest_, [](const auto& known) { return !known.second.color; });
     if (!camera_ || !newest_.contains(*camera_)) {
         camera_.reset();
         next_camera();
@@ -49,7 +51,9 @@ bool FlatView::take(TimePoint now) {
     if (!camera_ || !std::exchange(changed_, false))
         return false;
 
-    const ColorImage& color = *newest_[*camera_];
+    const Picture& picture = newest_[*camera_];
+    shown_captured_ = picture.captured;
+    const ColorImage& color = *picture.color;
     const int step = (color.size.width + most_flat_width - 1) / most_flat_width;
     size_ = {color.size.width / step, color.size.height / step};
     pixels_.resize(4 * size_.area());
@@ -81,15 +85,21 @@ void FlatView::note(const std::string& text, TimePoint now) {
     notice_until_ = now + notice_time;
 }
 
-nlohmann::json FlatView::state(const std::string& address, TimePoint now) {
+viewer::Facts FlatView::facts(TimePoint now) {
     viewer::Facts facts;
     facts.received = client::figures_of(participant_);
     facts.has_picture = camera_.has_value();
+    if (facts.has_picture && shown_captured_ && facts.received.status.clock_known)
+        facts.age_ms = std::max(to_ms(participant_.session_time(now) - *shown_captured_), 0.0);
     facts.drawn_per_second = drawn_.per_second(now);
     facts.most_drawn_per_second = pictures_per_second;
     facts.way.renderer = "flat";
     if (now < notice_until_)
         facts.notice = notice_;
+    return facts;
+}
+
+nlohmann::json FlatView::state(const viewer::Facts& facts, const std::string& address) const {
     nlohmann::json state = state_of(facts, participant_, address);
     state["pictures"] = pictures_;
     state["flat_camera"] = camera_name();

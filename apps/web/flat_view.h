@@ -10,6 +10,7 @@
 
 #include "base/statistics.h"
 #include "client/participant.h"
+#include "viewer/facts.h"
 
 namespace theatron::web {
 
@@ -33,15 +34,22 @@ public:
     const Bytes& pixels() const { return pixels_; }
     Size size() const { return size_; }
 
-    // As page_state(), without what only the room shows.
-    nlohmann::json state(const std::string& address, TimePoint now);
+    // Facts for the user, and the content of the panels without what only the room shows.
+    viewer::Facts facts(TimePoint now);
+    nlohmann::json state(const viewer::Facts& facts, const std::string& address) const;
     void note(const std::string& text, TimePoint now);
 
 private:
     std::string camera_name() const;
 
     client::Participant& participant_;
-    std::map<CameraId, std::shared_ptr<const ColorImage>> newest_;
+    // Colour that came late is shown with the time of the depth image that brought it.
+    struct Picture {
+        std::shared_ptr<const ColorImage> color;
+        TimePoint captured;
+    };
+    std::map<CameraId, Picture> newest_;
+    std::optional<TimePoint> shown_captured_;
     std::optional<CameraId> camera_;
     bool changed_ = false;
     Bytes pixels_;

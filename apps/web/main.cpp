@@ -20,6 +20,7 @@
 #include "codec/depth_stream.h"
 #include "flat_view.h"
 #include "headset_input.h"
+#include "page_color.h"
 #include "page_input.h"
 #include "page_state.h"
 #include "render/gl_driver.h"
@@ -49,8 +50,9 @@ namespace {
 
 // A page that joined.
 struct Visit {
-    Visit(client::Participant::Options join, std::string host_address)
+    Visit(client::Participant::Options join, std::string host_address, PageColor asked)
         : address(std::move(host_address)),
+          color(std::move(asked)),
           options(viewer_options(join)),
           participant(with_faces(std::move(join), face)),
           viewer(options, participant) {}
@@ -75,6 +77,7 @@ struct Visit {
     }
 
     std::string address;
+    PageColor color;
     viewer::Viewer::Options options;
     client::FaceSender face;
     client::Participant participant;
@@ -87,10 +90,14 @@ struct Visit {
 
 // A page that joined and only shows a camera's picture.
 struct FlatVisit {
-    FlatVisit(client::Participant::Options join, std::string host_address)
-        : address(std::move(host_address)), participant(std::move(join)), view(participant) {}
+    FlatVisit(client::Participant::Options join, std::string host_address, PageColor asked)
+        : address(std::move(host_address)),
+          color(std::move(asked)),
+          participant(std::move(join)),
+          view(participant) {}
 
     std::string address;
+    PageColor color;
     client::Participant participant;
     FlatView view;
 };
@@ -155,10 +162,11 @@ EM_JS(void, give_voice, (unsigned speaker, const void* packet, int size),
       { Module.on_voice(speaker, HEAPU8.slice(packet, packet + size)); });
 
 client::Participant::Options join_options(const net::Link& link, const char* name,
-                                          const char* person) {
+                                          const char* person, const PageColor& color) {
     client::Participant::Options options;
     options.link = link;
     options.name = name;
+    options.color_codec = color.codec();
     options.keeps_room = options.keeps_cases = options.shows_patient = true;
     options.person = bytes_of_hex(person);
     options.voice = [](ParticipantId speaker, ByteView packet) {
@@ -172,6 +180,24 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
             page().flat->view.note(text, steady_now());
     };
     return options;
+}
+
+void leave() {
+    page().visit.reset();
+    page().flat.reset();
+}
+
+// Follows the person's choice, or else asks for another codec by measurements.
+void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now) {
+    if (visit.viewer.color_codec() != visit.color.codec())
+        visit.color.choose(visit.viewer.color_codec());
+    if (visit.color.observe(figures, now))
+        visit.viewer.choose_color_codec(visit.color.codec());
+}
+
+void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, TimePoint now) {
+    if (visit.color.observe(figures, now))
+        visit.participant.choose_codecs("", visit.color.codec());
 }
 
 // True once the GPU has finished the last picture. Waiting for it would block the page.
@@ -240,30 +266,36 @@ using theatron::web::page;
 
 extern "C" {
 
-// `port` of the page; `token` as in the link; `person` in hex digits. See problem() for failures.
+// `port` of the page; `token` as in the link; `person` in hex digits; `color` as PageColor takes
+// it. `can_h264`: this page or its workers have decoders of the browser. See problem() for
+// failures.
 EMSCRIPTEN_KEEPALIVE void theatron_join(const char* host, int port, const char* token,
-                                        const char* name, const char* person) {
+                                        const char* name, const char* person, const char* color,
+                                        int can_h264) {
     page().problem.clear();
-    page().visit.reset();
-    page().flat.reset();
+    web::leave();
     web::guarded([&] {
         web::open_context();
         const net::Link link{host, std::uint16_t(port), token, ""};
-        page().visit = std::make_unique<web::Visit>(web::join_options(link, name, person),
-                                                    link.host + ":" + std::to_string(link.port));
+        const web::PageColor asked(color, can_h264 != 0);
+        page().visit =
+            std::make_unique<web::Visit>(web::join_options(link, name, person, asked),
+                                         link.host + ":" + std::to_string(link.port), asked);
     });
 }
 
 // The same for the 2D view (flat_view.h), which needs no WebGL.
 EMSCRIPTEN_KEEPALIVE void theatron_join_flat(const char* host, int port, const char* token,
-                                             const char* name, const char* person) {
+                                             const char* name, const char* person,
+                                             const char* color, int can_h264) {
     page().problem.clear();
-    page().visit.reset();
-    page().flat.reset();
+    web::leave();
     web::guarded([&] {
         const net::Link link{host, std::uint16_t(port), token, ""};
-        page().flat = std::make_unique<web::FlatVisit>(web::join_options(link, name, person),
-                                                       link.host + ":" + std::to_string(link.port));
+        const web::PageColor asked(color, can_h264 != 0);
+        page().flat =
+            std::make_unique<web::FlatVisit>(web::join_options(link, name, person, asked),
+                                             link.host + ":" + std::to_string(link.port), asked);
     });
 }
 
@@ -286,10 +318,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_flat_next() {
 }
 
 EMSCRIPTEN_KEEPALIVE void theatron_leave() {
-    web::guarded([] {
-        page().visit.reset();
-        page().flat.reset();
-    });
+    web::guarded(web::leave);
 }
 
 // In the page's rhythm, with the pixels of the canvas: begins the next picture unless the GPU still
@@ -354,13 +383,24 @@ EMSCRIPTEN_KEEPALIVE void theatron_leave_headset() {
 // JSON for the panels: page_state.h, or {"problem": sentence} without a visit.
 EMSCRIPTEN_KEEPALIVE const char* theatron_state() {
     nlohmann::json state;
+    const TimePoint now = steady_now();
     if (page().visit)
         web::guarded([&] {
-            state = web::page_state(page().visit->viewer, page().visit->participant,
-                                    page().visit->address, steady_now());
+            web::Visit& visit = *page().visit;
+            viewer::Facts facts = visit.viewer.facts(now);
+            web::follow_color(visit, facts.received, now);
+            state =
+                web::page_state(visit.viewer, std::move(facts), visit.participant, visit.address);
+            visit.color.add_to(state);
         });
     if (page().flat)
-        web::guarded([&] { state = page().flat->view.state(page().flat->address, steady_now()); });
+        web::guarded([&] {
+            web::FlatVisit& visit = *page().flat;
+            viewer::Facts facts = visit.view.facts(now);
+            web::follow_color(visit, facts.received, now);
+            state = visit.view.state(std::move(facts), visit.address);
+            visit.color.add_to(state);
+        });
     if (!page().participant())
         state = {{"phase", "left"}, {"problem", page().problem}};
     page().text = state.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -33,7 +33,7 @@ json to_json(const xr::OverlayContent& overlay) {
 }
 
 json camera_json(const client::CameraFigures& figures) {
-    const auto& [camera, depth, color] = figures;
+    const auto& [camera, depth, color, direct] = figures;
     return {{"name", camera.description.name},
             {"state", wire::text_of(camera.state.condition)},
             {"depth", depth.codec},
@@ -45,7 +45,12 @@ json camera_json(const client::CameraFigures& figures) {
             {"mbit_per_second", figures.mbit_per_second()},
             {"age_ms", depth.age_now_ms},
             {"age_p50_ms", depth.age_p50_ms},
-            {"age_p99_ms", depth.age_p99_ms}};
+            {"age_p99_ms", depth.age_p99_ms},
+            {"color_fps", color.frames_per_second},
+            {"color_age_p50_ms", color.age_p50_ms},
+            {"depth_decode_ms", depth.decode_ms},
+            {"color_decode_ms", color.decode_ms},
+            {"decoder_failures", color.decoder_failures}};
 }
 
 json to_json(const Vec3& v) {
@@ -78,9 +83,9 @@ json ear_json(const Pose& room_from_eye) {
 
 }  // namespace
 
-json page_state(viewer::Viewer& viewer, const client::Participant& participant,
-                const std::string& address, TimePoint now) {
-    json state = state_of(viewer.facts(now), participant, address);
+json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
+                const client::Participant& participant, const std::string& address) {
+    json state = state_of(facts, participant, address);
     state["pictures"] = viewer.pictures();
     state["ear"] = ear_json(viewer.told_eye());
     return state;

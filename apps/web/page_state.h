@@ -9,9 +9,9 @@
 
 namespace theatron::web {
 
-// `address` is shown until the host's name is known.
-nlohmann::json page_state(viewer::Viewer& viewer, const client::Participant& participant,
-                          const std::string& address, TimePoint now);
+// `facts` are the viewer's; `address` is shown until the host's name is known.
+nlohmann::json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
+                          const client::Participant& participant, const std::string& address);
 
 // The same without what depends on a view of the room: "pictures" and "ear".
 nlohmann::json state_of(const viewer::Facts& facts, const client::Participant& participant,

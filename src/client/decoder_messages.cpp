@@ -24,6 +24,8 @@ void figure_fields(auto& m, auto&& field) {
     field(m.age_p99_ms);
     field(m.age_max_ms);
     field(m.past);
+    field(m.decode_ms);
+    field(m.decoder_failures);
 }
 
 template <class T>

@@ -57,6 +57,8 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     figures.frames = 70;
     figures.exact = receive::Exactness::everywhere;
     figures.age_p50_ms = 12.5;
+    figures.decode_ms = 3.5;
+    figures.decoder_failures = 4;
     const auto told = decode_from_worker(encode(FromWorker(WorkerFigures{2, {figures}})));
     ASSERT_TRUE(told);
     const auto& first = std::get<WorkerFigures>(*told).figures.at(0);
@@ -64,6 +66,8 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     EXPECT_EQ(first.frames, 70u);
     EXPECT_EQ(first.exact, receive::Exactness::everywhere);
     EXPECT_EQ(first.age_p50_ms, 12.5);
+    EXPECT_EQ(first.decode_ms, 3.5);
+    EXPECT_EQ(first.decoder_failures, 4u);
 }
 
 TEST(DecoderMessages, EveryShorterMessageIsRefused) {

@@ -3,11 +3,14 @@
 
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/steady_clock.h"
 #include "client/decoder_messages.h"
+#include "video/browser_decoders_web.h"
 
 namespace theatron::client {
 namespace {
@@ -15,7 +18,12 @@ namespace {
 class DecoderWorker {
 public:
     DecoderWorker(Duration clock_difference, std::function<void(ByteView)> reply)
-        : clock_difference_(clock_difference), reply_(std::move(reply)), receiver_(events()) {}
+        : clock_difference_(clock_difference), reply_(std::move(reply)), receiver_(events()) {
+        video::browser_decoders().on_news = [this] {
+            (void)contain("decode", [&] { receiver_.poll(now()); });
+            tell_done();
+        };
+    }
 
     void on(const WorkerCameras& m) {
         generation_ = m.generation;
@@ -24,6 +32,7 @@ public:
             colors_.clear();
         }
         receiver_.set_cameras(m.cameras);
+        tell_done();
     }
 
     void on(const WorkerSettings& m) {
@@ -41,7 +50,8 @@ public:
             // The picture is lost, and the state of its decoder is undefined.
             if (const auto header = wire::parse_media_header(m.message))
                 reply(WorkerNeedsKey{generation_, header->stream, header->setting});
-        reply(WorkerDone{m.number});
+        done_.push_back(m.number);
+        tell_done();
     }
 
     void on(const WorkerFiguresWanted& m) {
@@ -52,6 +62,17 @@ public:
     }
 
 private:
+    // Pictures that a browser's decoder may work on while further messages come.
+    static constexpr std::size_t most_decoded_at_once = 2;
+
+    // The host sends no more than what was taken, so that none of its pictures wait here for long.
+    void tell_done() {
+        if (receiver_.pending() > most_decoded_at_once)
+            return;
+        for (const std::uint64_t number : std::exchange(done_, {}))
+            reply(WorkerDone{number});
+    }
+
     receive::Receiver::Events events() {
         receive::Receiver::Events events;
         events.frame = [this](const receive::CameraFramePtr& frame) { send(*frame); };
@@ -92,6 +113,7 @@ private:
     std::uint64_t generation_ = 0;
     receive::Receiver receiver_;
     std::map<CameraId, std::shared_ptr<const ColorImage>> colors_;  // last sent
+    std::vector<std::uint64_t> done_;  // messages that the page does not know to be taken
 };
 
 std::optional<DecoderWorker>& worker() {

@@ -8,6 +8,7 @@
 #include "client/decoder_pool_web.h"
 #include "client/decoders.h"
 #include "client/pooled_decoders_web.h"
+#include "video/browser_decoders_web.h"
 
 namespace theatron::client {
 namespace {
@@ -25,9 +26,13 @@ Decoders::Decoders(Events events) : events_(std::move(events)) {
     if (decoder_pool().count > 0)
         pooled() = std::make_unique<PooledDecoders>(events_);
     workers_.push_back(std::make_unique<Worker>(receiver_events(0)));
+    video::browser_decoders().on_news = [this] {
+        (void)contain("decode", [&] { workers_.front()->receiver.poll(events_.now()); });
+    };
 }
 
 Decoders::~Decoders() {
+    video::browser_decoders().on_news = nullptr;
     pooled().reset();
 }
 

@@ -93,7 +93,7 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
         throw Error("The host sends in a way that this Theatron does not know: " + problem);
 }
 
-std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setting) {
+std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setting) const {
     if (stream.is_depth) {
         const auto parsed = video::parse_depth_setting(setting.codec);
         if (!parsed.problem.empty())
@@ -126,6 +126,12 @@ void Receiver::add_age(Stream& stream, double ms) {
         return;
     stream.age_ms = ms;
     stream.ages.add(ms);
+}
+
+void Receiver::add_decode_time(Stream& stream, Duration time) {
+    constexpr double newest_share = 0.1;
+    const double ms = to_ms(time);
+    stream.decode_ms += (stream.decode_ms > 0 ? newest_share : 1) * (ms - stream.decode_ms);
 }
 
 Status Receiver::on_media(ByteView message, TimePoint now) {
@@ -202,6 +208,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     ++stream.frames;
     stream.frame_rate.add(decoded);
     add_age(stream, to_ms(decoded - header.captured));
+    add_decode_time(stream, decoded - now);
 
     stream.newest_captured = header.captured;
     stream.exact = exactness(stream, payload);
@@ -229,14 +236,16 @@ Exactness Receiver::exactness(const Stream& stream, ByteView payload) {
     return exact && !exact->region.empty() ? Exactness::region : Exactness::nowhere;
 }
 
-void Receiver::set_color_codec(Stream& stream, video::ColorCodecId codec) {
-    stream.color = video::make_color_decoder(codec);
+void Receiver::set_color_codec(Stream& stream, video::ColorCodecId codec) const {
+    stream.color =
+        events_.make_color ? events_.make_color(codec) : video::make_color_decoder(codec);
+    stream.submitted.clear();
     stream.color_codec = codec;
     stream.color_reference.reset();
 }
 
 // Automatic colour may change its codec with a key frame.
-Status Receiver::follow_color_codec(Stream& stream, const wire::MediaHeader& header) {
+Status Receiver::follow_color_codec(Stream& stream, const wire::MediaHeader& header) const {
     if (header.codec == std::uint8_t(stream.color_codec))
         return Status::ok;
     const auto codec = video::ColorCodecId(header.codec);
@@ -266,17 +275,33 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
     const auto reference = std::exchange(stream.color_reference, std::nullopt);
     if (!header.key && reference != header.reference)
         return Status::missing_reference;
-    if (const Status s = stream.color->submit(payload, header.frame); s != Status::ok)
+    if (const Status s = stream.color->submit(payload, header.frame); s != Status::ok) {
+        take_pictures(header.stream, stream, now);
         return s;
+    }
     stream.color_reference = header.frame;
     if (header.key)
         stream.asked_for_key = false;
+    stream.submitted.push_back({header.frame, header.captured, now});
+    take_pictures(header.stream, stream, now);
+    return Status::ok;
+}
+
+void Receiver::take_pictures(StreamId id, Stream& stream, TimePoint now) {
     while (auto decoded = stream.color->poll()) {
+        // A decoder leaves pictures out where nobody polls.
+        while (!stream.submitted.empty() && stream.submitted.front().frame != decoded->frame)
+            stream.submitted.pop_front();
+        if (stream.submitted.empty())
+            continue;
+        const Stream::Submitted submitted = stream.submitted.front();
+        stream.submitted.pop_front();
         const TimePoint done = events_.now ? events_.now() : now;
         ++stream.frames;
-        stream.newest_captured = header.captured;
+        stream.newest_captured = submitted.captured;
         stream.frame_rate.add(done);
-        add_age(stream, to_ms(done - header.captured));
+        add_age(stream, to_ms(done - submitted.captured));
+        add_decode_time(stream, done - submitted.arrived);
 
         CameraState& camera = cameras_[stream.camera];
         const std::shared_ptr<ColorImage> image = colors_.take();
@@ -287,7 +312,28 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
         if (camera.depth && frames_after(camera.color_number, camera.depth->number) >= 0)
             hand_on(camera);
     }
-    return Status::ok;
+    const std::size_t failures = stream.color->take_failures();
+    if (failures == 0)
+        return;
+    stream.decoder_failures += failures;
+    stream.dropped += failures;
+    stream.color_reference.reset();
+    stream.submitted.clear();
+    ask_for_key(id, stream, now);
+}
+
+void Receiver::poll(TimePoint now) {
+    for (auto& [id, stream] : streams_)
+        if (stream.color && stream.setting)
+            take_pictures(id, stream, now);
+}
+
+std::size_t Receiver::pending() const {
+    std::size_t sum = 0;
+    for (const auto& [id, stream] : streams_)
+        if (stream.color)
+            sum += stream.color->pending();
+    return sum;
 }
 
 void Receiver::hand_on(CameraState& camera) {
@@ -310,7 +356,8 @@ std::vector<StreamFigures> Receiver::figures(TimePoint now) {
         sort_ages(s);
         result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
                           s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
-                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms, s.past});
+                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms, s.past, s.decode_ms,
+                          s.decoder_failures});
     }
     return result;
 }
@@ -329,8 +376,8 @@ void Receiver::sort_ages(Stream& stream) {
 
 void Receiver::reset_figures() {
     for (auto& [id, s] : streams_) {
-        s.frames = s.bytes = s.dropped = s.sorted_at = 0;
-        s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
+        s.frames = s.bytes = s.dropped = s.sorted_at = s.decoder_failures = 0;
+        s.decode_ms = s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
         s.ages.clear();
         s.counting = false;
     }

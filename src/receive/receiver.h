@@ -6,6 +6,7 @@
 // the session time, and gets frames that any thread may keep.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -57,7 +58,9 @@ struct StreamFigures {
     double age_now_ms = 0;                 // of the newest frame, now
     Exactness exact = Exactness::nowhere;  // of the newest depth frame
     double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
-    bool past = false;  // as in wire::StreamSetting; no ages but age_now_ms are of such frames
+    bool past = false;     // as in wire::StreamSetting; no ages but age_now_ms are of such frames
+    double decode_ms = 0;  // from a frame's arrival to its image, of the last ones
+    std::uint64_t decoder_failures = 0;  // frames that a decoder took and gave up later
 };
 
 // The largest message of a stream whose pictures have `pixels`; a larger one is refused before
@@ -70,12 +73,14 @@ std::size_t max_media_size(const wire::Camera& camera, StreamId stream);
 
 class Receiver {
 public:
-    // Called from on_media().
+    // Called from on_media() and poll().
     struct Events {
         std::function<void(CameraFramePtr)> frame;
         std::function<void(StreamId, SettingId)> needs_key;
         // Session time after decoding. Empty: decoding takes no time.
         std::function<TimePoint()> now = {};
+        // For tests. Empty: video::make_color_decoder.
+        std::function<std::unique_ptr<video::ColorDecoder>(video::ColorCodecId)> make_color = {};
     };
 
     explicit Receiver(Events events) : events_(std::move(events)) {}
@@ -91,6 +96,11 @@ public:
     // Takes one whole media message. Damaged and unknown ones are counted.
     // Safe for untrusted input.
     Status on_media(ByteView message, TimePoint now);
+
+    // Takes over pictures that decoders have finished since: for decoders that answer later.
+    void poll(TimePoint now);
+    // Pictures that decoders have not finished.
+    std::size_t pending() const;
 
     std::vector<StreamFigures> figures(TimePoint now);
     std::uint64_t refused() const { return refused_; }
@@ -117,6 +127,11 @@ private:
         bool color_is_automatic = false;  // the host may change `color_codec`
         // The frame to which a colour frame that is no key frame must refer.
         std::optional<FrameNumber> color_reference;
+        struct Submitted {
+            FrameNumber frame = 0;
+            TimePoint captured, arrived;
+        };
+        std::deque<Submitted> submitted;  // to `color`, which has not finished them
 
         bool counting = false;  // a frame has come since the figures were reset
         FrameNumber newest = 0;
@@ -126,7 +141,8 @@ private:
         // Sorting them takes long, so that is done once for many frames.
         double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;
         std::uint64_t sorted_at = 0;
-        double age_ms = 0;
+        double age_ms = 0, decode_ms = 0;
+        std::uint64_t decoder_failures = 0;
         TimePoint newest_captured;
         Exactness exact = Exactness::nowhere;
         bool asked_for_key = false;
@@ -143,15 +159,17 @@ private:
     };
 
     // One sentence if this build does not know the codec.
-    static std::string set_codec(Stream& stream, const wire::StreamSetting& setting);
+    std::string set_codec(Stream& stream, const wire::StreamSetting& setting) const;
     void set_past(Stream& stream, bool past);
     static void add_age(Stream& stream, double ms);
+    static void add_decode_time(Stream& stream, Duration time);
     Status decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
-    static void set_color_codec(Stream& stream, video::ColorCodecId codec);
-    static Status follow_color_codec(Stream& stream, const wire::MediaHeader& header);
+    void set_color_codec(Stream& stream, video::ColorCodecId codec) const;
+    Status follow_color_codec(Stream& stream, const wire::MediaHeader& header) const;
     Status decode_color(Stream& stream, const wire::MediaHeader& header, ByteView payload,
                         TimePoint now);
+    void take_pictures(StreamId id, Stream& stream, TimePoint now);
     void count(Stream& stream, const wire::MediaHeader& header, std::size_t size, TimePoint now);
     static Exactness exactness(const Stream& stream, ByteView payload);
     void ask_for_key(StreamId id, Stream& stream, TimePoint now);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "base/error.h"
 #include "geometry/calibration.h"
@@ -233,6 +236,112 @@ TEST_F(ReceiverTest, AutomaticColorChangesItsCodecWithAKeyFrameAndOtherColorNeve
         source->set_color_id(SettingId{0x8003});
     EXPECT_EQ(receiver.on_media(jpeg.color(7), at(7)), Status::ok);
     EXPECT_EQ(receiver.on_media(h264.color(8, true), at(8)), Status::malformed);
+}
+
+// A decoder that answers when the test says, as a browser's.
+class LateDecoder final : public video::ColorDecoder {
+public:
+    Status submit(ByteView, FrameNumber frame) override {
+        waiting.push_back(frame);
+        return Status::ok;
+    }
+    std::optional<Decoded> poll() override {
+        if (finished == 0)
+            return std::nullopt;
+        --finished;
+        Decoded decoded{waiting.front(), ColorImage(picture)};
+        waiting.pop_front();
+        decoded.image.pixels[0].r = std::uint8_t(decoded.frame);
+        return decoded;
+    }
+    void recycle(ColorImage) override {}
+    std::size_t pending() const override { return waiting.size(); }
+    std::size_t take_failures() override { return std::exchange(failures, 0); }
+
+    void fail() {
+        failures = waiting.size();
+        waiting.clear();
+    }
+
+    std::deque<FrameNumber> waiting;
+    std::size_t finished = 0, failures = 0;
+};
+
+class LateColor : public ::testing::Test {
+protected:
+    LateColor() {
+        Receiver::Events events;
+        events.frame = [this](CameraFramePtr f) { frames.push_back(std::move(f)); };
+        events.needs_key = [this](StreamId, SettingId) { ++keys_wanted; };
+        events.make_color = [this](video::ColorCodecId) {
+            auto made = std::make_unique<LateDecoder>();
+            decoder = made.get();
+            return made;
+        };
+        receiver.emplace(std::move(events));
+        receiver->set_cameras({described()});
+        receiver->set_settings({{depth_stream(camera), SettingId{1}, "rvl"},
+                                {color_stream(camera), SettingId{0x8001}, "raw"}});
+    }
+    TimePoint at(FrameNumber n, int more_ms = 5) {
+        return from_us(n * 33'333 + 1000 * std::uint64_t(more_ms));
+    }
+
+    std::vector<CameraFramePtr> frames;
+    int keys_wanted = 0;
+    LateDecoder* decoder = nullptr;
+    std::optional<Receiver> receiver;
+    Source source{"rvl"};
+};
+
+TEST_F(LateColor, IsShownWithItsDepthAndHasItsOwnAge) {
+    for (FrameNumber n = 0; n < 2; ++n) {
+        EXPECT_EQ(receiver->on_media(source.depth(n), at(n)), Status::ok);
+        EXPECT_EQ(receiver->on_media(source.color(n), at(n)), Status::ok);
+    }
+    // The first image of depth did not wait for longer than until the second.
+    ASSERT_EQ(frames.size(), 1u);
+    EXPECT_FALSE(frames[0]->color);
+    EXPECT_EQ(receiver->pending(), 2u);
+
+    decoder->finished = 1;
+    receiver->poll(at(1, 7));
+    EXPECT_EQ(frames.size(), 1u);
+    EXPECT_NEAR(receiver->figures(at(1, 7))[1].age_ms, 33.333 + 7, 0.01);
+    decoder->finished = 1;
+    receiver->poll(at(1, 15));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[1]->number, 1u);
+    EXPECT_EQ(frames[1]->color->pixels[0].r, 1);
+    EXPECT_EQ(receiver->pending(), 0u);
+    EXPECT_GT(receiver->figures(at(1, 15))[1].decode_ms, 10);
+}
+
+TEST_F(LateColor, ALateFailureIsCountedAndAskedForAsAKeyFrame) {
+    for (FrameNumber n = 0; n < 3; ++n)
+        (void)receiver->on_media(source.color(n, n == 0), at(n));
+    decoder->fail();
+    receiver->poll(at(3));
+    EXPECT_EQ(keys_wanted, 1);
+    const StreamFigures figures = receiver->figures(at(3))[1];
+    EXPECT_EQ(figures.decoder_failures, 3u);
+    EXPECT_EQ(figures.dropped, 3u);
+
+    EXPECT_EQ(receiver->on_media(source.color(3), at(3)), Status::ok);
+    decoder->finished = 1;
+    receiver->poll(at(4));
+    EXPECT_EQ(receiver->figures(at(4))[1].frames, 1u);
+}
+
+// A browser's decoder may be asked for more than it finishes, and nobody polls a hidden page.
+TEST_F(LateColor, PicturesThatADecoderLeavesOutHoldNothingUp) {
+    for (FrameNumber n = 0; n < 3; ++n)
+        (void)receiver->on_media(source.color(n), at(n));
+    decoder->waiting.erase(decoder->waiting.begin(), decoder->waiting.begin() + 2);
+    decoder->finished = 1;
+    receiver->poll(at(3));
+    EXPECT_EQ(receiver->figures(at(3))[1].frames, 1u);
+    EXPECT_NEAR(receiver->figures(at(3))[1].age_ms, 33.333 + 5, 0.01);
 }
 
 class DepthOnly : public ReceiverTest {

@@ -212,7 +212,28 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         !lets_face_through(*participant, *camera, *header, message.size(), now))
         return {};
     look_back_.keep(*header, message, now);
-    return streams_.on_media(*header, message.size(), now);
+    std::vector<ParticipantId> receivers = streams_.on_media(*header, message.size(), now);
+    std::erase_if(receivers,
+                  [&](ParticipantId receiver) { return !direct_.is_relayed(receiver, *header); });
+    return receivers;
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::OfferDirect& offer, TimePoint) {
+    direct_.offer(id, offer);
+}
+
+// In the same step as the change, so that a receiver that was removed gets nothing more.
+void HostSession::follow_paths() {
+    const bool have_streams_changed =
+        std::exchange(streams_seen_, streams_.changes()) != streams_.changes();
+    if ((!direct_.take_change() && !have_streams_changed) || !direct_.is_used())
+        return;
+    std::vector<StreamUse> uses = streams_.uses();
+    if (!look_back_.is_possible())
+        for (StreamUse& use : uses)
+            use.is_kept = false;
+    for (const KeyRequests::Key& key : direct_.follow(uses))
+        streams_.request_key(key.stream, key.setting);
 }
 
 // Pictures of settings that are gone are ignored later, as those of all cameras.

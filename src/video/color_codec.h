@@ -96,6 +96,13 @@ public:
 
     // Gives back an image's memory to be used again.
     virtual void recycle(ColorImage image) = 0;
+
+    // Frames that were submitted and are neither finished nor failed.
+    virtual std::size_t pending() const { return 0; }
+
+    // Frames that submit() took and that failed later, since the last call. After a failure the
+    // decoder waits for a key frame: submit() answers any other with Status::missing_reference.
+    virtual std::size_t take_failures() { return 0; }
 };
 
 // The size that an encoded picture says it has; nothing is decoded, no memory taken. Safe for

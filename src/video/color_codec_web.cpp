@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In the browser pictures are received, not sent.
 #include "base/error.h"
+#include "video/browser_decoders_web.h"
 #include "video/color_codec.h"
 #include "video/jpeg_decoder.h"
 #include "video/raw_codec.h"
@@ -36,6 +37,8 @@ std::string missing_color_encoder(const ColorSetting& setting) {
 std::string missing_color_decoder(const ColorSetting& setting) {
     if (setting.id == ColorCodecId::raw || setting.id == ColorCodecId::jpeg)
         return "";
+    if (setting.id == ColorCodecId::h264)
+        return browser_decoders().has_h264 ? "" : "This browser does not decode H.264.";
     return "The web build has no decoder for '" + setting.text + "'.";
 }
 
@@ -48,6 +51,8 @@ std::unique_ptr<ColorDecoder> make_color_decoder(ColorCodecId id) {
         return make_raw_decoder();
     if (id == ColorCodecId::jpeg)
         return std::make_unique<JpegDecoder>();
+    if (id == ColorCodecId::h264 && browser_decoders().has_h264)
+        return make_browser_h264_decoder();
     throw Error("The web build has no decoder for colour codec number " + std::to_string(int(id)) +
                 ".");
 }

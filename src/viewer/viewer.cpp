@@ -108,8 +108,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
                  now);
             break;
         case xr::Action::next_color_codec:
-            options_.color_codec = next_name(video::color_codec_names(), options_.color_codec);
-            participant_.choose_codecs("", options_.color_codec);
+            choose_color_codec(next_name(video::color_codec_names(), options_.color_codec));
             note("Colour codec: " + options_.color_codec, now);
             break;
         case xr::Action::people:
@@ -243,6 +242,10 @@ void Viewer::press(int command, TimePoint now) {
         face_wish_ = face->shown;
         return;
     }
+    if (const auto* sound = std::get_if<UseSound>(&chosen)) {
+        sound_wish_ = *sound;
+        return;
+    }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
     if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
@@ -304,6 +307,11 @@ void Viewer::decide_on_visitor(wire::ManageAction action, TimePoint now) {
 void Viewer::choose_depth_codec() {
     options_.depth_codec = next_name(video::depth_codec_names(), options_.depth_codec);
     participant_.choose_codecs(options_.depth_codec, "");
+}
+
+void Viewer::choose_color_codec(const std::string& codec) {
+    options_.color_codec = codec;
+    participant_.choose_codecs("", codec);
 }
 
 void Viewer::choose_next_renderer(TimePoint now) {
@@ -509,6 +517,7 @@ Facts Viewer::facts(TimePoint now) {
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
                                    is_calling(now), voices_.speaking, own_face_}));
+        add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, participant_, now, panel);
     }

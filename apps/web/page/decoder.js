@@ -2,6 +2,7 @@
 // A decoding worker. Its first message brings the program; the others are the program's own.
 import make_client from "./client.mjs";
 import { put_bytes, with_program } from "./program.js";
+import { offer_h264 } from "./video_decoder.js";
 
 onmessage = async ({ data: { program, origin_ms } }) => {
     const module = await make_client(with_program(program));
@@ -11,5 +12,5 @@ onmessage = async ({ data: { program, origin_ms } }) => {
         put_bytes(module, data);
         module._theatron_decode();
     };
-    postMessage(null);
+    postMessage({ has_h264: await offer_h264(module) });
 };

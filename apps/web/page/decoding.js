@@ -4,8 +4,8 @@ import { put_bytes } from "./program.js";
 
 const most_workers = 4;
 
-// Workers that are ready. None where the browser starts none: then the page decodes. `program` may still be loading;
-// meanwhile the workers load their own script.
+// Workers that are ready, each with `has_h264`. None where the browser starts none: then the page decodes. `program` may
+// still be loading; meanwhile the workers load their own script.
 export async function start_workers(program) {
     const count = Math.min(Math.max(navigator.hardwareConcurrency ?? 1, 1), most_workers);
     const workers = [];
@@ -13,7 +13,7 @@ export async function start_workers(program) {
         await Promise.all(Array.from({ length: count }, () => new Promise((resolve, reject) => {
             const worker = new Worker("decoder.js", { type: "module" });
             workers.push(worker);
-            worker.onmessage = resolve;
+            worker.onmessage = ({ data: { has_h264 } }) => resolve(worker.has_h264 = has_h264);
             worker.onerror = event => reject(new Error(event.message ?? "a worker did not start"));
             program.then(loaded => worker.postMessage({ program: loaded, origin_ms: performance.timeOrigin }), reject);
         })));

@@ -11,6 +11,7 @@ import { put_bytes, with_program } from "./program.js";
 import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
 import { language, text } from "./texts.js";
+import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
 const $ = id => document.getElementById(id);
@@ -42,8 +43,8 @@ async function load_client() {
     });
     const numbers = count => Array(count).fill("number");
     const functions = {
-        join: [null, ["string", "number", "string", "string", "string"]],
-        join_flat: [null, ["string", "number", "string", "string", "string"]],
+        join: [null, ["string", "number", "string", "string", "string", "string", "number"]],
+        join_flat: [null, ["string", "number", "string", "string", "string", "string", "number"]],
         flat_picture: ["number", []],
         flat_width: ["number", []],
         flat_height: ["number", []],
@@ -89,6 +90,9 @@ async function load_client() {
     };
     page.memory = () => module.HEAPU8.length;
     page.workers = await starting;
+    // Also where workers decode: they may end.
+    const page_has_h264 = await offer_h264(module);
+    page.has_h264 = () => page.workers.length ? page.workers.every(({ has_h264 }) => has_h264) : page_has_h264;
     join_workers(module, page.workers, () => {
         client.leave();
         leave(voice, face, text("decoder_ended"));
@@ -98,7 +102,7 @@ async function load_client() {
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
 const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null, workers: [],
-    graphics: "card", way: "room", headset_kinds: {}, voice_may_record: false, Patience };
+    graphics: "card", way: "room", visit: 0, headset_kinds: {}, voice_may_record: false, Patience };
 
 function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
@@ -184,10 +188,13 @@ function run({ client, voice, face, module, flat }) {
         document.title = `${page.state.host || host} - Theatron`;
     };
     // Asks soon, because the time that drawing takes decides on the quality.
-    const await_picture = () => {
+    const await_picture = visit => {
+        // Its picture went with it.
+        if (visit !== page.visit)
+            return;
         const is_left = page.state.phase === "left";
         if (!is_left && !client.finish_drawing())
-            return setTimeout(await_picture, poll_every_ms);
+            return setTimeout(() => await_picture(visit), poll_every_ms);
         is_drawing = false;
         if (!is_left)
             note_picture();
@@ -205,6 +212,8 @@ function run({ client, voice, face, module, flat }) {
         page.way = way;
         page.why = why;
         patience = new Patience();
+        ++page.visit;
+        is_drawing = false;
         enter(client);
         follow_way(face);
     };
@@ -214,7 +223,7 @@ function run({ client, voice, face, module, flat }) {
     const wait_for_picture = () => {
         if (!is_drawing) {
             is_drawing = true;
-            await_picture();
+            await_picture(page.visit);
         }
     };
     const show_texts = now => {
@@ -350,7 +359,8 @@ function enter(client) {
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
-    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id());
+    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id(),
+        link.get("color") ?? "auto", page.has_h264() ? 1 : 0);
     allow_voice_recording(client, page.voice_may_record);
 }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_color.h"
+
+#include <algorithm>
+
+#include "video/color_codec.h"
+
+namespace theatron::web {
+namespace {
+
+bool is_h264(const std::string& codec) {
+    return codec.find("h264") != std::string::npos;
+}
+
+client::ColorMeasure measure_of(const client::ParticipantFigures& figures) {
+    client::ColorMeasure measure;
+    measure.is_thinned = figures.status.delivery.level > 0;
+    std::optional<double> slowest;
+    for (const auto& [camera, depth, color] : figures.cameras) {
+        // Faces come in codecs of their own.
+        if (!camera.description.has_color || camera.description.frame == wire::CameraFrame::face)
+            continue;
+        measure.has_h264 = measure.has_h264 || is_h264(color.codec);
+        measure.decode_ms = std::max(measure.decode_ms, color.decode_ms);
+        measure.failures += color.decoder_failures;
+        if (camera.state.condition == wire::CameraCondition::live)
+            slowest = std::min(slowest.value_or(color.frames_per_second), color.frames_per_second);
+    }
+    measure.pictures_per_second = slowest.value_or(0);
+    return measure;
+}
+
+}  // namespace
+
+PageColor::PageColor(const std::string& wish, bool can_h264) : preference_(can_h264) {
+    if (wish.empty() || wish == video::auto_color)
+        return;
+    const auto parsed = video::parse_color_setting(wish);
+    const std::string problem = !parsed.problem.empty() ? parsed.problem
+                                : parsed.setting.id == video::ColorCodecId::h264 && !can_h264
+                                    ? "this browser does not decode H.264"
+                                    : "";
+    if (problem.empty())
+        choose(parsed.setting.text);
+    else
+        reason_ = "JPEG: " + problem;
+}
+
+const std::string& PageColor::codec() const {
+    return chosen_.empty() ? preference_.codec() : chosen_;
+}
+
+const std::string& PageColor::reason() const {
+    return reason_.empty() ? preference_.reason() : reason_;
+}
+
+void PageColor::choose(const std::string& codec) {
+    chosen_ = codec;
+    reason_ = codec + ", as you chose";
+    failures_before_.reset();
+}
+
+bool PageColor::observe(const client::ParticipantFigures& figures, TimePoint now) {
+    const client::ColorMeasure measure = measure_of(figures);
+    if (chosen_.empty()) {
+        if (!preference_.observe(measure, now))
+            return false;
+        reason_.clear();
+        return true;
+    }
+    if (!is_h264(chosen_))
+        return false;
+    // Figures may have been reset.
+    failures_before_ = std::min(failures_before_.value_or(measure.failures), measure.failures);
+    if (measure.failures - *failures_before_ < client::ColorPreference::too_many_failures)
+        return false;
+    choose("jpeg:quality=85");
+    reason_ = "JPEG: the browser's decoder failed with H.264";
+    return true;
+}
+
+void PageColor::add_to(nlohmann::json& state) const {
+    state["color"] = {{"asked", codec()}, {"is_chosen", !chosen_.empty()}, {"reason", reason()}};
+    state["overlay"]["facts"].push_back(
+        {{"label", "Choice of colour"}, {"value", reason()}, {"warning", false}});
+}
+
+}  // namespace theatron::web

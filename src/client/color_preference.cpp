@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/color_preference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "video/color_codec.h"
+
+namespace theatron::client {
+namespace {
+
+constexpr const char* jpeg = "jpeg:quality=85";
+
+std::string whole(double value) {
+    return std::to_string(std::lround(value));
+}
+
+}  // namespace
+
+ColorPreference::ColorPreference(bool can_h264)
+    : can_h264_(can_h264),
+      codec_(jpeg),
+      reason_(can_h264 ? "JPEG: all pictures come in time"
+                       : "JPEG: this browser does not decode H.264") {}
+
+bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
+    if (!can_h264_)
+        return false;
+    if (asks_h264_) {
+        judge(measure, now);
+        return !asks_h264_;
+    }
+    if (!measure.is_thinned || !last_whole_)
+        last_whole_ = now;
+    if (now - *last_whole_ < patience || now < not_before_)
+        return false;
+    begin(measure);
+    return true;
+}
+
+void ColorPreference::begin(const ColorMeasure& measure) {
+    asks_h264_ = true;
+    codec_ = video::auto_color;
+    reason_ = "The host chooses: only " + whole(measure.pictures_per_second) +
+              " pictures a second came as JPEG";
+    began_.reset();
+    is_judged_ = false;
+    pictures_before_ = measure.pictures_per_second;
+    failures_before_ = measure.failures;
+}
+
+void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
+    // Figures may have been reset.
+    failures_before_ = std::min(failures_before_, measure.failures);
+    const std::uint64_t failures = measure.failures - failures_before_;
+    if (failures >= too_many_failures)
+        return end("the browser's decoder failed for " + std::to_string(failures) + " pictures",
+                   now);
+    if (!measure.has_h264) {
+        began_.reset();
+        return;
+    }
+    if (!began_) {
+        began_ = last_fast_ = now;
+        return;
+    }
+    if (measure.decode_ms <= slow_decode_ms)
+        last_fast_ = now;
+    if (now - last_fast_ >= patience)
+        return end("the browser took " + whole(measure.decode_ms) + " ms for a picture in H.264",
+                   now);
+    if (now - *began_ >= longest_pause)
+        pause_ = first_pause;
+    if (is_judged_ || now - *began_ < trial)
+        return;
+    is_judged_ = true;
+    const std::string pictures = whole(measure.pictures_per_second),
+                      before = whole(pictures_before_);
+    if (measure.pictures_per_second < enough * pictures_before_)
+        return end(pictures + " pictures a second came as H.264, " + before + " before", now);
+    reason_ = "H.264: " + pictures + " pictures a second, " + before + " as JPEG";
+}
+
+void ColorPreference::end(const std::string& why, TimePoint now) {
+    asks_h264_ = false;
+    codec_ = jpeg;
+    not_before_ = now + pause_;
+    last_whole_ = now;
+    reason_ = "JPEG: " + why + "; H.264 is tried again after " + whole(to_seconds(pause_)) + " s";
+    pause_ = std::min(2 * pause_, longest_pause);
+}
+
+}  // namespace theatron::client
