@@ -128,7 +128,7 @@ class Page:
             if value:
                 return value
             if time.monotonic() > deadline:
-                state = self.evaluate("JSON.stringify(globalThis.theatron ?? null)")
+                state = self.evaluate("JSON.stringify(globalThis.theatron?.state ?? null)")
                 raise AssertionError(f"not in {timeout} s: {condition}; {self.problems}; {state}")
             time.sleep(0.05)
 
