@@ -125,6 +125,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     config.patient_for = options.patient_for;
     config.past.reach = options.look_back;
     page = options.page.empty() ? Page() : Page(options.page);
+    if (!page.problem().empty())
+        log::warning("host", "page", {{"problem", page.problem()}});
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);
     config.streams.adjustments = std::move(saved.adjustments);

@@ -488,6 +488,7 @@ HostFigures Host::Impl::figures() const {
     figures.past_bytes = past_figure;
     figures.turned_away = turned_away;
     figures.faults = fault_count();
+    figures.page_problem = page.problem();
     return figures;
 }
 
