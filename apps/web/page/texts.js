@@ -69,7 +69,7 @@ const tables = {
             ["Y, U", "Operators: let in the person at the door, or refuse"],
             ["R, 1 to 9, 0", "Back to the start view; view of a camera; from above"],
             ["Space; + and -", "Freeze the picture of the cameras, live again; larger and smaller points, or a wider and narrower held screen"],
-            ["M, C", "Next way of drawing; next depth codec"],
+            ["M, C, V", "Next way of drawing; next depth codec; next colour codec"],
         ],
     },
     de: {
@@ -140,7 +140,7 @@ const tables = {
             ["Y, U", "Operatoren: die Person an der Tür einlassen oder abweisen"],
             ["R, 1 bis 9, 0", "Zurück zur Startansicht; Ansicht einer Kamera; von oben"],
             ["Leertaste; + und -", "Das Bild der Kameras anhalten, wieder live; größere und kleinere Punkte, oder ein breiterer und schmalerer gehaltener Bildschirm"],
-            ["M, C", "Nächste Zeichenart; nächster Tiefen-Codec"],
+            ["M, C, V", "Nächste Zeichenart; nächster Tiefen-Codec; nächster Farb-Codec"],
         ],
     },
 };
