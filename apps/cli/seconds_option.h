@@ -3,8 +3,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <string>
+
+#include "cli/number_check.h"
 
 namespace theatron::cli {
 
@@ -15,13 +16,8 @@ inline constexpr double longest_seconds = 1e8;
 inline CLI::Option* add_seconds_option(CLI::App& command, double& seconds, const std::string& help,
                                        const char* name = "--seconds") {
     return command.add_option(name, seconds, help)
-        ->check([](const std::string& text) -> std::string {
-            double value = 0;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            if (is_number && std::isfinite(value) && value > 0 && value <= longest_seconds)
-                return "";
-            return "'" + text + "' is not a number of seconds greater than 0 and up to 1e8";
-        });
+        ->check(number_check([](double value) { return value > 0 && value <= longest_seconds; },
+                             "is not a number of seconds greater than 0 and up to 1e8"));
 }
 
 }  // namespace theatron::cli

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "cli/number_check.h"
 #include "registration/lattice_target.h"
 
 namespace theatron::app {
@@ -21,15 +22,8 @@ inline void add_board_options(CLI::App& command, BoardFlags& flags) {
     command
         .add_option("--thickness", flags.thickness_mm,
                     "How thick the board is, millimetres (10 and 5 unless it is given)")
-        ->check([](const std::string& text) -> std::string {
-            double value = 0;
-            constexpr double thinnest = 0.5, thickest = 40;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            // NaN is in no range.
-            if (is_number && value >= thinnest && value <= thickest)
-                return "";
-            return "'" + text + "' is not a thickness from 0.5 to 40 millimetres";
-        });
+        ->check(cli::number_check([](double mm) { return mm >= 0.5 && mm <= 40; },
+                                  "is not a thickness from 0.5 to 40 millimetres"));
 }
 
 // Throws Error where there is no such board.

@@ -18,6 +18,7 @@
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "case_lines.h"
+#include "cli/number_check.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant.h"
@@ -434,14 +435,10 @@ void add_join_command(CLI::App& app) {
     command
         ->add_option("--max-mbit", flags->max_mbit,
                      "The host sends at most so many megabits a second to you; 0: no ceiling")
-        ->check([](const std::string& text) -> std::string {
-            double value = 0;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            // The host is told whole kilobits.
-            if (is_number && std::isfinite(value) && (value == 0 || value >= 0.001))
-                return "";
-            return "'" + text + "' is not a number of megabits: 0, or 0.001 and more";
-        });
+        // The host is told whole kilobits.
+        ->check(cli::number_check(
+            [](double value) { return std::isfinite(value) && (value == 0 || value >= 0.001); },
+            "is not a number of megabits: 0, or 0.001 and more"));
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_option("--microphone", flags->microphone,
                         "Speak to the others: default, the name of a microphone, or a WAV file. "

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "cli/number_check.h"
 #include "commands.h"
 #include "files/json_text.h"
 #include "host/host_identity.h"
@@ -135,13 +136,8 @@ void add_link_command(CLI::App& app) {
             ->add_option("--hours", flags->hours,
                          "It lets nobody in after so many hours; those who are in stay. Without "
                          "it: until it is revoked")
-            ->check([](const std::string& text) -> std::string {
-                double value = 0;
-                // A comparison with nan is false.
-                if (CLI::detail::lexical_cast(text, value) && value > 0 && value <= 10'000)
-                    return "";
-                return "'" + text + "' is not a number of hours greater than 0 and up to 10000";
-            });
+            ->check(cli::number_check([](double value) { return value > 0 && value <= 10'000; },
+                                      "is not a number of hours greater than 0 and up to 10000"));
     CLI::Option* label = command->add_option("--for", flags->label, "For whom it is, for --list");
     CLI::Option* list = command->add_flag("--list", flags->list, "List all links");
     CLI::Option* show = command->add_option("--show", flags->show,

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cli/camera_option.h"
+#include "cli/number_check.h"
 #include "cli/seconds_option.h"
 #include "host/session_folder.h"
 #include "session/permissions.h"
@@ -108,13 +109,8 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
         .add_option("--link-hours", flags.link_hours,
                     "The links let nobody in after so many hours; participants who are in stay. "
                     "0: they always do")
-        ->check([](const std::string& text) -> std::string {
-            double value = 0;
-            // A comparison with nan is false.
-            if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1000)
-                return "";
-            return "'" + text + "' is not a number of hours from 0 to 1000";
-        });
+        ->check(cli::number_check([](double hours) { return hours >= 0 && hours <= 1000; },
+                                  "is not a number of hours from 0 to 1000"));
     command
         .add_option("--admit", flags.admit,
                     "all: everyone with a valid link is let in; ask: experts and observers wait "
@@ -126,14 +122,11 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
                     "How many seconds participants may look back at the cameras of the room, 0 to "
                     "60; they are kept in memory only, 512 MiB at most. 0: nothing is kept")
         ->capture_default_str()
-        ->check([](const std::string& text) -> std::string {
-            double seconds = -1;
-            // A range check of CLI11 takes "nan".
-            const bool is_number = CLI::detail::lexical_cast(text, seconds);
-            if (is_number && seconds >= 0 && seconds <= to_seconds(session::Past::longest_reach))
-                return "";
-            return "'" + text + "' is not a number of seconds from 0 to 60";
-        });
+        ->check(cli::number_check(
+            [](double seconds) {
+                return seconds >= 0 && seconds <= to_seconds(session::Past::longest_reach);
+            },
+            "is not a number of seconds from 0 to 60"));
     command
         .add_option("--direct", flags.direct,
                     "on: pictures of a participant's cameras go from it to those who can reach "

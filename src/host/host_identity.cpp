@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/host_identity.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <ifaddrs.h>
-#include <net/if.h>
-#include <netinet/in.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -20,6 +16,7 @@
 #include "files/private_file.h"
 #include "files/state_folder.h"
 #include "net/certificate.h"
+#include "net/own_addresses.h"
 
 namespace theatron::host {
 
@@ -138,22 +135,8 @@ net::Link read_address(const std::filesystem::path& folder) {
 }
 
 std::string outside_address() {
-    ifaddrs* all = nullptr;
-    if (getifaddrs(&all) != 0)
-        return "127.0.0.1";
-    std::string found = "127.0.0.1";
-    for (const ifaddrs* i = all; i; i = i->ifa_next) {
-        if (!i->ifa_addr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_LOOPBACK) ||
-            !(i->ifa_flags & IFF_UP))
-            continue;
-        char text[INET_ADDRSTRLEN];
-        const auto* address = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
-        if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text)))
-            found = text;
-        break;
-    }
-    freeifaddrs(all);
-    return found;
+    const std::vector<std::string> addresses = net::own_addresses(1);
+    return addresses.empty() ? "127.0.0.1" : addresses.front();
 }
 
 }  // namespace theatron::host

@@ -325,16 +325,14 @@ void Host::Impl::distribute_media() {
     set_alarm();
 }
 
+net::Media media_of(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message) {
+    return {std::move(message), header.stream,         header.setting, header.frame,
+            header.reference,   header.temporal_layer, header.key,     {}};
+}
+
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     const wire::MediaHeader& header = encoded.header;
-    send_media({encoded.message,
-                header.stream,
-                header.setting,
-                header.frame,
-                header.reference,
-                header.temporal_layer,
-                header.key,
-                {}},
+    send_media(media_of(header, encoded.message),
                session->on_media(header, encoded.message->size(), steady_now()));
     session->keep(header, *encoded.message, steady_now());
     hold_lane(std::size_t(camera_of(header.stream)));

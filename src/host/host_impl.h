@@ -31,6 +31,9 @@
 
 namespace theatron::host {
 
+// For the outbox of a receiver.
+net::Media media_of(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
+
 struct Host::Impl {
     std::atomic<std::size_t>& participants;
     std::shared_ptr<HostPort> port;  // perhaps with other sessions

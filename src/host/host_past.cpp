@@ -33,14 +33,7 @@ void Host::Impl::send_past() {
         const wire::MediaHeader& header = picture.header;
         // Where the link is too slow, the next key frame of the past continues the stream.
         const auto pushed = server->send_media(net::PeerId(std::uint32_t(picture.receiver)),
-                                               {std::move(picture.message),
-                                                header.stream,
-                                                header.setting,
-                                                header.frame,
-                                                header.reference,
-                                                header.temporal_layer,
-                                                header.key,
-                                                {}});
+                                               media_of(header, std::move(picture.message)));
         dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
     }
 }
