@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "video/clamped.h"
 #include "video/jpeg_baseline.h"
 #include "video/jpeg_header.h"
 #include "video/jpeg_pixels.h"
@@ -141,10 +142,6 @@ Eight transformed(const Eight& x) {
         out[7 - i] = subtract(even[i], odd[i]);
     }
     return out;
-}
-
-std::uint8_t clamped(int value) {
-    return std::uint8_t(std::clamp(value, 0, 255));
 }
 
 struct Plane {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "video/plane_pixels.h"
 
-#include <algorithm>
+#include "video/clamped.h"
 
 namespace theatron::video {
 namespace {
@@ -24,10 +24,6 @@ Shift shift_of(int u, int v) {
     return {(fraction(1.402) * v + half) >> 16,
             (-fraction(0.34414) * u - fraction(0.71414) * v + half) >> 16,
             (fraction(1.772) * u + half) >> 16};
-}
-
-std::uint8_t clamped(int value) {
-    return std::uint8_t(std::clamp(value, 0, 255));
 }
 
 Rgb shifted(std::byte luma, const Shift& shift) {
