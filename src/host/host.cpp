@@ -68,6 +68,9 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     state_folder = options.state.empty() ? default_state_folder() : options.state;
     state_lock.emplace(state_folder);
     port->require_free();
+    if (options.cameras.size() > wire::max_cameras)
+        throw Error("A session has at most " + std::to_string(wire::max_cameras) + " cameras; " +
+                    std::to_string(options.cameras.size()) + " were given.");
     played = find_played_recording(options.cameras);
     const std::vector<std::string> specifications = without_room_only(played, options.cameras);
     std::vector<std::unique_ptr<capture::Camera>> cameras;

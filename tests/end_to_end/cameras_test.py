@@ -22,6 +22,11 @@ class Cameras(unittest.TestCase):
         del os.environ["THEATRON_K4A_LIBRARY"], os.environ["K4A_STANDIN"]
         shutil.rmtree(self.state)
 
+    def test_more_cameras_than_a_session_has_are_refused_at_once(self):
+        code, _, errors = run("host", "--state", self.state, *["--camera", "k4a:0"] * 64)
+        self.assertEqual(code, 1, errors)
+        self.assertIn("A session has at most 63 cameras; 64 were given.", errors)
+
     def test_cameras_lists_kinds_and_devices(self):
         code, out, errors = run("cameras", "--json")
         self.assertEqual(code, 0, errors)
