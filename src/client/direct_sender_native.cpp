@@ -77,10 +77,7 @@ struct DirectSender::Impl {
                 server.close(peer, "it was not granted");
         };
         h.control = [this](net::PeerId peer, ByteView message) { greet(peer, message); };
-        h.closed = [this](net::PeerId peer, const std::string&) {
-            peers.erase(peer);
-            connected = peers.size();
-        };
+        h.closed = [this](net::PeerId peer, const std::string&) { forget(peer); };
         h.now = events.now;
         h.tick = [this] { look_for_losses(); };
         return h;
@@ -91,8 +88,10 @@ struct DirectSender::Impl {
         {
             const std::lock_guard lock(mutex);
             const auto* receiver = find(allowed, message);
-            if (!receiver || peers.contains(peer))
+            if (!receiver || peers.contains(peer)) {
+                forget(peer);
                 return server.close(peer, "it sent something else than one greeting");
+            }
             greeted.secret = receiver->first;
             greeted.settings = receiver->second;
         }
@@ -110,9 +109,13 @@ struct DirectSender::Impl {
             if (is_meant(state))
                 gone.push_back(peer);
         for (const net::PeerId peer : gone) {
+            forget(peer);
             server.close(peer, why);
-            peers.erase(peer);
         }
+    }
+
+    void forget(net::PeerId peer) {
+        peers.erase(peer);
         connected = peers.size();
     }
 
