@@ -38,6 +38,9 @@ const Receivers::value_type* find(const Receivers& receivers, ByteView greeting)
     return found;
 }
 
+// A frame that takes so much longer than the way itself.
+constexpr Duration late = std::chrono::milliseconds(100);
+
 net::HttpAnswer nothing_here() {
     return {.status = 404, .body = "Nothing is shown here.\n"};
 }
@@ -127,9 +130,13 @@ struct DirectSender::Impl {
             state.settings = allowed.at(state.secret);
     }
 
+    // A late frame counts as a loss, too: the host would send fewer, but new ones.
     void look_for_losses() {
-        for (auto& [peer, state] : peers)
+        for (auto& [peer, state] : peers) {
+            const net::SendingFigures figures = server.take_figures(peer);
             state.losses *= losses_kept;
+            state.losses += figures.delay > figures.round_trip + late;
+        }
         close_if([](const Peer& peer) { return peer.losses > max_losses; },
                  "its link is too slow for direct pictures");
     }
