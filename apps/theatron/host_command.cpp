@@ -330,11 +330,12 @@ void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> furth
                         "The proxy's certificate as a PEM file, for the links; read again when it "
                         "changes");
     command
-        ->add_option("--session,--name", flags->first.options.name,
-                     "The session's name, which participants see. A second --session begins "
-                     "another session of this host, with the options of a session behind it: "
-                     "--camera, --places, --region, --cases, --identifiers-for, --filter, "
-                     "--link-hours, --admit and --look-back")
+        ->add_option(
+            "--session,--name", flags->first.options.name,
+            "The session's name, which participants see. A second --session begins "
+            "another session of this host, with the options of a session behind it: "
+            "--camera, --places, --region, --cases, --identifiers-for, --filter, --direct, "
+            "--link-hours, --admit and --look-back")
         ->capture_default_str();
     command->add_option(
         "--link-host", flags->port.link_host,

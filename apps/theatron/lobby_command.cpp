@@ -46,9 +46,21 @@ void print(const nlohmann::json& lobby) {
     }
 }
 
+// The address of the picture of this session; empty: of the link's own. Throws Error.
+std::string picture_address(const nlohmann::json& lobby, const std::string& session) {
+    std::string names;
+    if (lobby.contains("sessions") && lobby["sessions"].is_array())
+        for (const auto& shown : lobby["sessions"]) {
+            if (session.empty() || text(shown, "name") == session)
+                return text(shown, "thumbnail");
+            names += (names.empty() ? "'" : ", '") + text(shown, "name") + "'";
+        }
+    throw Error("This link shows no session '" + session + "'; it shows " + names + ".");
+}
+
 // Only a picture is written, whatever a host gives.
-void write_picture(const net::Link& link, const std::string& file) {
-    const auto png = host::thumbnail_of_host(link);
+void write_picture(const net::Link& link, const std::string& address, const std::string& file) {
+    const auto png = host::thumbnail_of_host(link, net::https_patience, address);
     ColorImage picture;
     if (!png || !files::decode_png(as_bytes(*png), picture).empty())
         throw Error("The host gives no picture for this link.");
@@ -59,16 +71,20 @@ void write_picture(const net::Link& link, const std::string& file) {
 
 void add_lobby_command(CLI::App& app) {
     struct Flags {
-        std::string link, picture;
+        std::string link, picture, session;
         bool json = false;
     };
     const auto flags = std::make_shared<Flags>();
-    CLI::App* command = app.add_subcommand("lobby", "The session of a host, before joining it");
-    command->footer("Example: theatron lobby LINK --picture session.png");
+    CLI::App* command = app.add_subcommand("lobby", "The sessions of a host, before joining one");
+    command->footer(
+        "A link shows its own session. An operator's link of the host's first session shows all.\n"
+        "\nExample: theatron lobby LINK --picture session.png");
     command->add_option("link", flags->link, "The link that the host printed, or @FILE with it")
         ->required();
     command->add_option("--picture", flags->picture,
                         "Write a small picture of its first camera into this PNG file");
+    command->add_option("--session", flags->session,
+                        "The session of that picture; without it the link's own");
     command->add_flag("--json", flags->json, "Print everything as one JSON line");
     command->callback([flags] {
         const net::Link link = parse_link_argument(flags->link);
@@ -78,7 +94,7 @@ void add_lobby_command(CLI::App& app) {
         else
             print(lobby);
         if (!flags->picture.empty())
-            write_picture(link, flags->picture);
+            write_picture(link, picture_address(lobby, flags->session), flags->picture);
     });
 }
 

@@ -94,8 +94,12 @@ nlohmann::json lobby_of_host(const net::Link& link, Duration patience) {
     return json_of_host(link, std::string(lobby_path), "lobby", patience);
 }
 
-std::optional<std::string> thumbnail_of_host(const net::Link& link, Duration patience) {
-    net::HttpsAnswer answer = net::https_get(link, std::string(thumbnail_path), patience);
+std::optional<std::string> thumbnail_of_host(const net::Link& link, Duration patience,
+                                             const std::string& address) {
+    // The address comes from the host's answer.
+    if (net::path_of(address) != thumbnail_path)
+        return std::nullopt;
+    net::HttpsAnswer answer = net::https_get(link, address, patience);
     require_known_token(answer);
     if (answer.status != 200)
         return std::nullopt;

@@ -34,8 +34,10 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
 // The same from a host, perhaps on another machine; its texts are clean. Throws Error, also if the
 // host does not answer for so long.
 nlohmann::json lobby_of_host(const net::Link& link, Duration patience = net::https_patience);
-// Its picture as PNG; nullopt if the host gives none. Throws Error.
+// The picture of the link's session as PNG, or of another one in whose lobby it has this
+// `address`; nullopt if the host gives none. Throws Error.
 std::optional<std::string> thumbnail_of_host(const net::Link& link,
-                                             Duration patience = net::https_patience);
+                                             Duration patience = net::https_patience,
+                                             const std::string& address = "/thumbnail");
 
 }  // namespace theatron::host

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several sessions in one host: apart from each other, made and ended while it runs, kept over a restart."""
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import struct
+import tempfile
+import unittest
+
+from raw_peer import VOICE, RawPeer
+from theatron_process import Process, host, make_recording, read_png, run, wait_until
+
+
+class Voice(RawPeer):
+    def __init__(self, link):
+        super().__init__(link)
+        self.join(depth_codec="raw", color_codec="raw")
+        self.number = self.receive_control("Welcome")[1]["participant"]
+
+    def speak(self, packet):
+        self.send(bytes([VOICE]) + struct.pack("<I", self.number) + packet)
+
+    def hear(self):
+        """The speaker and the packet of the next envelope of voice."""
+        while True:
+            envelope = self.receive()
+            if envelope[0] == VOICE:
+                return struct.unpack_from("<I", envelope, 1)[0], envelope[5:]
+
+
+def people(figures):
+    return sorted(person["name"] for person in figures["room"]["people"])
+
+
+def bricks(figures):
+    return [o["position"] for o in figures["room"]["objects"]]
+
+
+def cameras(figures):
+    return [camera["name"] for camera in figures["cameras"]]
+
+
+class Sessions(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_sessions_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.state = self.folder / "state"
+        self.table, self.lamp = (f"folder:{make_recording(self.folder / name, frames=5)},loop=1,preload=1"
+                                 for name in ("table", "lamp"))
+
+    def start(self, *options):
+        return host(self.state, options=options)
+
+    def member(self, link, name):
+        home = self.folder / f"home of {name}"
+        return Process("join", link, "--name", name, "--every", "0.1", env={**os.environ, "XDG_STATE_HOME": str(home)})
+
+    def command(self, *words):
+        """The JSON line of a command on the host's machine."""
+        code, out, errors = run(*words, "--state", self.state, "--json")
+        self.assertEqual(code, 0, errors)
+        return json.loads(out)
+
+    def refusal(self, *words):
+        code, _, errors = run(*words)
+        self.assertEqual(code, 1)
+        return errors
+
+    def audited(self):
+        with open(self.state / "audit.jsonl") as file:
+            return [json.loads(line) for line in file]
+
+    def test_two_sessions_know_nothing_of_each_other(self):
+        with contextlib.ExitStack() as stack:
+            h = stack.enter_context(self.start("--session", "OR 3", "--camera", self.table,
+                                               "--session", "OR 4", "--camera", self.lamp))
+            third, (fourth,) = h.greeting["links"], h.greeting["sessions"]
+            self.assertEqual((h.greeting["cameras"], fourth["name"], fourth["cameras"]), (["table"], "OR 4", ["lamp"]))
+            fourth = fourth["links"]
+            self.assertFalse(set(third.values()) & set(fourth.values()))
+            anna, ben, carla, david = (stack.enter_context(self.member(link, name)) for link, name in (
+                (third["operator"], "Anna"), (third["expert"], "Ben"),
+                (fourth["operator"], "Carla"), (fourth["expert"], "David")))
+            for person, others, camera in ((anna, ["Anna", "Ben"], "table"), (ben, ["Anna", "Ben"], "table"),
+                                           (carla, ["Carla", "David"], "lamp"), (david, ["Carla", "David"], "lamp")):
+                person.wait_for(lambda f: people(f) == others and cameras(f) == [camera]
+                                and f["cameras"][0]["frames"] > 5, 30)
+
+            # Objects and voices stay where they are.
+            anna.say("brick 1 1 1")
+            ben.wait_for(lambda f: bricks(f) == [[1, 1, 1]], 10)
+            carla.say("brick 2 1 2")
+            david.wait_for(lambda f: bricks(f) == [[2, 1, 2]], 10)
+            self.assertEqual(bricks(ben.newest_json()), [[1, 1, 1]])
+            with Voice(third["expert"]) as here, Voice(third["expert"]) as there, \
+                    Voice(fourth["expert"]) as speaker, Voice(fourth["expert"]) as listener:
+                here.speak(b"in OR 3")
+                self.assertEqual(there.hear(), (here.number, b"in OR 3"))
+                speaker.speak(b"in OR 4")
+                self.assertEqual(listener.hear(), (speaker.number, b"in OR 4"))
+
+            # The host's operator sees both in the lobby, every other link its own session.
+            names = lambda link: [s["name"] for s in json.loads(run("lobby", link, "--json")[1])["sessions"]]
+            self.assertEqual([names(third["operator"]), names(third["expert"]), names(fourth["operator"])],
+                             [["OR 3", "OR 4"], ["OR 3"], ["OR 4"]])
+            printed = run("lobby", third["operator"])[1]
+            for text in ("OR 3: 2 participant(s)", "OR 4: 2 participant(s)", "Carla (operator)", "lamp (live)"):
+                self.assertIn(text, printed)
+            picture = self.folder / "picture.png"
+            self.assertEqual(run("lobby", third["operator"], "--session", "OR 4", "--picture", picture)[0], 0)
+            self.assertEqual(read_png(picture)[:2], (160, 120))
+            status = json.loads(run("status", third["operator"], "--json")[1])
+            self.assertEqual((status["name"], [s["name"] for s in status["sessions"]]), ("OR 3", ["OR 4"]))
+
+            # A decision in one session, and a line at the host for the other.
+            carla.say("mute David")
+            david.wait_for(lambda f: f["muted"], 10)
+            h.say("in OR 4: unmute David")
+            david.wait_for(lambda f: not f["muted"], 10)
+            h.say("in OR 5: unmute David")
+            wait_until(lambda: any("There is no session 'OR 5'" in line for line in h.errors), 10)
+
+            # One ends for good: its people leave, its links admit nobody, and the other goes on as before.
+            rate = anna.wait_for(lambda f: f["cameras"][0]["fps"] > 10, 20)["cameras"][0]["fps"]
+            self.assertEqual(self.command("session", "end", "OR 4"), {"ended": "OR 4"})
+            for person in (carla, david):
+                self.assertEqual(person.end(20), 0, person.errors)
+            late = stack.enter_context(self.member(fourth["expert"], "Late"))
+            self.assertEqual(late.end(20), 1)
+            self.assertIn("The join token is wrong", "".join(late.errors))
+            frames = anna.newest_json()["cameras"][0]["frames"]
+            for person in (anna, ben):
+                person.wait_for(lambda f: f["cameras"][0]["frames"] > frames + 30
+                                and f["cameras"][0]["fps"] > 0.8 * rate, 20)
+            self.assertEqual(bricks(ben.newest_json()), [[1, 1, 1]])
+            self.assertEqual(self.command("session", "list"), [{"name": "OR 3", "state": "open", "problem": ""}])
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+        log = self.audited()
+        joined = {e["name"] for e in log if e["event"] == "joined" and e.get("session") == "OR 4"}
+        self.assertLessEqual({"Carla", "David"}, joined)
+        self.assertFalse({"Anna", "Ben"} & joined)
+        self.assertEqual([e["event"] for e in log if e.get("name") == "Anna" and "session" not in e],
+                         ["joined", "left"])
+        self.assertEqual([e["event"] for e in log if e.get("detail") == "OR 4"], ["began", "ended"])
+
+    def test_a_session_is_created_while_the_host_runs_and_kept_over_a_restart(self):
+        with contextlib.ExitStack() as stack:
+            h = stack.enter_context(self.start("--name", "OR 3", "--camera", self.table))
+            anna = stack.enter_context(self.member(h.greeting["link"], "Anna"))
+            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+            self.assertNotIn("sessions", h.greeting)
+
+            # A session that cannot be opened is not created.
+            errors = self.refusal("session", "create", "OR 5", "--camera", "folder:nowhere", "--state", self.state)
+            self.assertIn("nowhere", errors)
+            wait_until(lambda: [s["name"] for s in self.command("session", "list")] == ["OR 3"], 20)
+            self.assertIn("There is a session 'OR 3'",
+                          self.refusal("session", "create", "OR 3", "--state", self.state))
+
+            made = self.command("session", "create", "OR 4", "--camera", self.lamp)
+            self.assertEqual((made["name"], made["state"]), ("OR 4", "open"))
+            ben = stack.enter_context(self.member(made["links"]["expert"], "Ben"))
+            ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"], 20)
+            ben.say("brick 1 2 3")
+            ben.wait_for(lambda f: bricks(f) == [[1, 2, 3]], 10)
+            anna.say("brick 3 2 1")
+            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]], 10)
+
+            # A link of this session for one person, which opens no other one.
+            link = self.command("link", "--session", "OR 4", "--role", "observer", "--for", "Olga")
+            olga = stack.enter_context(self.member(link["link"], "Olga"))
+            self.assertEqual(olga.wait_for(lambda f: people(f) == ["Ben", "Olga"], 20)["role"], "observer")
+            self.assertNotIn(link["name"], [known["name"] for known in self.command("link", "--list")])
+            self.command("link", "--session", "OR 4", "--revoke", link["name"])
+            self.assertEqual(olga.end(20), 1)
+            self.assertIn("no longer valid", "".join(olga.errors))
+
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+        with contextlib.ExitStack() as stack:
+            h = stack.enter_context(self.start("--name", "OR 3", "--camera", self.table))
+            anna = stack.enter_context(self.member(h.greeting["link"], "Anna"))
+            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]], 20)
+            wait_until(lambda: {"name": "OR 4", "state": "open", "problem": ""} in self.command("session", "list"), 20)
+            again = self.command("link", "--session", "OR 4", "--show", "expert")["link"]
+            self.assertEqual(again.split("&cert")[0].split("#")[1], made["links"]["expert"].split("&cert")[0].split("#")[1])
+            ben = stack.enter_context(self.member(again, "Ben"))
+            seen = ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"], 20)
+            self.assertEqual(bricks(seen), [[1, 2, 3]])
+            h.process.terminate()
+            self.assertEqual(h.end(), 0)
+        # Without a host: the session is listed, and ended by deleting its files.
+        self.assertEqual(self.command("session", "list"), [{"name": "OR 4", "state": "closed", "problem": ""}])
+        self.command("session", "end", "OR 4")
+        self.assertEqual(self.command("session", "list"), [])
+        self.assertFalse((self.state / "sessions" / "OR%204").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
