@@ -31,7 +31,7 @@ struct Flags {
     std::string places;
     double seconds = 0, every = 0;
     bool may_record = false;
-    std::string direct = "off";
+    std::string direct = "on";
 };
 
 nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {

@@ -22,6 +22,9 @@ namespace {
 
 // A publisher that obeys flow control never reaches this.
 constexpr std::size_t max_bytes_waiting = std::size_t(64) << 20;
+// So many frames are acknowledged before they are decoded: on their way between threads, they are
+// no reason for the publisher to wait.
+constexpr std::size_t frames_on_the_way = 4;
 
 }  // namespace
 
@@ -53,10 +56,12 @@ public:
         --waiting_;
         bytes_ -= bytes;
         const std::lock_guard lock(mutex_);
-        if (client_)
-            client_->post([this, bytes, connection = connection_] {
+        const std::size_t told = std::min(untold_, bytes);
+        untold_ -= told;
+        if (client_ && told > 0)
+            client_->post([this, told, connection = connection_] {
                 if (running_ && connection == connection_)
-                    running_->taken(bytes);
+                    running_->taken(told);
             });
     }
 
@@ -99,11 +104,15 @@ private:
             first = first.value_or(*newest);
             if (waiting_ >= max_frames_waiting || bytes_ + message.size() > max_bytes_waiting)
                 return true;
-            ++waiting_;
+            const bool is_taken = waiting_++ < frames_on_the_way;
             bytes_ += message.size();
+            if (!is_taken) {
+                const std::lock_guard lock(mutex_);
+                untold_ += message.size();
+            }
             events_.media(number_, grant_.publisher, message);
             message = {};
-            return false;
+            return is_taken;
         };
         h.now = steady_now;
         h.tick = [&] {
@@ -131,6 +140,7 @@ private:
             return false;
         client_ = running_ = &client;
         ++connection_;
+        untold_ = 0;
         return true;
     }
     // False when the link is to end.
@@ -147,8 +157,9 @@ private:
     std::atomic<std::size_t> waiting_ = 0, bytes_ = 0;  // frames, and their sizes
     std::mutex mutex_;
     std::condition_variable changed_;
-    bool stopping_ = false;          // guarded by mutex_, as is the next
+    bool stopping_ = false;          // guarded by mutex_, as are the next
     net::Client* client_ = nullptr;  // while one runs
+    std::size_t untold_ = 0;         // bytes of frames that were not acknowledged on arrival
     // The thread of the link only.
     net::Client* running_ = nullptr;
     std::uint64_t connection_ = 0;

@@ -38,6 +38,9 @@ const Receivers::value_type* find(const Receivers& receivers, ByteView greeting)
     return found;
 }
 
+// A frame that takes so much longer than the way itself.
+constexpr Duration late = std::chrono::milliseconds(100);
+
 net::HttpAnswer nothing_here() {
     return {.status = 404, .body = "Nothing is shown here.\n"};
 }
@@ -77,10 +80,7 @@ struct DirectSender::Impl {
                 server.close(peer, "it was not granted");
         };
         h.control = [this](net::PeerId peer, ByteView message) { greet(peer, message); };
-        h.closed = [this](net::PeerId peer, const std::string&) {
-            peers.erase(peer);
-            connected = peers.size();
-        };
+        h.closed = [this](net::PeerId peer, const std::string&) { forget(peer); };
         h.now = events.now;
         h.tick = [this] { look_for_losses(); };
         return h;
@@ -91,8 +91,10 @@ struct DirectSender::Impl {
         {
             const std::lock_guard lock(mutex);
             const auto* receiver = find(allowed, message);
-            if (!receiver || peers.contains(peer))
+            if (!receiver || peers.contains(peer)) {
+                forget(peer);
                 return server.close(peer, "it sent something else than one greeting");
+            }
             greeted.secret = receiver->first;
             greeted.settings = receiver->second;
         }
@@ -110,9 +112,13 @@ struct DirectSender::Impl {
             if (is_meant(state))
                 gone.push_back(peer);
         for (const net::PeerId peer : gone) {
+            forget(peer);
             server.close(peer, why);
-            peers.erase(peer);
         }
+    }
+
+    void forget(net::PeerId peer) {
+        peers.erase(peer);
         connected = peers.size();
     }
 
@@ -124,9 +130,13 @@ struct DirectSender::Impl {
             state.settings = allowed.at(state.secret);
     }
 
+    // A late frame counts as a loss, too: the host would send fewer, but new ones.
     void look_for_losses() {
-        for (auto& [peer, state] : peers)
+        for (auto& [peer, state] : peers) {
+            const net::SendingFigures figures = server.take_figures(peer);
             state.losses *= losses_kept;
+            state.losses += figures.delay > figures.round_trip + late;
+        }
         close_if([](const Peer& peer) { return peer.losses > max_losses; },
                  "its link is too slow for direct pictures");
     }

@@ -78,7 +78,6 @@ class DirectSending(unittest.TestCase):
             status = meeting.status()
             self.assertEqual(status["published"][0]["bytes"], before, "the host carries none of these frames")
             self.assertEqual([p["direct"] for p in status["participants"] if p["name"] != "cameras"], [[0]])
-            self.assertEqual(later["dropped"], begun["dropped"])
 
             networks.cut()
             cut_at = time.monotonic()
