@@ -182,8 +182,9 @@ SessionFlags parse_session(const std::vector<std::string>& words) {
     SessionFlags flags;
     CLI::App session;
     session.set_help_flag();
-    add_session_options(session, flags);
+    // First, since options are read in this order and a problem names the session.
     session.add_option("--session", flags.options.name)->required();
+    add_session_options(session, flags);
     try {
         session.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     } catch (const CLI::ExtrasError& error) {
