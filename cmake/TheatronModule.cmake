@@ -34,7 +34,9 @@ endfunction()
 # out of the web build, NATIVE_DEPENDS: modules that only native sources include.
 function(theatron_module name)
   cmake_parse_arguments(M "WEB;PURE" "" "NATIVE;DEPENDS;NATIVE_DEPENDS;LINK" ${ARGN})
-  if(EMSCRIPTEN AND NOT M_WEB)
+  if(M_WEB)
+    set_property(GLOBAL APPEND PROPERTY THEATRON_WEB_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
+  elseif(EMSCRIPTEN)
     return()
   endif()
 

@@ -5,11 +5,11 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
-# A simulated headset for a test; without npm or a network that test is left out.
-headset=../tests/end_to_end
-if [ ! -e "$headset/node_modules/iwer" ] && command -v npm > /dev/null; then
-    npm ci --silent --no-fund --no-audit --fetch-retries=0 --fetch-timeout=20000 --prefix "$headset" ||
-        echo "setup: iwer cannot be fetched, so tests/end_to_end/web_headset_test.py is left out" >&2
+# A simulated headset and rules of accessibility for tests; without npm or a network those are left out.
+tests=../tests/end_to_end
+if { [ ! -e "$tests/node_modules/iwer" ] || [ ! -e "$tests/node_modules/axe-core" ]; } && command -v npm > /dev/null; then
+    npm ci --silent --no-fund --no-audit --fetch-retries=0 --fetch-timeout=20000 --prefix "$tests" ||
+        echo "setup: iwer and axe-core cannot be fetched, so tests/end_to_end/web_headset_test.py is left out, and web_access_test.py is shorter" >&2
 fi
 
 mapfile -t wanted < <(grep -vE '^\s*(#|$)' "${1:-packages.txt}")

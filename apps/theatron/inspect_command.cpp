@@ -131,6 +131,7 @@ Json describe_segments(const record::RecordingFile& recording) {
                         {"closed", segment.closed},
                         {"missing_end_seconds",
                          segment.missing_end ? Json(to_seconds(*segment.missing_end)) : Json()},
+                        {"early_end", segment.early_end},
                         {"recovered", segment.recovered},
                         {"head_damaged", segment.head_damaged},
                         {"damaged_places", segment.damaged_places},

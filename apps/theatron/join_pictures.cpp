@@ -50,7 +50,7 @@ OffscreenPicture::OffscreenPicture(ViewPicture wanted)
 
 void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
     scene_.take(participant);
-    if (scene_.can_draw() && !stands_) {
+    if (scene_.can_draw(wanted_.view) && !stands_) {
         room.stand(scene_.view(wanted_.view, wanted_.size).room_from_eye *
                    Pose{Quat{0, 1, 0, 0}, {}});
         stands_ = true;

@@ -222,10 +222,11 @@ void RoomLines::print_refusals(client::Participant& participant, TimePoint now) 
 }
 
 void RoomLines::on_tick(client::Participant& participant) {
-    const bool stands = pose_.head || pose_.right_hand;
+    // Also when the hand is gone again, so that the others see that.
+    was_seen_ = was_seen_ || pose_.head || pose_.right_hand;
     const TimePoint now = steady_now();
     print_refusals(participant, now);
-    if (!stands || now - sent_ < pose_repeated_after || !participant.status().clock_known)
+    if (!was_seen_ || now - sent_ < pose_repeated_after || !participant.status().clock_known)
         return;
     sent_ = now;
     pose_.time = participant.now();

@@ -49,6 +49,7 @@ private:
     void print_refusals(client::Participant& participant, TimePoint now);
 
     wire::PersonPose pose_;
+    bool was_seen_ = false;  // the head or a hand, by others
     std::optional<Pose> room_from_head_;
     TimePoint calls_until_, sent_, refusals_printed_;
     std::uint64_t refused_ = 0;  // not yet printed

@@ -191,7 +191,8 @@ void leave() {
 void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now) {
     if (visit.viewer.color_codec() != visit.color.codec())
         visit.color.choose(visit.viewer.color_codec());
-    if (visit.color.observe(figures, now))
+    (void)visit.color.observe(figures, now);
+    if (visit.viewer.color_codec() != visit.color.codec())
         visit.viewer.choose_color_codec(visit.color.codec());
 }
 

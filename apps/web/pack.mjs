@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs the page for the host: node pack.mjs OUTPUT_FOLDER FILE...
+// Packs the page for the host: node pack.mjs OUTPUT_FOLDER WEB_SOURCES FILE...
 //
 // All but index.html get the hash of their content into their name, so that browsers may keep them for ever.
 // Text and program are compressed in advance. files.txt has a line for each file: its path, type and name.
+// WEB_SOURCES, the number of the page's sources, is copied.
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
@@ -13,7 +14,7 @@ const types = {
     ".mjs": "text/javascript;charset=utf-8", ".wasm": "application/wasm", ".svg": "image/svg+xml",
 };
 
-const [folder, ...files] = process.argv.slice(2);
+const [folder, web_sources, ...files] = process.argv.slice(2);
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const paths = new Map(files.map(file => [basename(file), file]));
@@ -47,3 +48,4 @@ function store(name) {
 for (const name of paths.keys())
     store(name);
 writeFileSync(join(folder, "files.txt"), lines.join("\n") + "\n");
+copyFileSync(web_sources, join(folder, "web_sources.txt"));

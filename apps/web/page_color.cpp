@@ -32,18 +32,15 @@ client::ColorMeasure measure_of(const client::ParticipantFigures& figures) {
 
 }  // namespace
 
-PageColor::PageColor(const std::string& wish, bool can_h264) : preference_(can_h264) {
+PageColor::PageColor(const std::string& wish, bool can_h264)
+    : can_h264_(can_h264), preference_(can_h264) {
     if (wish.empty() || wish == video::auto_color)
         return;
     const auto parsed = video::parse_color_setting(wish);
-    const std::string problem = !parsed.problem.empty() ? parsed.problem
-                                : parsed.setting.id == video::ColorCodecId::h264 && !can_h264
-                                    ? "this browser does not decode H.264"
-                                    : "";
-    if (problem.empty())
+    if (parsed.problem.empty())
         choose(parsed.setting.text);
     else
-        reason_ = "JPEG: " + problem;
+        reason_ = "JPEG: " + parsed.problem;
 }
 
 const std::string& PageColor::codec() const {
@@ -55,6 +52,11 @@ const std::string& PageColor::reason() const {
 }
 
 void PageColor::choose(const std::string& codec) {
+    if (is_h264(codec) && !can_h264_) {
+        chosen_.clear();
+        reason_ = "JPEG: this browser does not decode H.264";
+        return;
+    }
     chosen_ = codec;
     reason_ = codec + ", as you chose";
     failures_before_.reset();

@@ -26,13 +26,14 @@ public:
     // A few times a second. True if codec() changed. A chosen codec is left only if the browser's
     // decoder fails.
     bool observe(const client::ParticipantFigures& figures, TimePoint now);
-    // The person has chosen this codec.
+    // The person has chosen this codec; without an effect if this page cannot decode it.
     void choose(const std::string& codec);
 
     // For the panels: "color" and one fact more.
     void add_to(nlohmann::json& state) const;
 
 private:
+    bool can_h264_;
     client::ColorPreference preference_;
     std::string chosen_, reason_;  // empty: as preference_ says
     std::optional<std::uint64_t> failures_before_;

@@ -17,6 +17,7 @@ std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code)
         {"b", Action::facts},
         {"m", Action::next_renderer},
         {"c", Action::next_depth_codec},
+        {"v", Action::next_color_codec},
         {"n", Action::new_brick},
         {"g", Action::give},
         {"y", Action::admit},

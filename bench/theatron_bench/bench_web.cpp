@@ -97,7 +97,8 @@ json ages_of(const json& cameras) {
 
 json measure(const WebBench& bench, const std::string& link, const std::string& chromium) {
     BrowserPage page(chromium, bench.size, watch_tasks);
-    page.open(link + (bench.decoding.empty() ? "" : "&decoding=" + bench.decoding));
+    page.open(link + (bench.decoding.empty() ? "" : "&decoding=" + bench.decoding) +
+              (bench.color.empty() ? "" : "&color=" + bench.color));
     page.wait_for("location.protocol === 'https:'", patience);
     page.evaluate(enter);
     page.wait_for("theatron.complete_ms !== null", patience);
@@ -122,16 +123,24 @@ json measure(const WebBench& bench, const std::string& link, const std::string& 
     r["cameras"] = last["cameras"].size();
     r["decoders"] = last["decoders"];
     r["renderer"] = last["renderer"];
-    double fps_min = 1e9, dropped = 0;
+    double fps_min = 1e9, color_fps_min = 1e9, dropped = 0, mbit_per_s = 0, color_decode_ms = 0;
     for (std::size_t i = 0; i < last["cameras"].size(); ++i) {
         const json &before = first["cameras"].at(i), &after = last["cameras"][i];
         const auto grown = [&](const char* key) {
             return after[key].get<double>() - before[key].get<double>();
         };
         fps_min = std::min(fps_min, grown("depth_frames") / seconds);
+        color_fps_min = std::min(color_fps_min, grown("color_frames") / seconds);
         dropped += grown("dropped");
+        mbit_per_s += after["mbit_per_second"].get<double>();
+        color_decode_ms = std::max(color_decode_ms, after["color_decode_ms"].get<double>());
     }
     r["fps_min"] = fps_min;
+    r["color_fps_min"] = color_fps_min;
+    r["color"] = last["cameras"].empty() ? json("") : last["cameras"][0]["color"];
+    r["color_reason"] = last["color"]["reason"];
+    r["color_decode_ms"] = color_decode_ms;
+    r["mbit_per_s"] = mbit_per_s;
     r["dropped"] = dropped;
     r["pictures_per_s"] =
         (last["pictures"].get<double>() - first["pictures"].get<double>()) / seconds;
@@ -203,6 +212,8 @@ void add_web_bench(CLI::App& bench) {
         ->capture_default_str();
     command->add_option("--decoding", flags->bench.decoding, "page: without decoding workers")
         ->check(CLI::IsMember({"page"}));
+    command->add_option("--color", flags->bench.color,
+                        "The codec of colour that the page asks for; by itself if empty");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
@@ -224,6 +235,10 @@ void add_web_bench(CLI::App& bench) {
             std::printf("page and program         %8.0f kB\n", number("transferred_bytes") / 1000);
             std::printf("decoded, slowest camera  %8.1f frames a second, %.0f dropped\n",
                         number("fps_min"), number("dropped"));
+            std::printf("colour                   %8.1f frames a second, %.1f ms each (%s)\n",
+                        number("color_fps_min"), number("color_decode_ms"),
+                        r["color"].get<std::string>().c_str());
+            std::printf("data                     %8.1f Mbit/s\n", number("mbit_per_s"));
             std::printf("drawn                    %8.1f pictures a second\n",
                         number("pictures_per_s"));
             std::printf("age beyond native        %8.1f ms (p50), %.1f ms (p99)\n",

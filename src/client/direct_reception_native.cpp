@@ -18,6 +18,12 @@
 #include "wire/direct_greeting.h"
 
 namespace theatron::client {
+namespace {
+
+// A publisher that obeys flow control never reaches this.
+constexpr std::size_t max_bytes_waiting = std::size_t(64) << 20;
+
+}  // namespace
 
 // One publisher, on a thread of its own.
 class DirectReception::Link {
@@ -45,6 +51,7 @@ public:
 
     void taken(std::size_t bytes) {
         --waiting_;
+        bytes_ -= bytes;
         const std::lock_guard lock(mutex_);
         if (client_)
             client_->post([this, bytes, connection = connection_] {
@@ -90,9 +97,10 @@ private:
         h.media = [&](Bytes& message) {
             newest = steady_now();
             first = first.value_or(*newest);
-            if (waiting_ >= max_frames_waiting)
+            if (waiting_ >= max_frames_waiting || bytes_ + message.size() > max_bytes_waiting)
                 return true;
             ++waiting_;
+            bytes_ += message.size();
             events_.media(number_, grant_.publisher, message);
             message = {};
             return false;
@@ -135,8 +143,8 @@ private:
     const std::uint64_t number_;
     const wire::DirectGrant grant_;
     const Events& events_;
-    std::vector<std::string> addresses_;  // the thread of the link only
-    std::atomic<std::size_t> waiting_ = 0;
+    std::vector<std::string> addresses_;                // the thread of the link only
+    std::atomic<std::size_t> waiting_ = 0, bytes_ = 0;  // frames, and their sizes
     std::mutex mutex_;
     std::condition_variable changed_;
     bool stopping_ = false;          // guarded by mutex_, as is the next

@@ -329,7 +329,12 @@ private:
             if (object.kind != session::ObjectKind::person || session::is_recorded(id))
                 continue;
             const auto facts = session::decode_person(object.properties);
-            if (!facts || facts->records || !session::may(facts->role, session::Right::speak))
+            if (!facts || facts->records)
+                continue;
+            const bool may_speak = session::may(facts->role, session::Right::speak);
+            if (facts->muted || !may_speak)
+                intake_.interrupt_voice(object.creator);
+            if (!may_speak)
                 continue;
             // A person who comes agrees a moment later.
             if (facts->voice_recorded) {

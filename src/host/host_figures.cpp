@@ -193,6 +193,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"past_bytes", figures.past_bytes},
             {"turned_away", figures.turned_away},
             {"faults", figures.faults},
+            {"page_problem", figures.page_problem},
             {"certificates", certificates}};
 }
 
@@ -371,6 +372,8 @@ std::string to_table(const nlohmann::json& figures) {
     };
     count("faults", "faults inside the host, see its log");
     count("turned_away", "strangers turned away");
+    if (const std::string problem = text(figures, "page_problem"); !problem.empty())
+        table += problem + "\n";
     for (const auto& certificate : list(figures, "certificates"))
         if (const std::string problem = text(certificate, "problem"); !problem.empty())
             table += problem + "\n";

@@ -59,6 +59,7 @@ struct HostFigures {
     std::vector<wire::Visitor> visitors;       // who wait for admission
     std::size_t past_bytes = 0;                // encoded pictures that are kept for looking back
     std::uint64_t turned_away = 0;             // strangers, since the host began
+    std::string page_problem;                  // of the browser client (host/page.h); else empty
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
     struct Certificate {
@@ -81,7 +82,7 @@ struct HostFigures {
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
-// "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
+// "page_problem","certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // The same of the first session of a host; those of its further ones are in "sessions", which is
 // missing where there are none. `all` is not empty.

@@ -481,6 +481,7 @@ HostFigures Host::Impl::figures() const {
     figures.past_bytes = past_figure;
     figures.turned_away = port->turned_away();
     figures.faults = fault_count();
+    figures.page_problem = port->page_problem();
     return figures;
 }
 

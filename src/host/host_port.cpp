@@ -31,8 +31,11 @@ AuditLog* HostPort::open_audit() {
 }
 
 void HostPort::open_page() {
-    if (!page_)
-        page_ = options_.page.empty() ? Page() : Page(options_.page);
+    if (page_)
+        return;
+    page_ = options_.page.empty() ? Page() : Page(options_.page);
+    if (!page_->problem().empty())
+        log::warning("host", "page", {{"problem", page_->problem()}});
 }
 
 void HostPort::open() {

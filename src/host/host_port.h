@@ -49,6 +49,7 @@ public:
     std::uint16_t number() const { return server_->port(); }
     std::vector<HostFigures::Certificate> certificates() const;
     std::uint64_t turned_away() const { return turned_away_; }
+    std::string page_problem() const { return page_->problem(); }
     // The threads of all lanes.
     send::Workers& workers() { return workers_; }
 

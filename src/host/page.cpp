@@ -37,6 +37,14 @@ std::shared_ptr<const std::string> content_of(const std::filesystem::path& file)
     return std::make_shared<const std::string>(std::move(content).str());
 }
 
+// Empty if there is no such number.
+std::string sources_number(const std::filesystem::path& folder) {
+    std::ifstream in(folder / "web_sources.txt");
+    std::string number;
+    in >> number;
+    return number;
+}
+
 }  // namespace
 
 Page::Page(const std::filesystem::path& folder) {
@@ -45,6 +53,12 @@ Page::Page(const std::filesystem::path& folder) {
     while (list >> path >> type >> name)
         files_[path] = {type, content_of(folder / name), content_of(folder / (name + ".gz")),
                         content_of(folder / (name + ".br"))};
+    // `folder` may be a link to elsewhere; its parent is the program's folder all the same.
+    const std::string own = sources_number(folder), expected = sources_number(folder.parent_path());
+    if (!empty() && !own.empty() && !expected.empty() && own != expected)
+        problem_ =
+            "The browser client was built from other sources than this program; build both with: "
+            "make build";
 }
 
 std::optional<net::HttpAnswer> Page::answer(const net::HttpRequest& request) const {

@@ -22,6 +22,9 @@ public:
     explicit Page(const std::filesystem::path& folder);
 
     bool empty() const { return files_.empty(); }
+    // One sentence if the page was built from other sources than the program in the folder above,
+    // by web_sources.txt in both (cmake/WebSources.cmake); otherwise, or if one is missing, empty.
+    const std::string& problem() const { return problem_; }
 
     // nullopt if there is nothing at this path. Only listed paths are found, whatever the request.
     std::optional<net::HttpAnswer> answer(const net::HttpRequest& request) const;
@@ -33,6 +36,7 @@ private:
         Content plain, gzip, brotli;
     };
     std::map<std::string, File, std::less<>> files_;  // by path
+    std::string problem_;
 };
 
 // The folder of the page of this program: `web` beside it. Empty if that cannot be found out.

@@ -76,6 +76,29 @@ TEST_F(PageTest, HasOnlyListedFiles) {
         EXPECT_FALSE(page.answer({target, "", "br"})) << target;
 }
 
+TEST_F(PageTest, KnowsThatItWasBuiltFromOtherSourcesThanTheProgram) {
+    const std::filesystem::path program = folder.path() / "program",
+                                built = folder.path() / "built";
+    std::filesystem::create_directories(program);
+    std::filesystem::create_directories(built);
+    // As in a build's folder: the page lies elsewhere.
+    std::filesystem::create_symlink(built, program / "web");
+    const auto problem = [&] { return Page(program / "web").problem(); };
+    write("built/files.txt", "");
+    EXPECT_EQ(problem(), "");
+    for (const char* name : {"a.js", "a.js.gz", "a.js.br"})
+        write(std::string("built/") + name, "content");
+    write("built/files.txt", "/a.js text/javascript a.js\n");
+    EXPECT_EQ(problem(), "");
+    write("built/web_sources.txt", "12\n");
+    write("web_sources.txt", "13\n");
+    EXPECT_EQ(problem(), "");
+    write("program/web_sources.txt", "12\n");
+    EXPECT_EQ(problem(), "");
+    write("program/web_sources.txt", "13\n");
+    EXPECT_NE(problem().find("make build"), std::string::npos);
+}
+
 TEST_F(PageTest, WithoutAFolderThereIsNoPage) {
     EXPECT_TRUE(Page(folder.path()).empty());
     EXPECT_TRUE(Page(std::filesystem::path()).empty());

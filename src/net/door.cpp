@@ -352,6 +352,10 @@ private:
         // The deadline is kept here: timers of the socket would run on the other thread.
         web_->set_option(websocket::stream_base::timeout{websocket::stream_base::none(),
                                                          websocket::stream_base::none(), false});
+        // Otherwise the library writes its name and version.
+        web_->set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+            response.set(http::field::server, "Theatron");
+        }));
         web_->read_message_max(wire::max_first_envelope_size);
         web_->async_accept(parser_.get(), step([this] { read_first(); }));
     }

@@ -68,6 +68,9 @@ public:
     // are used up, a segment begins with the next key frame. From any thread.
     static constexpr std::size_t spare_voices = 4;
     void describe_voices(std::vector<RecordedVoice> voices);
+    // The host withholds the packets of this person, who is muted or may not speak: they do not
+    // count as missing.
+    void interrupt_voice(ParticipantId person);
 
     // A packet of such a person, in the order of arrival. Voices go into the file as gapless
     // sequences (voice_track.h), silence up to voice_patience before the newest picture, or up to

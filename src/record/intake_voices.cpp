@@ -21,6 +21,9 @@ void Intake::describe_voices(std::vector<RecordedVoice> voices) {
     agreed_ = std::move(voices);
     if (agreed_.size() > max_voice_tracks - spare_voices)
         agreed_.resize(max_voice_tracks - spare_voices);
+    for (VoiceLane& lane : voices_)
+        if (lane.person && !names(agreed_, *lane.person))
+            lane.sequence.interrupt();
     if (!recorder_ || !problem_.empty() || wants_segment_)
         return;
     const auto has_lane = [&](const RecordedVoice& voice) { return voice_lane_of(voice.person); };
@@ -29,6 +32,13 @@ void Intake::describe_voices(std::vector<RecordedVoice> voices) {
     wants_segment_ = true;
     for (auto& [id, entry] : entries_)
         entry.gate.want_key();
+}
+
+void Intake::interrupt_voice(ParticipantId person) {
+    const std::lock_guard lock(mutex_);
+    for (VoiceLane& lane : voices_)
+        if (lane.person == person)
+            lane.sequence.interrupt();
 }
 
 std::vector<VoiceTrack> Intake::voice_tracks() const {

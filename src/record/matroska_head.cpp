@@ -112,6 +112,8 @@ Status read_tag(Window& window, const Element& tag, FoundHead& head) {
         });
         if (name == recovered_tag)
             head.recovered = value;
+        if (name == early_end_tag)
+            head.early_end = value;
         return status;
     });
 }
@@ -345,6 +347,7 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
     damaged =
         damaged || copy->tracks != plain.head.tracks || copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
+    copy->early_end = plain.head.early_end;
     copy->closed = plain.head.closed;
     copy->segment_end = plain.head.segment_end;
     copy->duration_us = plain.head.duration_us;

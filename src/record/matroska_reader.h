@@ -46,8 +46,10 @@ struct FoundHead {
     // A copy of the head, or the head that players read, is damaged; nothing of it is missing.
     bool damaged = false;
     std::string recovered;  // a recovered file: its tag about the missing parts of the original
-    // From the beginning of the file, not from copies: the time of the last block that was
+    // From the beginning of the file, not from copies: the cause of an early end (early_end_tag;
+    // empty: none), the time of the last block that was
     // certainly on the disk (0: unknown), and the end of the segment (0: it was never closed).
+    std::string early_end;
     std::int64_t duration_us = 0;
     std::uint64_t segment_end = 0;
     bool closed = false;            // the segment has a size, and ends within the file

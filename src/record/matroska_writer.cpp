@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "record/recording_layout.h"
 
 namespace theatron::record {
 namespace {
@@ -122,16 +123,24 @@ std::string MatroskaWriter::problem(int error) const {
            "; the recording ends here, " + fate() + ".";
 }
 
+std::string MatroskaWriter::fail(int error) {
+    failed_ = true;
+    if (early_end_.empty())
+        early_end_ = error == ENOSPC || error == EDQUOT ? disk_full
+                     : error == EFBIG                   ? file_too_large
+                                                        : disk_failed;
+    return problem(error);
+}
+
 // All or nothing.
 std::string MatroskaWriter::append(const Bytes& bytes) {
     // Once written to, a file that was cut is as long as before, with zeros where it was cut.
     if (struct stat found{}; fstat(file_, &found) == 0 && std::uint64_t(found.st_size) < end_)
         cut_bytes_ += end_ - std::uint64_t(found.st_size);
     if (const int error = write_at(file_, bytes, end_); error != 0) {
-        failed_ = true;
         // If even that fails, the reader still stops at the last whole cluster.
         [[maybe_unused]] const int ignored = ftruncate(file_, off_t(end_));
-        return problem(error);
+        return fail(error);
     }
     end_ += bytes.size();
     return "";
@@ -184,10 +193,7 @@ std::string MatroskaWriter::sync() {
     int error = fdatasync(file_) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
     if (error == 0)
         error = write_duration();
-    if (error == 0)
-        return "";
-    failed_ = true;
-    return problem(error);
+    return error == 0 ? "" : fail(error);
 }
 
 // It has its room in the file, on a full disk too. Returns 0 or errno.
@@ -228,6 +234,8 @@ std::string MatroskaWriter::finish() {
     // These parts have their room in the file, on a full disk too.
     Bytes seek_head;
     render_seek_head(places_, segment_, seek_head);
+    if (was_cut_back && !early_end_.empty())
+        render_tags({{early_end_tag, early_end_}}, seek_head);
     assert(seek_head.size() + void_head_size <= seek_head_space);
     render_void(seek_head_space - seek_head.size(), seek_head);
     int error = write_at(file_, seek_head, segment_);

@@ -59,11 +59,13 @@ private:
     std::string append(const Bytes& bytes);
     int write_duration();
     std::string problem(int error) const;
+    std::string fail(int error);
 
     std::filesystem::path path_;
     MatroskaInfo info_;
     int file_ = -1;
     bool failed_ = false;
+    std::string early_end_;  // the cause of the first failure, for its tag
     std::uint64_t end_ = 0;  // of the file
     std::uint64_t cut_bytes_ = 0;
     std::uint64_t segment_ = 0;                    // position of the segment's content

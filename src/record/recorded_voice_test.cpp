@@ -106,6 +106,23 @@ TEST_F(RecordedVoices, NothingIsRecordedOfAPersonWhoHasNotAgreedOrNoLonger) {
     EXPECT_EQ(speech(*recording, 0).at(0).first, 2);
 }
 
+TEST_F(RecordedVoices, PacketsOfAMutedPersonOrOfOneWhoNoLongerAgreedAreNotMissing) {
+    intake_.describe_voices(people);
+    pictures(0, 20);
+    say(anna, 1, 660ms);
+    intake_.interrupt_voice(anna);
+    say(anna, 11, 860ms);
+    intake_.describe_voices({people[1]});
+    intake_.describe_voices(people);
+    say(anna, 21, 1060ms);
+    const auto voices = intake_.voices();
+    ASSERT_EQ(voices.size(), 2u);
+    EXPECT_EQ(voices[0].figures.packets, 3u);
+    EXPECT_EQ(voices[0].figures.missing, 0u);
+    say(anna, 31, 1260ms);
+    EXPECT_EQ(intake_.voices()[0].figures.missing, 9u) << "those that were lost";
+}
+
 TEST_F(RecordedVoices, PeopleWhoAgreeLaterGetSpareTracksThenASegmentBegins) {
     intake_.describe_voices({people[0]});
     pictures(0, 10);
@@ -152,7 +169,8 @@ TEST_F(RecordedVoices, DamageOfAPacketCostsOnlyItAndTheRestIsRecovered) {
     const Recovered saved = recover(*damaged, folder_.path() / "saved.mkv", {});
     EXPECT_FALSE(saved.complete);
     EXPECT_EQ(saved.voices.damaged, 1u);
-    EXPECT_EQ(saved.voices.saved, blocks - 1);
+    EXPECT_EQ(saved.voices.saved, 39u) << "silence is nobody's";
+    EXPECT_EQ(saved.voices.silent, blocks - 40);
     const auto again = RecordingFile::open(folder_.path() / "saved.mkv");
     EXPECT_TRUE(again->complete());
     EXPECT_EQ(speech(*again, 0), speech(*damaged, 0));

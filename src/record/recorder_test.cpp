@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "record/remarks.h"
 #include "record/test_recordings.h"
 
 namespace theatron::record {
@@ -137,6 +138,9 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     }
     const auto recording = RecordingFile::open(path);
     EXPECT_TRUE(recording->complete()) << "it was closed, if early";
+    EXPECT_EQ(remarks_on(recording->segments()[0]),
+              std::vector<std::string>{
+                  "it ends earlier than was wanted: the system allowed no larger file"});
     EXPECT_GT(frames_in(*recording), 10u);
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }

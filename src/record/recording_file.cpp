@@ -288,6 +288,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             segment.damaged_bytes += cut_in_clusters;
         }
     }
+    segment.early_end = clean_text(head.early_end, max_note);
     segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));
     sources_.push_back(std::move(member.source));

@@ -117,6 +117,7 @@ struct Segment {
     // Bytes at the end that cannot be read although the file was closed, in which pictures may be.
     // They count as a damaged place.
     std::uint64_t unread_end = 0;
+    std::string early_end;      // its writing failed: the tag's text (early_end_tag)
     std::string recovered;      // a recovered file: losses_of() of the original
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;

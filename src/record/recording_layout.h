@@ -20,6 +20,11 @@ inline constexpr const char* note_name = "theatron.filters";
 inline constexpr const char* check_name = "theatron.check";
 // A tag of a recovered file: the losses in the original.
 inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
+// A tag of a file whose writing failed: the cause, one of the three below.
+inline constexpr const char* early_end_tag = "THEATRON_ENDED";
+inline constexpr const char* disk_full = "disk full";
+inline constexpr const char* disk_failed = "disk failed";
+inline constexpr const char* file_too_large = "file size";  // the system allows no larger one
 inline constexpr const char* no_filters = "off";
 inline constexpr const char* unnamed_filters = "unnamed";
 

@@ -81,7 +81,8 @@ public:
         out.header = *header;
         out.message = std::move(message);
         out.filters = filters_;
-        ++counts_.saved;
+        const bool is_silence = is_voice(header->stream) && header->codec == silence_codec;
+        ++(is_silence ? counts_.silent : counts_.saved);
         return true;
     }
 

@@ -13,6 +13,7 @@ namespace theatron::record {
 
 struct RecoveredStream {
     std::uint64_t saved = 0;
+    std::uint64_t silent = 0;       // saved, too: silence of a voice, which the recorder made
     std::uint64_t damaged = 0;      // left out
     std::uint64_t undecodable = 0;  // left out: they refer to missing pictures
     std::uint64_t repeated = 0;     // left out: second copies in a file of version 1
@@ -29,7 +30,7 @@ struct Recovered {
     };
     std::vector<Camera> cameras;  // in the order of the recording
     RecoveredStream room;         // parts of the room's state
-    RecoveredStream voices;       // Opus packets of all voices, silence included
+    RecoveredStream voices;       // Opus packets of all voices
 };
 
 // Writes segment by segment into new files with names from `out` (segment_path), which must not

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "record/recording_layout.h"
+
 namespace theatron::record {
 namespace {
 
@@ -43,6 +45,16 @@ std::string remark_on_foreign(const Segment& segment) {
     return text;
 }
 
+// A sentence without its full stop; empty: writing has not failed.
+std::string early_end_of(const Segment& segment) {
+    const std::string begin = "it ends earlier than was wanted: ";
+    if (segment.early_end == disk_full)
+        return begin + "the disk was full";
+    if (segment.early_end == file_too_large)
+        return begin + "the system allowed no larger file";
+    return segment.early_end.empty() ? "" : begin + "the disk failed";
+}
+
 }  // namespace
 
 std::string end_of(const Segment& segment) {
@@ -68,6 +80,7 @@ std::string losses_of(const Segment& segment) {
         losses += (losses.empty() || more.empty() ? "" : "; ") + more;
     };
     add(end_of(segment));
+    add(early_end_of(segment));
     if (segment.damaged_places > 0)
         add(count_of(segment.damaged_places, "damaged place"));
     if (segment.refused > 0)
@@ -79,6 +92,8 @@ std::vector<std::string> remarks_on(const Segment& segment) {
     std::vector<std::string> remarks;
     if (std::string end = end_of(segment); !end.empty())
         remarks.push_back(std::move(end));
+    if (std::string early = early_end_of(segment); !early.empty())
+        remarks.push_back(std::move(early));
     if (segment.head_damaged)
         remarks.emplace_back(
             "its beginning or a copy of that is damaged; an intact one was read, and no picture "

@@ -34,6 +34,8 @@ public:
 
     // A packet of the speaker. It is left out if its place has been filled already.
     void put(const VoicePacket& packet, const Write& write);
+    // Packets may have been withheld on purpose from here on: they do not count as missing.
+    void interrupt() { speaks_ = false; }
     // Everything before session time `until` has come or will not come: fills with silence up to
     // there, in whole blocks of 120 ms. Before the first packet, too.
     void fill(TimePoint until, const Write& write);

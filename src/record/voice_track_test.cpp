@@ -80,6 +80,16 @@ TEST_F(Sequence, ALostPacketIsSilenceOfItsLength) {
     EXPECT_EQ(sequence_.figures().missing, 2u);
 }
 
+TEST_F(Sequence, APacketThatWasWithheldIsSilenceButNotMissing) {
+    say(0, 0ms);
+    sequence_.interrupt();
+    say(30, 600ms);
+    say(32, 640ms);
+    EXPECT_EQ(speech(), (std::vector<Duration>{0ms, 600ms, 640ms}));
+    expect_gapless();
+    EXPECT_EQ(sequence_.figures().missing, 1u) << "the one on the way";
+}
+
 TEST_F(Sequence, JitterOfTheSpeakersClockMovesNothing) {
     std::minstd_rand random(3);
     for (std::uint32_t i = 0; i < 500; ++i)

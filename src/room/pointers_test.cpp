@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "render/room_picture.h"
 #include "render/test_context.h"
+#include "room/people.h"
 
 namespace theatron::room {
 namespace {
@@ -30,6 +33,25 @@ TEST_F(PointersTest, EndAtTheSurfaceWithADotAndTheName) {
     EXPECT_LT(length(frame.texts[0].room_from_text.translation - dot), 0.05);
     for (std::size_t i = 0; i + 1 < frame.objects.size(); ++i)
         EXPECT_GT(frame.objects[i].room_from_object.translation.z, 0);
+}
+
+TEST_F(PointersTest, OfTwoPeopleHaveEachADotOnTheOrganAndOnTheSliceInTheirColour) {
+    Pointer anna = pointer, ben{ParticipantId{2}, "Ben", {0.2, 1.3, 0.5}, {0, 0, -1}, 0.5};
+    anna.twin = Vec3{-0.5, 1.5, 0};
+    ben.twin = Vec3{-0.5, 1.2, 0};
+    render::SceneFrame frame;
+    Pointers().add_to(frame, {anna, ben}, view);
+    for (const Pointer& one : {anna, ben})
+        for (const Vec3 place : {one.from + one.direction * *one.reach_m, *one.twin}) {
+            const auto dot = std::find_if(
+                frame.objects.begin(), frame.objects.end(), [&](const render::SceneObject& object) {
+                    return length(object.room_from_object.translation - place) < 1e-9;
+                });
+            ASSERT_NE(dot, frame.objects.end()) << one.name;
+            EXPECT_EQ(dot->look.base_color, color_of(one.id)) << one.name;
+        }
+    ASSERT_EQ(frame.texts.size(), 2u);
+    EXPECT_EQ(frame.texts[1].utf8, "Ben");
 }
 
 TEST_F(PointersTest, EndInTheAirWithoutDotAndName) {

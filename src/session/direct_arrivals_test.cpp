@@ -10,25 +10,25 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr StreamId stream{4};
-constexpr Duration period = 33ms;
+constexpr StreamId arriving{4};
+constexpr Duration arrival_period = 33ms;
 
-class Arrivals : public ::testing::Test {
+class DirectArrivalsTest : public ::testing::Test {
 protected:
     bool come(FrameNumber frame, Way way, SettingId setting = SettingId{1}) {
         wire::MediaHeader header;
-        header.stream = stream;
+        header.stream = arriving;
         header.setting = setting;
         header.frame = frame;
         return arrivals.take(header, way, now);
     }
-    SettingId direct() { return arrivals.direct_setting(stream, period, now); }
+    SettingId direct() { return arrivals.direct_setting(arriving, arrival_period, now); }
 
     TimePoint now = from_us(5'000'000);
     DirectArrivals arrivals;
 };
 
-TEST_F(Arrivals, EachFrameIsTakenOnceWhicheverWayIsFaster) {
+TEST_F(DirectArrivalsTest, EachFrameIsTakenOnceWhicheverWayIsFaster) {
     EXPECT_TRUE(come(10, Way::by_host));
     EXPECT_FALSE(arrivals.is_used()) << "nothing is kept of streams that do not come directly";
     EXPECT_TRUE(come(11, Way::direct));
@@ -41,13 +41,13 @@ TEST_F(Arrivals, EachFrameIsTakenOnceWhicheverWayIsFaster) {
     EXPECT_TRUE(come(15, Way::by_host));
 }
 
-TEST_F(Arrivals, FrameNumbersWrap) {
+TEST_F(DirectArrivalsTest, FrameNumbersWrap) {
     EXPECT_TRUE(come(0xffffffff, Way::direct));
     EXPECT_TRUE(come(0, Way::by_host));
     EXPECT_FALSE(come(0xffffffff, Way::by_host));
 }
 
-TEST_F(Arrivals, AnEncoderThatCountsAnewIsFollowed) {
+TEST_F(DirectArrivalsTest, AnEncoderThatCountsAnewIsFollowed) {
     EXPECT_TRUE(come(1000, Way::direct));
     EXPECT_FALSE(come(3, Way::direct));
     now += DirectArrivals::memory + 1ms;
@@ -55,7 +55,7 @@ TEST_F(Arrivals, AnEncoderThatCountsAnewIsFollowed) {
     EXPECT_TRUE(come(2, Way::direct, SettingId{2})) << "another setting has another encoder";
 }
 
-TEST_F(Arrivals, AStreamIsDirectAsLongAsItsFramesCome) {
+TEST_F(DirectArrivalsTest, AStreamIsDirectAsLongAsItsFramesCome) {
     EXPECT_EQ(direct(), SettingId{});
     come(1, Way::direct);
     EXPECT_EQ(direct(), SettingId{1});
@@ -64,10 +64,10 @@ TEST_F(Arrivals, AStreamIsDirectAsLongAsItsFramesCome) {
     EXPECT_EQ(direct(), SettingId{1});
     now += 1ms;
     EXPECT_EQ(direct(), SettingId{});
-    EXPECT_EQ(arrivals.direct_setting(stream, 1s, now), SettingId{1}) << "of a slow camera";
+    EXPECT_EQ(arrivals.direct_setting(arriving, 1s, now), SettingId{1}) << "of a slow camera";
     come(3, Way::direct, SettingId{2});
     EXPECT_EQ(direct(), SettingId{2});
-    arrivals.end(stream);
+    arrivals.end(arriving);
     EXPECT_EQ(direct(), SettingId{});
     arrivals.end(StreamId{99});
 }

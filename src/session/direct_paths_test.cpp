@@ -8,12 +8,12 @@
 namespace theatron::session {
 namespace {
 
-constexpr SettingId depth{7}, color{9};
-constexpr ParticipantId sender{5};
+constexpr SettingId path_depth{7}, path_color{9};
+constexpr ParticipantId path_sender{5};
 
-class Paths : public ::testing::Test {
+class DirectPathsTest : public ::testing::Test {
 protected:
-    Paths()
+    DirectPathsTest()
         : paths(
               [this] {
                   Bytes secret(wire::direct_secret_size);
@@ -21,16 +21,16 @@ protected:
                   return secret;
               },
               actions) {
-        paths.set_address(sender, "192.0.2.5");
-        paths.join(sender);
-        paths.offer(sender, {{"10.0.0.5"}, 4000, Bytes(wire::fingerprint_size)});
+        paths.set_address(path_sender, "192.0.2.5");
+        paths.join(path_sender);
+        paths.offer(path_sender, {{"10.0.0.5"}, 4000, Bytes(wire::fingerprint_size)});
     }
 
-    // These get depth and colour of the sender's camera.
+    // Each of these gets depth and colour of the camera.
     std::vector<StreamUse> used_by(std::vector<ParticipantId> receivers,
-                                   SettingId depth_setting = depth) {
-        std::vector<StreamUse> uses{{sender, StreamId{0}, depth_setting, {}, false},
-                                    {sender, StreamId{1}, color, {}, false}};
+                                   SettingId depth_setting = path_depth) {
+        std::vector<StreamUse> uses{{path_sender, StreamId{0}, depth_setting, {}, false},
+                                    {path_sender, StreamId{1}, path_color, {}, false}};
         for (StreamUse& use : uses)
             for (const ParticipantId receiver : receivers)
                 use.receivers.push_back({receiver, true});
@@ -50,7 +50,7 @@ protected:
         keys = paths.follow(uses);
         return std::exchange(actions, {});
     }
-    bool is_relayed(ParticipantId id, bool key, SettingId setting = depth) {
+    bool is_relayed(ParticipantId id, bool key, SettingId setting = path_depth) {
         wire::MediaHeader header;
         header.setting = setting;
         header.key = key;
@@ -60,7 +60,7 @@ protected:
     void go_direct() {
         come(alice);
         (void)follow(used_by({alice}));
-        report(alice, {depth, color});
+        report(alice, {path_depth, path_color});
         last = follow(used_by({alice}));
     }
 
@@ -70,153 +70,153 @@ protected:
     DirectPaths paths;
 };
 
-TEST_F(Paths, BothSidesLearnOneSecret) {
+TEST_F(DirectPathsTest, BothSidesLearnOneSecret) {
     come(alice);
     const auto sent = follow(used_by({alice}));
     const auto grants = messages_to<wire::DirectGrants>(alice, sent);
     ASSERT_EQ(grants.size(), 1u);
     ASSERT_EQ(grants[0].grants.size(), 1u);
     const wire::DirectGrant& grant = grants[0].grants[0];
-    EXPECT_EQ(grant.publisher, sender);
+    EXPECT_EQ(grant.publisher, path_sender);
     EXPECT_EQ(grant.addresses, (std::vector<std::string>{"192.0.2.5", "10.0.0.5"}))
         << "the address at which the host sees it comes first";
     EXPECT_EQ(grant.port, 4000);
-    const auto receivers = messages_to<wire::DirectReceivers>(sender, sent);
+    const auto receivers = messages_to<wire::DirectReceivers>(path_sender, sent);
     ASSERT_EQ(receivers.size(), 1u);
     ASSERT_EQ(receivers[0].receivers.size(), 1u);
     EXPECT_EQ(receivers[0].receivers[0].secret, grant.secret);
-    EXPECT_EQ(receivers[0].receivers[0].settings, (std::vector{depth, color}));
+    EXPECT_EQ(receivers[0].receivers[0].settings, (std::vector{path_depth, path_color}));
     EXPECT_TRUE(receivers[0].not_to_host.empty()) << "nothing has come directly";
     EXPECT_TRUE(follow(used_by({alice})).empty()) << "nothing is said twice";
     EXPECT_TRUE(is_relayed(alice, false));
 }
 
-TEST_F(Paths, TheHostLetsGoOfWhatComesDirectlyToAll) {
+TEST_F(DirectPathsTest, TheHostLetsGoOfWhatComesDirectlyToAll) {
     go_direct();
-    const auto receivers = messages_to<wire::DirectReceivers>(sender, last);
+    const auto receivers = messages_to<wire::DirectReceivers>(path_sender, last);
     ASSERT_EQ(receivers.size(), 1u);
-    EXPECT_EQ(receivers[0].not_to_host, (std::vector{depth, color}));
+    EXPECT_EQ(receivers[0].not_to_host, (std::vector{path_depth, path_color}));
     EXPECT_FALSE(is_relayed(alice, true));
-    EXPECT_TRUE(paths.is_direct(alice, depth));
+    EXPECT_TRUE(paths.is_direct(alice, path_depth));
 
     // A late joiner gets its frames from the host first, from the key frame that its coming asks
     // for.
     come(bob);
     const auto sent = follow(used_by({alice, bob}));
-    ASSERT_EQ(messages_to<wire::DirectReceivers>(sender, sent).size(), 1u);
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent)[0].not_to_host.empty());
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, sent)[0].receivers.size(), 2u);
+    ASSERT_EQ(messages_to<wire::DirectReceivers>(path_sender, sent).size(), 1u);
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent)[0].not_to_host.empty());
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, sent)[0].receivers.size(), 2u);
     EXPECT_TRUE(is_relayed(bob, false));
     EXPECT_FALSE(is_relayed(alice, true)) << "she still gets hers directly";
 }
 
-TEST_F(Paths, ALostPathIsReplacedFromAKeyFrameOn) {
+TEST_F(DirectPathsTest, ALostPathIsReplacedFromAKeyFrameOn) {
     go_direct();
-    report(alice, {color});
+    report(alice, {path_color});
     const auto sent = follow(used_by({alice}));
     ASSERT_EQ(keys.size(), 1u);
     EXPECT_EQ(keys[0].stream, StreamId{0});
-    EXPECT_EQ(keys[0].setting, depth);
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, sent).at(0).not_to_host,
-              std::vector{color});
+    EXPECT_EQ(keys[0].setting, path_depth);
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).not_to_host,
+              std::vector{path_color});
     EXPECT_FALSE(is_relayed(alice, false)) << "it refers to frames that she may not have";
     EXPECT_TRUE(is_relayed(alice, true));
     EXPECT_TRUE(is_relayed(alice, false));
-    EXPECT_FALSE(is_relayed(alice, true, color));
+    EXPECT_FALSE(is_relayed(alice, true, path_color));
 }
 
-TEST_F(Paths, WhoIsNoLongerAReceiverLosesItsPathAtOnce) {
+TEST_F(DirectPathsTest, WhoIsNoLongerAReceiverLosesItsPathAtOnce) {
     go_direct();
     const auto sent = follow(used_by({}));
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent).at(0).receivers.empty());
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent).at(0).not_to_host.empty());
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).receivers.empty());
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).not_to_host.empty());
     EXPECT_TRUE(messages_to<wire::DirectGrants>(alice, sent).at(0).grants.empty());
-    EXPECT_FALSE(paths.is_direct(alice, depth));
+    EXPECT_FALSE(paths.is_direct(alice, path_depth));
     // Its secret is not used again.
     const auto again = follow(used_by({alice}));
     EXPECT_EQ(messages_to<wire::DirectGrants>(alice, again).at(0).grants.at(0).secret[0],
               std::byte{2});
 }
 
-TEST_F(Paths, EitherSideMayLeave) {
+TEST_F(DirectPathsTest, EitherSideMayLeave) {
     go_direct();
     paths.leave(alice);
     auto sent = follow(used_by({}));
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent).at(0).receivers.empty());
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).receivers.empty());
     EXPECT_TRUE(messages_to<wire::DirectGrants>(alice, sent).empty()) << "she is gone";
 
     go_direct();
-    paths.leave(sender);
+    paths.leave(path_sender);
     EXPECT_TRUE(paths.is_used()) << "somebody has still to be told";
     sent = follow({});
     EXPECT_TRUE(messages_to<wire::DirectGrants>(alice, sent).at(0).grants.empty());
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent).empty());
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent).empty());
     EXPECT_TRUE(follow({}).empty());
     EXPECT_FALSE(paths.is_used());
 }
 
-TEST_F(Paths, AnotherCodecComesFromTheHostUntilItComesDirectly) {
+TEST_F(DirectPathsTest, AnotherCodecComesFromTheHostUntilItComesDirectly) {
     go_direct();
     const SettingId other{12};
     const auto sent = follow(used_by({alice}, other));
-    const auto receivers = messages_to<wire::DirectReceivers>(sender, sent);
+    const auto receivers = messages_to<wire::DirectReceivers>(path_sender, sent);
     ASSERT_EQ(receivers.size(), 1u);
-    EXPECT_EQ(receivers[0].receivers.at(0).settings, (std::vector{color, other}));
-    EXPECT_EQ(receivers[0].not_to_host, std::vector{color});
+    EXPECT_EQ(receivers[0].receivers.at(0).settings, (std::vector{path_color, other}));
+    EXPECT_EQ(receivers[0].not_to_host, std::vector{path_color});
     EXPECT_TRUE(is_relayed(alice, true, other));
-    report(alice, {other, color});
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, follow(used_by({alice}, other)))
+    report(alice, {other, path_color});
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, follow(used_by({alice}, other)))
                   .at(0)
                   .not_to_host,
-              (std::vector{other, color}));
+              (std::vector{other, path_color}));
 }
 
-TEST_F(Paths, AReportOfWhatWasNotGrantedCountsForNothing) {
+TEST_F(DirectPathsTest, AReportOfWhatWasNotGrantedCountsForNothing) {
     come(alice);
-    report(alice, {depth, SettingId{99}});
+    report(alice, {path_depth, SettingId{99}});
     std::vector<StreamUse> uses = used_by({alice});
     for (StreamUse& use : uses)
         use.receivers[0].may_be_direct = false;  // she records, or has a ceiling
     EXPECT_TRUE(follow(uses).empty());
     EXPECT_TRUE(is_relayed(alice, false));
-    report(bob, {depth});  // an older program, or a stranger to this
+    report(bob, {path_depth});  // an older program, or a stranger to this
     (void)follow(used_by({alice, bob}));
     EXPECT_TRUE(is_relayed(bob, false));
     EXPECT_FALSE(paths.is_direct(alice, SettingId{99}));
 }
 
-TEST_F(Paths, TheHostKeepsWhatItNeedsItself) {
+TEST_F(DirectPathsTest, TheHostKeepsWhatItNeedsItself) {
     come(alice);
     std::vector<StreamUse> uses = used_by({alice});
     uses[0].is_kept = true;
     (void)follow(uses);
-    report(alice, {depth, color});
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, follow(uses)).at(0).not_to_host,
-              std::vector{color});
+    report(alice, {path_depth, path_color});
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, follow(uses)).at(0).not_to_host,
+              std::vector{path_color});
     EXPECT_FALSE(is_relayed(alice, true));
 }
 
-TEST_F(Paths, AnOfferEndsOrIsMadeAnew) {
+TEST_F(DirectPathsTest, AnOfferEndsOrIsMadeAnew) {
     go_direct();
-    paths.offer(sender, {{}, 4001, Bytes(wire::fingerprint_size)});
+    paths.offer(path_sender, {{}, 4001, Bytes(wire::fingerprint_size)});
     auto sent = follow(used_by({alice}));
     const auto grants = messages_to<wire::DirectGrants>(alice, sent);
     ASSERT_EQ(grants.size(), 1u);
     EXPECT_EQ(grants[0].grants.at(0).port, 4001);
     EXPECT_EQ(grants[0].grants.at(0).secret[0], std::byte{2}) << "the old one was for another";
-    paths.offer(sender, {});
+    paths.offer(path_sender, {});
     sent = follow(used_by({alice}));
     EXPECT_TRUE(messages_to<wire::DirectGrants>(alice, sent).at(0).grants.empty());
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, sent).at(0).not_to_host.empty());
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).not_to_host.empty());
     EXPECT_FALSE(is_relayed(alice, false));
     EXPECT_TRUE(is_relayed(alice, true));
 }
 
-TEST_F(Paths, OnlyAddressesAreHandedOn) {
-    paths.offer(sender, {{"host.example", "10.0.0.5", "10.0.0.5", "fe80::1", "127.0.0.1", "::1",
-                          "1.2.3.4 ", std::string(46, '1'), "beef"},
-                         4000,
-                         Bytes(wire::fingerprint_size)});
+TEST_F(DirectPathsTest, OnlyAddressesAreHandedOn) {
+    paths.offer(path_sender, {{"host.example", "10.0.0.5", "10.0.0.5", "fe80::1", "127.0.0.1",
+                               "::1", "1.2.3.4 ", std::string(46, '1'), "beef"},
+                              4000,
+                              Bytes(wire::fingerprint_size)});
     come(alice);
     const auto addresses = [&](ParticipantId id) {
         return messages_to<wire::DirectGrants>(id, follow(used_by({id})))
@@ -232,7 +232,7 @@ TEST_F(Paths, OnlyAddressesAreHandedOn) {
               (std::vector<std::string>{"192.0.2.5", "10.0.0.5", "fe80::1", "127.0.0.1", "::1"}));
 }
 
-TEST_F(Paths, MoreReceiversThanAListHoldsStayWithTheHost) {
+TEST_F(DirectPathsTest, MoreReceiversThanAListHoldsStayWithTheHost) {
     std::vector<ParticipantId> all;
     for (std::uint32_t i = 0; i < wire::max_direct_receivers + 1; ++i)
         all.push_back(ParticipantId{100 + i});
@@ -240,20 +240,21 @@ TEST_F(Paths, MoreReceiversThanAListHoldsStayWithTheHost) {
         come(id);
     const ParticipantId last_one = all.back();
     const auto sent = follow(used_by({all.begin() + 1, all.end()}));
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, sent).at(0).receivers.size(),
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, sent).at(0).receivers.size(),
               wire::max_direct_receivers);
     const auto later = follow(used_by(all));
-    EXPECT_TRUE(messages_to<wire::DirectReceivers>(sender, later).empty())
+    EXPECT_TRUE(messages_to<wire::DirectReceivers>(path_sender, later).empty())
         << "a newcomer with a lower number takes nobody's path away";
     EXPECT_TRUE(messages_to<wire::DirectGrants>(last_one, later).empty());
 }
 
-TEST_F(Paths, LostMessagesAreSentAgain) {
+TEST_F(DirectPathsTest, LostMessagesAreSentAgain) {
     go_direct();
     paths.tell_again(alice);
-    paths.tell_again(sender);
+    paths.tell_again(path_sender);
     EXPECT_EQ(messages_to<wire::DirectGrants>(alice, actions).at(0).grants.size(), 1u);
-    EXPECT_EQ(messages_to<wire::DirectReceivers>(sender, actions).at(0).not_to_host.size(), 2u);
+    EXPECT_EQ(messages_to<wire::DirectReceivers>(path_sender, actions).at(0).not_to_host.size(),
+              2u);
 }
 
 TEST(DirectPaths, ThereAreNoneWhereTheHostWantsNone) {

@@ -28,6 +28,11 @@ public:
 
     // A camera has sent a picture, or the host has none.
     bool can_draw() const { return scene_.has_picture() || meets_without_cameras(); }
+    // The same, and the camera of this view has sent one, or never will: then view() throws.
+    bool can_draw(const ViewChoice& view) const {
+        return can_draw() && (scene_.newest().contains(view.camera) ||
+                              !scene_.calibrations().contains(view.camera));
+    }
     std::size_t cameras() const { return scene_.calibrations().size(); }
 
     struct Wish {

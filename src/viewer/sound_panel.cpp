@@ -27,7 +27,7 @@ void add_kind(UseSound::Kind kind, const std::vector<std::string>& devices,
         if (device == in_use || shown++ == max_shown_devices)
             continue;
         panel.commands.push_back(UseSound{kind, device});
-        sound.rows.push_back({"", shown_name(device), {{"Use", int(panel.commands.size()) - 1}}});
+        sound.rows.push_back({shown_name(device), "", {{"Use", int(panel.commands.size()) - 1}}});
     }
 }
 

@@ -13,9 +13,9 @@ TEST(SoundPanel, HasAButtonForEachDeviceThatIsNotInUse) {
     const auto& rows = panel.panels[0].rows;
     ASSERT_EQ(rows.size(), 4u);
     EXPECT_EQ(rows[0], (xr::PanelRow{"Microphone", "The usual one", {}}));
-    EXPECT_EQ(rows[1].detail, "Headset");
+    EXPECT_EQ(rows[1].text, "Headset");
     EXPECT_EQ(rows[2], (xr::PanelRow{"Loudspeaker", "Monitor", {}}));
-    EXPECT_EQ(rows[3].detail, "The usual one");
+    EXPECT_EQ(rows[3].text, "The usual one");
     const auto& headset =
         std::get<UseSound>(panel.commands.at(std::size_t(rows[1].buttons.at(0).command)));
     EXPECT_EQ(headset.kind, UseSound::Kind::microphone);
@@ -38,7 +38,7 @@ TEST(SoundPanel, ShowsADeviceThatIsWaitedForAndLongNamesShortened) {
     const auto& rows = panel.panels.at(0).rows;
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].detail, "Headset");
-    EXPECT_LE(rows[1].detail.size(), 44u);
+    EXPECT_LE(rows[1].text.size(), 44u);
     EXPECT_EQ(std::get<UseSound>(panel.commands.at(0)).device.size(), 500u);
 }
 

@@ -230,6 +230,41 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["open"]["cut"], 10)
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
 
+    def test_the_places_where_two_people_point_on_the_slice_are_shown_on_the_organ_too(self):
+        write_case(self.cases / "liver")
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.say("case open Made liver")
+            anna.wait_for(has_all, 10)
+            anna.say("case slice coronal 0")
+            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            figures = anna.newest_json()
+            x, y, z = next(o for o in figures["room"]["objects"] if o["kind"] == "screen")["position"]
+            numbers = {p["name"]: p["id"] for p in figures["room"]["people"]}
+            # Corners of the slice, beside the ball, from so near that the ray is no longer than the hand.
+            for person, side in ((anna, 0.2), (ben, -0.2)):
+                person.say(f"point {x + side} {y + 0.2} {z + 0.03} {x + side} {y + 0.2} {z}")
+            # Nobody is sent the own pose.
+            for person, other in ((anna, "Ben"), (ben, "Anna")):
+                person.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["points"]] == [other], 10)
+
+            def dots():
+                """Pixels in the colours of persons 1 (blue) and 2 (green) beside the organ."""
+                with Process("join", h.greeting["link"], "--offscreen", self.folder / "dots.png", "--size", "640x480", "--quality", "low",
+                             "--seconds", "0.5", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
+                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                _, _, channels, rows = read_png(self.folder / "dots.png")
+                pixels = [rows[y][channels * x:channels * x + 3] for y in range(180, 220) for x in range(260, 385)]
+                return {1: sum(b > g + 50 > r + 100 for r, g, b in pixels), 2: sum(g > r + 60 and g > b + 30 for r, g, b in pixels)}
+
+            both = dots()
+            self.assertTrue(min(both.values()) > 5, both)
+            anna.say("point")
+            ben.wait_for(lambda f: not any(p["points"] for p in f["room"]["people"]), 10)
+            one = dots()
+            self.assertEqual(one[numbers["Anna"]], 0)
+            self.assertEqual(one[numbers["Ben"]], both[numbers["Ben"]])
+
     def test_pictures_are_imported_stepped_through_and_seen_by_all(self):
         source = self.folder / "source"
         source.mkdir()

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """One participant looks back at the session, alone, and returns to the present."""
+import json
 import pathlib
 import shutil
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, wait_until
+from theatron_process import Process, host, make_recording, read_png, stand, wait_until
 
 FPS = 20
 
@@ -50,6 +51,36 @@ class LookBack(unittest.TestCase):
                 f = ben.wait_for(lambda f: camera(f)["age_now_ms"] < 1500, 10)
                 ben.say("back soon")
                 wait_until(lambda: any("back SECONDS" in line for line in list(ben.errors)))
+
+    def test_a_camera_that_is_live_is_not_drawn_beside_the_past(self):
+        left, right = (make_recording(self.folder / name, frames=4) for name in ("left", "right"))
+        for recording, x in ((left, 0), (right, 0.6)):
+            stand(recording)
+            calibration = json.loads((recording / "calibration.json").read_text())
+            calibration["room_from_camera"]["translation"][0] = x
+            (recording / "calibration.json").write_text(json.dumps(calibration))
+        looped = ",fps=20,loop=1,preload=1"
+        # The publisher does not agree to recording, so the host keeps no past of its camera.
+        with host(self.folder / "state", f"folder:{left}{looped}") as h, \
+                Process("publish", h.greeting["publish_link"], "--camera", f"folder:{right}{looped}"), \
+                Process("join", h.greeting["link"], "--every", "0.1") as anna:
+            anna.wait_for(lambda f: len(f["cameras"]) == 2 and all(c["frames"] > 4 * FPS for c in f["cameras"]), 30)
+
+            def red_of_right(*lines):
+                """Pixels of the right camera's box, as somebody sees it who says these lines."""
+                with Process("join", h.greeting["link"], "--offscreen", self.folder / "seen.png", "--size", "160x120", "--room", "off",
+                             "--color-codec", "raw", "--seconds", "2", "--every", "0.1") as ben:
+                    ben.wait_for(lambda f: sum(c["frames"] > 0 for c in f["cameras"]) == 2, 20)
+                    for line in lines:
+                        ben.say(line)
+                    if lines:
+                        ben.wait_for(lambda f: sorted(c["past"] for c in f["cameras"]) == [False, True], 10)
+                    self.assertEqual(ben.end(60), 0, "".join(ben.errors))
+                width, _, channels, rows = read_png(self.folder / "seen.png")
+                return sum(r > 150 and b < 90 for row in rows for r, _, b in (row[channels * x:channels * x + 3] for x in range(105, width)))
+
+            self.assertGreater(red_of_right(), 200)
+            self.assertEqual(red_of_right("back 2"), 0)
 
     def test_a_host_that_keeps_nothing_says_so(self):
         with host(self.folder / "state", self.camera, options=("--look-back", "0")) as h, \

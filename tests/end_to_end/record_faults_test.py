@@ -218,6 +218,8 @@ class RecordFaults(unittest.TestCase):
             depth = figures["cameras"][0]["depth"]
             self.assertEqual(self.assert_decodes(file)["frames"], depth["pictures"])
             self.assertGreater(depth["not_written"] + depth["dropped"], 0)
+            if state == "full":
+                self.assertIn("the disk was full", run("inspect", file)[1])
 
     def test_recovering_onto_a_full_disk_leaves_nothing_there(self):
         code, _, errors = run("record", "--camera", f"folder:{self.source}", self.file)

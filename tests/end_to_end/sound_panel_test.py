@@ -8,7 +8,7 @@ import unittest
 from theatron_process import Process, host, make_recording, wait_until
 from virtual_screen import VirtualScreen
 
-WIDTH, HEIGHT = 640, 480
+WIDTH, HEIGHT = 640, 900
 
 
 class SoundPanel(unittest.TestCase):
@@ -26,10 +26,10 @@ class SoundPanel(unittest.TestCase):
             with Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
                     Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}",
                             env=environment) as window:
-                ada.wait_for(lambda f: any(p["name"] == "Wim" and p["head"] for p in f["room"]["people"]), 30)
+                ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]), 30)
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
-                screen.do("mousemove", 600, 400, "key", "p")
+                screen.do("mousemove", 600, 850, "key", "p")
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
                 wait_until(lambda: len(self.alone(screen)) >= 4, 20)
                 microphone = self.alone(screen)[-4]

@@ -9,6 +9,7 @@ import theatron_process
 from browser import CHROMIUM, Browser
 from theatron_process import host
 
+AXE = pathlib.Path(__file__).parent / "node_modules/axe-core/axe.min.js"
 PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
 SIZE = (960, 540)
 CONTROLS = {"button", "textbox", "checkbox", "link", "combobox", "slider", "application", "Canvas"}
@@ -55,6 +56,12 @@ FOCUS = f"""(() => {{
 }})()"""
 
 
+# The findings of axe-core but the smallest, each with its first element.
+FINDINGS = """axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) => violations
+    .filter(({ impact }) => impact !== "minor")
+    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes[0].html} ${nodes[0].failureSummary}`))"""
+
+
 @unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
 @unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
 class WebAccess(unittest.TestCase):
@@ -82,6 +89,10 @@ class WebAccess(unittest.TestCase):
         for scheme in ("light", "dark"):
             page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
             self.assertEqual(page.evaluate(CONTRAST), [], scheme)
+            if AXE.exists():
+                if page.evaluate("globalThis.axe === undefined"):
+                    page.evaluate(AXE.read_text() + ";0")
+                self.assertEqual(page.evaluate(FINDINGS), [], scheme)
 
     def tab_order(self, from_element):
         """Names of what the Tab key reaches from there until it leaves the page."""

@@ -96,6 +96,7 @@ class WebSmall(unittest.TestCase):
             self.enter(page)
             first = page.wait_for("theatron.state.flat_camera")
             page.wait_for(f"{COLORS} > 20")
+            page.wait_for("theatron.state.overlay.facts.some(f => f.label === 'Age of picture' && /^\\d+ (ms|s)$/.test(f.value))")
             self.assertTrue(page.evaluate("document.getElementById('other_way').hidden"))
             page.evaluate("document.getElementById('next_camera').click()")
             page.wait_for(f"theatron.state.flat_camera && theatron.state.flat_camera !== '{first}'")

@@ -78,6 +78,7 @@ class WebWebcam(unittest.TestCase):
         page.wait_for("document.getElementById('face_hint').textContent.includes('Allow it')")
         self.assertEqual(page.evaluate("theatron.state.phase"), "joined")
         self.assertEqual(page.evaluate("theatron.face.state"), "denied")
+        self.assertIn("Allow it", page.evaluate("theatron.state.face_problem"))
 
 
 if __name__ == "__main__":

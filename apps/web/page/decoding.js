@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decoding beside the page's thread: workers (decoder.js) with the page's program, each with memory of its own.
-import { put_bytes } from "./program.js";
+import { put_bytes, with_patience } from "./program.js";
 
 const most_workers = 4;
 
@@ -8,19 +8,24 @@ const most_workers = 4;
 // still be loading; meanwhile the workers load their own script.
 export async function start_workers(program) {
     const count = Math.min(Math.max(navigator.hardwareConcurrency ?? 1, 1), most_workers);
-    const workers = [];
-    try {
-        await Promise.all(Array.from({ length: count }, () => new Promise((resolve, reject) => {
-            const worker = new Worker("decoder.js", { type: "module" });
+    const workers = [], started = [];
+    const start_one = () => new Promise((resolve, reject) => {
+        const worker = new Worker("decoder.js", { type: "module" });
+        started.push(worker);
+        worker.onmessage = ({ data: { has_h264 } }) => {
+            worker.has_h264 = has_h264;
             workers.push(worker);
-            worker.onmessage = ({ data: { has_h264 } }) => resolve(worker.has_h264 = has_h264);
-            worker.onerror = event => reject(new Error(event.message ?? "a worker did not start"));
-            program.then(loaded => worker.postMessage({ program: loaded, origin_ms: performance.timeOrigin }), reject);
-        })));
+            resolve();
+        };
+        worker.onerror = event => reject(new Error(event.message ?? "a worker did not start"));
+        program.then(loaded => worker.postMessage({ program: loaded, origin_ms: performance.timeOrigin }), reject);
+    });
+    try {
+        await Promise.all(Array.from({ length: count }, () => with_patience(start_one)));
         return workers;
     } catch (error) {
         console.log(`The page decodes by itself: ${error.message}`);
-        workers.forEach(worker => worker.terminate());
+        started.forEach(worker => worker.terminate());
         return [];
     }
 }

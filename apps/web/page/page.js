@@ -6,8 +6,8 @@ import { Face } from "./face.js";
 import { FlatView, Patience, find_graphics } from "./graphics.js";
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
-import { fill_texts, show, show_face, show_voices } from "./panels.js";
-import { put_bytes, with_program } from "./program.js";
+import { face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
+import { put_bytes, with_patience, with_program } from "./program.js";
 import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
 import { language, text } from "./texts.js";
@@ -35,7 +35,7 @@ function person_id() {
 
 // The client's functions (apps/web/main.cpp), by the names that follow theatron_.
 async function load_client() {
-    const compiling = WebAssembly.compileStreaming(fetch("client.wasm"));
+    const compiling = with_patience(() => WebAssembly.compileStreaming(fetch("client.wasm")));
     const starting = link.get("decoding") === "page" ? [] : start_workers(compiling);
     const program = await compiling;
     const module = await make_client({
@@ -181,6 +181,7 @@ function run({ client, voice, face, module, flat }) {
         if (page.state.phase === "left")
             return leave(voice, face, page.state.problem);
         follow_face();
+        page.state.face_problem ||= face_problem(face, page.way);
         show(page.state);
         show_way(page.state);
         place_voices(voice, page.state);

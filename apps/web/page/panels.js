@@ -115,14 +115,17 @@ export function show_voices(voice, { people = [], is_heard, is_muted, is_recorde
     set_text($("speaking"), names.length ? text("speaking", { names: names.join(", ") }) : "");
 }
 
-// The person's own picture while it is sent, or why it is not.
-export function show_face(face, way) {
-    $("own_face").hidden = face.state !== "on";
+// Why the person's own picture is not sent; empty while it is, and where nobody asked for it.
+export function face_problem(face, way) {
     const hint = way === "flat" && $("shows_face").checked ? "face_flat"
-        : face.state === "asking" ? "face_asking"
         : face.state === "denied" ? "face_denied"
         : face.state === "missing" ? "face_missing" : "";
-    set_text($("face_hint"), hint ? text(hint) : "");
+    return hint && text(hint);
+}
+
+export function show_face(face, way) {
+    $("own_face").hidden = face.state !== "on";
+    set_text($("face_hint"), face.state === "asking" ? text("face_asking") : face_problem(face, way));
 }
 
 export function show(state) {

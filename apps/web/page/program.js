@@ -1,4 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+// A file of this page may not come: the host closes connections that the browser opened in advance and did not use.
+const most_tries = 3;
+
+// The result of `attempt`, of the last one if others failed.
+export async function with_patience(attempt) {
+    for (let tries = 1; ; ++tries) {
+        try {
+            return await attempt();
+        } catch (error) {
+            if (tries === most_tries)
+                throw error;
+            console.log(`again after: ${error.message}`);
+        }
+    }
+}
+
 // The compiled program (apps/web/main.cpp), which the page and its decoding workers share.
 
 // Options of make_client() for a program that is compiled already.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voice: the others from where they stand, and one's own microphone. Opus by the browser's codecs; the packets
 // are those of docs/formats/voice.md.
+import { with_patience } from "./program.js";
 
 const sample_rate = 48000;
 const header_size = 16, version = 1;
@@ -112,8 +113,8 @@ export class Voice {
         this.context ??= new AudioContext({ sampleRate: sample_rate, latencyHint: "interactive" });
         const resumed = this.context.resume();
         this.loaded ??= Promise.all([
-            this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url)),
-            fetch(new URL("./voice.wasm", import.meta.url)).then(answer => WebAssembly.compileStreaming(answer)),
+            with_patience(() => this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url))),
+            with_patience(() => WebAssembly.compileStreaming(fetch(new URL("./voice.wasm", import.meta.url)))),
         ]).then(([, program]) => this.program = program);
         await Promise.all([resumed, this.loaded]);
     }

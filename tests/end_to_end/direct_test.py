@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures that go from their publisher straight to a receiver, in three networks that reach each other."""
+import json
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+import urllib.parse
+
+from theatron_process import PROGRAM, Process, host, make_recording
+from three_networks import ThreeNetworks, missing
+
+
+def at(link, address):
+    """The same link for those who see the host at another address."""
+    parts = urllib.parse.urlsplit(link)
+    return parts._replace(netloc=f"{address}:{parts.port}").geturl()
+
+
+class Meeting:
+    """A host without cameras, a publisher and a receiver, each in its own network."""
+
+    def __init__(self, networks, folder, camera, options=()):
+        self.networks, self.options = networks, options
+        self.folder, self.camera = folder, camera
+
+    def __enter__(self):
+        n = self.networks
+        self.host = host(self.folder / "state", listen="0.0.0.0:0", prefix=n.at("host"), options=self.options)
+        links = self.host.greeting
+        self.status_link = at(links["link"], "127.0.0.1")
+        self.publisher = Process("publish", at(links["publish_link"], n.AT_PUBLISHER), "--camera", self.camera,
+                                 prefix=n.at("publisher"))
+        self.receiver = Process("join", at(links["link"], n.AT_RECEIVER), "--every", "0.05",
+                                prefix=n.at("receiver"))
+        return self
+
+    def __exit__(self, *_):
+        for process in (self.receiver, self.publisher, self.host):
+            process.__exit__()
+
+    def wait_for(self, condition, timeout=30):
+        """The camera at the receiver as soon as that is true of it."""
+        figures = self.receiver.wait_for(lambda f: f["cameras"] and condition(f["cameras"][0]), timeout)
+        return figures["cameras"][0]
+
+    def status(self):
+        out = subprocess.run([*self.networks.at("host"), PROGRAM, "status", self.status_link, "--json"],
+                             capture_output=True, text=True, check=True, timeout=30).stdout
+        return json.loads(out)
+
+    def host_bytes(self):
+        """That the host has received of the camera."""
+        return self.status()["published"][0]["bytes"]
+
+
+class DirectSending(unittest.TestCase):
+    def setUp(self):
+        if why := missing():
+            self.skipTest(why)
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_direct_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.camera = f"folder:{make_recording(self.folder / 'cart')},loop=1,preload=1"
+
+    def test_the_host_carries_nothing_until_the_direct_way_is_cut(self):
+        with ThreeNetworks() as networks, Meeting(networks, self.folder, self.camera) as meeting:
+            direct = meeting.wait_for(lambda c: c["direct"])
+            meeting.wait_for(lambda c: c["newest_frame"] > direct["newest_frame"] + 15)
+            # The publisher may still be sending what it was told too late not to send.
+            before = meeting.host_bytes()
+            while (now := meeting.host_bytes()) != before:
+                before = now
+            begun = meeting.wait_for(lambda c: True)
+            later = meeting.wait_for(lambda c: c["newest_frame"] >= begun["newest_frame"] + 30)
+            self.assertTrue(later["direct"], later)
+            status = meeting.status()
+            self.assertEqual(status["published"][0]["bytes"], before, "the host carries none of these frames")
+            self.assertEqual([p["direct"] for p in status["participants"] if p["name"] != "cameras"], [[0]])
+            self.assertEqual(later["dropped"], begun["dropped"])
+
+            networks.cut()
+            cut_at = time.monotonic()
+            last = meeting.wait_for(lambda c: not c["direct"])
+            meeting.wait_for(lambda c: c["newest_frame"] > last["newest_frame"])
+            print(f"relayed {time.monotonic() - cut_at:.2f} s after the cut")
+            self.assertGreater(meeting.host_bytes(), before)
+
+            networks.mend()
+            again = meeting.wait_for(lambda c: c["direct"])
+            meeting.wait_for(lambda c: c["newest_frame"] > again["newest_frame"] + 5)
+            self.assertEqual(meeting.receiver.newest_json()["joins"], 1)
+
+    def test_the_host_may_forbid_it(self):
+        with ThreeNetworks() as networks, \
+                Meeting(networks, self.folder, self.camera, ["--direct", "off"]) as meeting:
+            first = meeting.wait_for(lambda c: c["frames"] > 0)
+            later = meeting.wait_for(lambda c: c["frames"] > first["frames"] + 30)
+            self.assertFalse(later["direct"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An hour of use in some minutes: a page in a session whose people and cameras come and go, and whose person enters and
+leaves the headset, ten times as often as in use. Memory of the page and objects of GL must not grow.
+
+    python3 tests/end_to_end/web_hour_run.py --minutes 6 --json hour.json
+"""
+import argparse
+import contextlib
+import os
+import pathlib
+import random
+import sys
+import tempfile
+import time
+
+from browser import Browser
+from theatron_process import Process, host, tell_result
+
+HERE = pathlib.Path(__file__).parent
+IWER = HERE / "node_modules/iwer/build/iwer.min.js"
+CAMERA = "synthetic:seconds=2,fps=10,quality=quick,loop=1"
+OTHER = "synthetic:seconds=2,fps=10,quality=quick,loop=1,camera=1"
+PATIENCE_S = 90
+
+# Objects of WebGL that were made and not deleted. Runs before the page's own scripts.
+COUNT_OBJECTS = """(() => {
+    const alive = globalThis.gl_objects = {};
+    for (const kind of ["Buffer", "Texture", "Framebuffer", "Renderbuffer", "VertexArray", "Program", "Shader", "Sampler", "Query"]) {
+        const { [`create${kind}`]: create, [`delete${kind}`]: remove } = WebGL2RenderingContext.prototype;
+        const known = new Set();
+        Object.defineProperty(alive, kind, { enumerable: true, get: () => known.size });
+        WebGL2RenderingContext.prototype[`create${kind}`] = function (...input) {
+            const made = create.apply(this, input);
+            known.add(made);
+            return made;
+        };
+        WebGL2RenderingContext.prototype[`delete${kind}`] = function (object) {
+            known.delete(object);
+            return remove.call(this, object);
+        };
+    }
+})()"""
+
+
+class Use:
+    """The page's person and the others. Each act leaves the session as it was."""
+
+    def __init__(self, page, links):
+        self.page, self.links = page, links
+        self.acts = [self.somebody_comes, self.camera_comes, self.headset, self.other_codec, self.other_way, self.enters_again]
+        self.counts = {act.__name__: 0 for act in self.acts}
+
+    def run(self, act):
+        act()
+        self.counts[act.__name__] += 1
+
+    def wait_for(self, condition):
+        return self.page.wait_for(condition, PATIENCE_S)
+
+    def people(self, number):
+        self.wait_for(f"theatron.state.people?.length === {number}")
+
+    def key(self, key, code):
+        self.page.evaluate("document.getElementById('view').focus()")
+        self.page.press(key, code)
+
+    def somebody_comes(self):
+        with Process("join", self.links["expert"], "--name", "Ben", "--every", "1"):
+            self.people(2)
+        self.people(1)
+
+    def camera_comes(self):
+        with Process("publish", self.links["publisher"], "--camera", OTHER, "--name", "Eve"):
+            self.wait_for("theatron.state.cameras.length === 2 && theatron.state.cameras[1].depth_frames > 0")
+        self.wait_for("theatron.state.cameras.length === 1")
+
+    def headset(self):
+        self.wait_for("!document.getElementById('enter_vr').hidden")
+        self.page.evaluate("document.getElementById('enter_vr').click()")
+        self.wait_for("theatron.headset.is_on")
+        seen = self.page.evaluate("simulated_headset.frames")
+        self.wait_for(f"simulated_headset.frames > {seen + 3}")
+        self.page.evaluate("theatron.headset.leave()")
+        self.wait_for("!theatron.headset.is_on")
+
+    def other_codec(self):
+        self.key("c", "KeyC")
+        frames = self.page.evaluate("theatron.state.cameras[0].depth_frames")
+        self.wait_for(f"theatron.state.cameras[0].depth_frames > {frames + 3}")
+
+    def other_way(self):
+        for renderer in ("flat", ""):
+            self.page.evaluate("document.getElementById('other_way').click()")
+            self.wait_for(f"theatron.state.has_picture && (theatron.state.renderer === 'flat') === {'true' if renderer else 'false'}"
+                          " && theatron.state.pictures > 2")
+
+    def enters_again(self):
+        self.page.evaluate("document.getElementById('leave').click()")
+        self.wait_for("theatron.state.phase === 'left'")
+        self.page.evaluate("document.getElementById('enter').click()")
+        self.wait_for("theatron.state.has_picture && theatron.state.cameras[0].depth_frames > 3")
+
+
+def measure(page):
+    """What must not grow, with garbage collected."""
+    page.call("HeapProfiler.collectGarbage")
+    return {"program_bytes": page.evaluate("theatron.memory()"), "script_bytes": page.call("Runtime.getHeapUsage")["usedSize"],
+            "nodes": page.call("Memory.getDOMCounters")["nodes"], "listeners": page.call("Memory.getDOMCounters")["jsEventListeners"],
+            "gl": page.evaluate("({ ...gl_objects })")}
+
+
+def growth(rounds):
+    """Sentences on what the last rounds have more than those after the first third, when all has been made once."""
+    early, late = rounds[len(rounds) // 3:len(rounds) // 3 + 2], rounds[-2:]
+    problems = []
+    for key, spare in (("program_bytes", 0), ("script_bytes", 2_000_000), ("nodes", 300), ("listeners", 30)):
+        before, after = max(r[key] for r in early), min(r[key] for r in late)
+        if after > before + spare:
+            problems.append(f"{key} grew from {before} to {after}")
+    for kind in rounds[0]["gl"]:
+        before, after = max(r["gl"][kind] for r in early), min(r["gl"][kind] for r in late)
+        if after > before:
+            problems.append(f"{kind} objects of WebGL grew from {before} to {after}")
+    return problems
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--minutes", type=float, default=6)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--json", help="write the figures to this file, too")
+    chosen = parser.parse_args()
+    if not IWER.exists():
+        sys.exit("iwer is not installed: npm ci --prefix tests/end_to_end")
+    rng = random.Random(chosen.seed)
+    with contextlib.ExitStack() as stack:
+        folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        running = stack.enter_context(host(folder / "host", CAMERA))
+        page = stack.enter_context(Browser()).open("about:blank", (320, 180))
+        for source in (COUNT_OBJECTS, IWER.read_text(), (HERE / "headset.js").read_text()):
+            page.call("Page.addScriptToEvaluateOnNewDocument", source=source)
+        page.call("Page.navigate", url=running.greeting["link"])
+        page.enter(way="room")
+        page.wait_for("theatron.complete_ms !== null", PATIENCE_S)
+        use, rounds, end = Use(page, running.greeting["links"]), [], time.monotonic() + 60 * chosen.minutes
+        while time.monotonic() < end or len(rounds) < 4:
+            for act in rng.sample(use.acts, len(use.acts)):
+                use.run(act)
+            rounds.append(measure(page))
+            print(f"round {len(rounds)}: {rounds[-1]}", file=sys.stderr)
+        problems = growth(rounds) + [f"console: {problem}" for problem in page.problems]
+    sys.exit(tell_result({"minutes": chosen.minutes, "acts": use.counts, "first": rounds[0], "last": rounds[-1],
+                          "load": os.getloadavg()[0]}, problems, chosen.json))
+
+
+if __name__ == "__main__":
+    main()
