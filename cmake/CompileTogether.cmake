@@ -16,6 +16,7 @@ set(THEATRON_COMPILED_ALONE
   apps/theatron/recover_command.cpp
   apps/theatron/register_command.cpp
   apps/theatron/scripted_people.cpp
+  apps/theatron/session_command.cpp
   apps/theatron/target_command.cpp
   bench/theatron_bench/bench_filter.cpp
   bench/theatron_bench/bench_pipeline.cpp

@@ -70,10 +70,10 @@ std::string others_text(const nlohmann::json& sessions) {
     for (std::size_t i = 1; i < sessions.size() && i <= named; ++i) {
         const nlohmann::json& session = sessions[i];
         const bool has_count =
-            session.contains("people_count") && session["people_count"].is_number_unsigned();
-        const auto people = has_count ? session["people_count"].get<std::uint64_t>() : 0;
+            session.contains("people_count") && session["people_count"].is_number_integer();
+        const auto people = has_count ? session["people_count"].get<std::int64_t>() : 0;
         line += (line.empty() ? "Also here: " : ", ") + text(session, "name") + " (" +
-                (people == 0 ? "nobody"
+                (people <= 0 ? "nobody"
                              : std::to_string(people) + (people == 1 ? " person" : " people")) +
                 ")";
     }

@@ -175,17 +175,21 @@ SessionFlags parse_session(const std::vector<std::string>& words) {
     SessionFlags flags;
     CLI::App session;
     session.set_help_flag();
-    add_session_options(session, flags);
+    session.allow_extras();
+    // First, since options are read in this order and a problem names the session.
     session.add_option("--session", flags.options.name)->required();
+    add_session_options(session, flags);
     try {
         session.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-    } catch (const CLI::ExtrasError& error) {
-        throw Error("A further session has no such options: " + std::string(error.what()) +
-                    ". Those of the host stand before its second --session.");
     } catch (const CLI::ParseError& error) {
         throw Error("Session '" + clean_text(flags.options.name, host::max_session_name) +
                     "': " + error.what() + ".");
     }
+    if (const auto others = session.remaining(); !others.empty())
+        throw Error("Session '" + clean_text(flags.options.name, host::max_session_name) + "': '" +
+                    clean_text(others.front(), 80) +
+                    "' is no option of a session; those of the host stand before its second "
+                    "--session.");
     host::check_session_name(flags.options.name);
     return flags;
 }

@@ -73,7 +73,8 @@ protected:
     }
     std::vector<std::string> names(const std::string& token) const {
         std::vector<std::string> names;
-        for (const auto& shown : nlohmann::json::parse(ask("/lobby", token).body)["sessions"])
+        const auto lobby = nlohmann::json::parse(ask("/lobby", token).body);
+        for (const auto& shown : lobby["sessions"])
             names.push_back(shown["name"]);
         return names;
     }
