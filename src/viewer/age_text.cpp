@@ -27,8 +27,8 @@ std::string seen_age(double ms, bool is_live) {
 
 std::string picture_title(const std::string& name, std::optional<double> age_ms, bool is_live) {
     if (age_ms)
-        return name + "  " + seen_age(*age_ms, is_live);
-    return is_live ? name : name + "  NOT LIVE";
+        return seen_age(*age_ms, is_live) + "  " + name;
+    return is_live ? name : "NOT LIVE  " + name;
 }
 
 }  // namespace theatron::viewer

@@ -16,8 +16,8 @@ std::string age_text(double ms);
 // For what is shown in the room: "85 ms", or a warning if it is not live: "NOT LIVE: 12 s old".
 std::string seen_age(double ms, bool is_live);
 
-// The title of a plain picture: "camera left, colour  85 ms", "camera left, colour  NOT LIVE: 12 s
-// old". nullopt: the age is not known.
+// The title of a plain picture: "85 ms  left, colour", "NOT LIVE: 12 s old  left, colour". The age
+// comes first, since a small picture cuts long titles. nullopt: it is not known.
 std::string picture_title(const std::string& name, std::optional<double> age_ms, bool is_live);
 
 }  // namespace theatron::viewer

@@ -7,10 +7,10 @@ namespace theatron::viewer {
 namespace {
 
 TEST(PictureTitle, TellsTheAgeAndThatAPictureIsNotLive) {
-    EXPECT_EQ(picture_title("left, colour", 85, true), "left, colour  85 ms");
-    EXPECT_EQ(picture_title("left, colour", 23'400, false), "left, colour  NOT LIVE: 23 s old");
+    EXPECT_EQ(picture_title("left, colour", 85, true), "85 ms  left, colour");
+    EXPECT_EQ(picture_title("left, colour", 23'400, false), "NOT LIVE: 23 s old  left, colour");
     EXPECT_EQ(picture_title("left, colour", std::nullopt, true), "left, colour");
-    EXPECT_EQ(picture_title("left, colour", std::nullopt, false), "left, colour  NOT LIVE");
+    EXPECT_EQ(picture_title("left, colour", std::nullopt, false), "NOT LIVE  left, colour");
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ public:
     // The last frame of each of these that sent one, also of those that are not drawn since their
     // picture is of another moment than the others' (looking_back.h).
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
+    bool is_drawn(CameraId camera) const { return !left_out_.contains(camera); }
     // The camera is live and its newest frame is of the present, as judged last.
     bool shows_present(CameraId camera) const;
 

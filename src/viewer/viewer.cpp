@@ -462,7 +462,8 @@ void Viewer::on_presented(TimePoint begin, TimePoint end) {
     std::optional<double> age_ms;
     bool is_past = false;
     for (const CameraId camera : updated)
-        if (const auto frame = scene_.newest().find(camera); frame != scene_.newest().end()) {
+        if (const auto frame = scene_.newest().find(camera);
+            frame != scene_.newest().end() && scene_.is_drawn(camera)) {
             age_ms = std::max(age_ms.value_or(0), to_ms(presented - frame->second->times.captured));
             is_past = is_past || frame->second->past;
         }
