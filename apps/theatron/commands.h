@@ -4,13 +4,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace theatron::app {
 
 // A command did what it could, but parts of the recording are damaged.
 inline constexpr int damaged_exit_code = 3;
 
-void add_host_command(CLI::App& app);
+// `further`: the words of each session after the first (session_flags.h).
+void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further);
+void add_session_command(CLI::App& app);
 void add_link_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_publish_command(CLI::App& app);

@@ -62,6 +62,26 @@ xr::EntryFacts facts_without_answer(const ReadLink& read) {
     return facts;
 }
 
+// "Also here: OR 4 (2 people), OR 5 (nobody)", of the other sessions that the link's bearer may
+// see.
+std::string others_text(const nlohmann::json& sessions) {
+    constexpr std::size_t named = 6;
+    std::string line;
+    for (std::size_t i = 1; i < sessions.size() && i <= named; ++i) {
+        const nlohmann::json& session = sessions[i];
+        const bool has_count =
+            session.contains("people_count") && session["people_count"].is_number_unsigned();
+        const auto people = has_count ? session["people_count"].get<std::uint64_t>() : 0;
+        line += (line.empty() ? "Also here: " : ", ") + text(session, "name") + " (" +
+                (people == 0 ? "nobody"
+                             : std::to_string(people) + (people == 1 ? " person" : " people")) +
+                ")";
+    }
+    return sessions.size() > named + 1
+               ? line + ", and " + std::to_string(sessions.size() - named - 1) + " more"
+               : line;
+}
+
 }  // namespace
 
 xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
@@ -87,6 +107,8 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (const std::string cameras = list_text(session, "cameras", "state", "camera", "cameras");
         !cameras.empty())
         facts.lines.push_back(cameras);
+    if (const std::string others = others_text(lobby["sessions"]); !others.empty())
+        facts.lines.push_back(others);
     facts.hint = is_set(session, "asks") ? "An operator lets you in after you have knocked."
                                          : "The session is open.";
     return facts;

@@ -33,6 +33,16 @@ TEST(EntryFacts, NameTheSessionItsPeopleAndItsCameras) {
     EXPECT_FALSE(facts.is_problem);
 }
 
+TEST(EntryFacts, NameTheOtherSessionsThatTheLinkShows) {
+    nlohmann::json several = lobby("operator");
+    several["sessions"].push_back({{"name", "Ward 4"}, {"people_count", 0}});
+    several["sessions"].push_back({{"name", "Ward 5"}, {"people_count", 1}});
+    several["sessions"].push_back({{"name", "Ward 6"}, {"people_count", "many"}});
+    const xr::EntryFacts facts = entry_facts(several);
+    EXPECT_EQ(facts.title, "Ward 3");
+    EXPECT_EQ(facts.lines.back(), "Also here: Ward 4 (nobody), Ward 5 (1 person), Ward 6 (nobody)");
+}
+
 TEST(EntryFacts, AnObserverLearnsThatNobodyHearsThem) {
     EXPECT_EQ(entry_facts(lobby("observer")).lines[0],
               "You come as an observer: you see and hear, and are not heard.");

@@ -37,6 +37,7 @@
 #include "published_cameras.h"
 #include "room_lines.h"
 #include "session/renderer_choice.h"
+#include "source_remarks.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 #include "viewer/head_text.h"
@@ -236,6 +237,7 @@ void run(const JoinFlags& flags) {
     bool warm = flags.warmup <= 0;
     InputLines input;
     RoomLines room;
+    SourceRemarks remarks;
 
     while (!cli::stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
@@ -259,6 +261,8 @@ void run(const JoinFlags& flags) {
             if (const std::string problem = face->take_problem(); !problem.empty())
                 log::say(problem);
         }
+        if (publisher)
+            say(remarks.take(*publisher, steady_now()), live_line);
         voice.hold(false, steady_now());
         room.on_tick(participant);
         if (const auto& head = room.head())
@@ -352,6 +356,13 @@ void add_join_command(CLI::App& app) {
                      "needs the host's link for those who may. Repeat for more")
         ->allow_extra_args(false);
     add_share_option(*command, flags->shared);
+    command
+        ->add_option("--direct", flags->direct,
+                     "on: pictures go directly between participants that can reach each other, "
+                     "those of --publish from a free port that the host tells them; off: through "
+                     "the host only")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record your cameras and screens; without it "
                       "the host sends them to no recorder");

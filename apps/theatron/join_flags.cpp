@@ -72,6 +72,7 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.keeps_cases = true;
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
+    options.direct = flags.direct == "on";
     return options;
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "join_window.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "cli/stop_signal.h"
 #include "entry.h"
 #include "link_argument.h"
@@ -11,6 +15,22 @@
 #include "viewer_window.h"
 
 namespace theatron::app {
+namespace {
+
+// The kept choice, or the usual device while that is not plugged in.
+std::string usable(const std::string& kept, const char* kind,
+                   std::vector<std::string> sound::DeviceList::*list) {
+    if (kept == "default" || sound::is_file(kept))
+        return kept;
+    const std::vector<std::string> names = sound::devices().*list;
+    if (std::find(names.begin(), names.end(), kept) != names.end())
+        return kept;
+    log::say("The " + std::string(kind) + " '" + kept +
+             "' is not plugged in: the usual one is used (choose another one with P).");
+    return "default";
+}
+
+}  // namespace
 
 void join_in_window(const JoinFlags& flags) {
     ViewerWindow shown{.join = participant_options(flags)};
@@ -47,11 +67,13 @@ void join_in_window(const JoinFlags& flags) {
             shown.settings.voice_may_record = fields.voice_may_record;
             shown.keep(shown.settings);
         }
-        const auto device = [](const std::string& given, bool wanted) {
-            return given.empty() && wanted ? std::string("default") : given;
-        };
-        VoiceLine voice({device(flags.microphone, shown.settings.speaks),
-                         device(flags.speaker, shown.settings.hears), flags.voice_frame_ms,
+        std::string microphone = flags.microphone, speaker = flags.speaker;
+        const client::Settings& kept = shown.settings;
+        if (microphone.empty() && kept.speaks)
+            microphone = usable(kept.microphone, "microphone", &sound::DeviceList::microphones);
+        if (speaker.empty() && kept.hears)
+            speaker = usable(kept.loudspeaker, "loudspeaker", &sound::DeviceList::loudspeakers);
+        VoiceLine voice({microphone, speaker, flags.voice_frame_ms,
                          flags.push_to_talk || shown.settings.push_to_talk,
                          parse_cleaning(flags.echo_cancellation),
                          parse_spatial(flags.spatial_voices)});

@@ -11,13 +11,14 @@
 #include "files/json_text.h"
 #include "host/host_identity.h"
 #include "host/link_book.h"
+#include "host/session_folder.h"
 #include "qr_text.h"
 
 namespace theatron::app {
 namespace {
 
 struct Flags {
-    std::string role = "expert", label, show, revoke, state;
+    std::string role = "expert", label, show, revoke, state, session;
     double hours = 0;
     bool list = false, qr = false, json = false;
 };
@@ -80,8 +81,10 @@ void run(const Flags& flags) {
     const std::filesystem::path state =
         flags.state.empty() ? host::default_state_folder() : std::filesystem::path(flags.state);
     const net::Link address = host::read_address(state);
+    const std::filesystem::path folder =
+        flags.session.empty() ? state : host::find_session_folder(state, flags.session);
     if (!flags.revoke.empty()) {
-        if (!host::revoke_link(state, flags.revoke))
+        if (!host::revoke_link(folder, flags.revoke))
             throw Error("There is no link '" + flags.revoke +
                         "'; 'theatron link --list' lists "
                         "them.");
@@ -91,7 +94,7 @@ void run(const Flags& flags) {
             std::fprintf(stderr, "Link %s admits nobody any more.\n", flags.revoke.c_str());
         return;
     }
-    const host::KnownLinks book = host::load_links(state);
+    const host::KnownLinks book = host::load_links(folder);
     for (const std::string& problem : book.problems)
         std::fprintf(stderr, "A link admits nobody. %s\n", problem.c_str());
     if (flags.list)
@@ -105,7 +108,7 @@ void run(const Flags& flags) {
     std::optional<files::UtcSeconds> expires;
     if (flags.hours > 0)
         expires = files::utc_now() + files::UtcSeconds(std::llround(flags.hours * 3600));
-    print(host::make_link(state, *wire::parse_role(flags.role), expires, flags.label), address,
+    print(host::make_link(folder, *wire::parse_role(flags.role), expires, flags.label), address,
           flags);
 }
 
@@ -121,7 +124,8 @@ void add_link_command(CLI::App& app) {
         "  theatron link --role expert --hours 2 --for 'Dr. Ada' --qr\n"
         "  theatron link --list\n"
         "  theatron link --show observer --qr\n"
-        "  theatron link --revoke 5f0c2a91");
+        "  theatron link --revoke 5f0c2a91\n"
+        "  theatron link --session 'OR 4' --show expert");
     CLI::Option* role =
         command->add_option("--role", flags->role, "operator, expert, observer or publisher")
             ->capture_default_str()
@@ -150,6 +154,9 @@ void add_link_command(CLI::App& app) {
             other->excludes(made);
     list->excludes(show)->excludes(revoke);
     show->excludes(revoke);
+    command->add_option("--session", flags->session,
+                        "The session of the host; without it the first one ('theatron session "
+                        "list' names them)");
     command->add_flag("--qr", flags->qr, "Print it as a QR code, too");
     command->add_flag("--json", flags->json, "Print one JSON line");
     command->add_option("--state", flags->state,

@@ -13,6 +13,7 @@
 #include "cases/foreign_files.h"
 #include "commands.h"
 #include "link_argument.h"
+#include "session_flags.h"
 #include "unknown_command.h"
 
 namespace {
@@ -39,7 +40,12 @@ int run(int argc, char** argv) {
         "  theatron demo");
     app.require_subcommand(1);
     app.set_version_flag("--version", THEATRON_VERSION);
-    theatron::app::add_host_command(app);
+    const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+    theatron::app::PartedWords words{arguments, {}};
+    if (argc > 1 && arguments[1] == "host")
+        words = theatron::app::part_sessions(arguments);
+    theatron::app::add_host_command(app, words.further);
+    theatron::app::add_session_command(app);
     theatron::app::add_link_command(app);
     theatron::app::add_join_command(app);
     theatron::app::add_publish_command(app);
@@ -57,7 +63,6 @@ int run(int argc, char** argv) {
     theatron::app::add_target_command(app);
     theatron::app::add_register_command(app);
 
-    const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
     if (argc > 1) {
         const auto commands = app.get_subcommands({});
         std::vector<std::string> names;
@@ -69,11 +74,11 @@ int run(int argc, char** argv) {
             throw theatron::Error(problem);
     }
     std::vector<const char*> taken;
-    taken.reserve(arguments.size());
-    for (const std::string& argument : arguments)
+    taken.reserve(words.first.size());
+    for (const std::string& argument : words.first)
         taken.push_back(argument.c_str());
     try {
-        app.parse(argc, taken.data());
+        app.parse(int(taken.size()), taken.data());
     } catch (const CLI::ParseError& e) {
         const bool is_misread = dynamic_cast<const CLI::RequiredError*>(&e) ||
                                 dynamic_cast<const CLI::ExtrasError*>(&e);

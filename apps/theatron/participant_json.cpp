@@ -59,7 +59,7 @@ nlohmann::json position_json(const Calibration& calibration) {
 }
 
 nlohmann::json camera_json(const client::CameraFigures& figures) {
-    const auto& [camera, depth, color] = figures;
+    const auto& [camera, depth, color, direct] = figures;
     return {{"id", int(camera.description.id)},
             {"publisher", int(camera.description.publisher)},
             {"name", camera.description.name},
@@ -74,6 +74,7 @@ nlohmann::json camera_json(const client::CameraFigures& figures) {
             {"newest_age_ms", depth.age_ms},
             {"age_now_ms", depth.age_now_ms},
             {"past", depth.past},
+            {"direct", direct},
             {"newest_frame", depth.newest},
             {"age_ms", age_json(age_of(depth))},
             {"color_age_ms", age_json(age_of(color))},

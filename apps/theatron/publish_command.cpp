@@ -18,6 +18,7 @@
 #include "files/state_folder.h"
 #include "link_argument.h"
 #include "published_cameras.h"
+#include "source_remarks.h"
 #include "wire/condition_text.h"
 
 namespace theatron::app {
@@ -30,6 +31,7 @@ struct Flags {
     std::string places;
     double seconds = 0, every = 0;
     bool may_record = false;
+    std::string direct = "off";
 };
 
 nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
@@ -85,6 +87,7 @@ void run(const Flags& flags) {
     options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     options.sends_only = true;
+    options.direct = flags.direct == "on";
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
     const auto publisher = open_published(cameras, flags.filters, flags.places,
@@ -97,6 +100,7 @@ void run(const Flags& flags) {
     const bool live_line = flags.every <= 0 && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line{};
+    SourceRemarks remarks;
     while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(50ms);
@@ -110,6 +114,7 @@ void run(const Flags& flags) {
         // Others have ended all that it shared.
         if (publisher->has_ended())
             break;
+        say(remarks.take(*publisher, steady_now()), live_line);
         if (steady_now() < next_line)
             continue;
         if (flags.every > 0)
@@ -150,6 +155,12 @@ void add_publish_command(CLI::App& app) {
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record these cameras; without it the host "
                       "sends them to no recorder");
+    command
+        ->add_option("--direct", flags->direct,
+                     "on: participants that can reach this machine get the pictures from it, at "
+                     "a free port that the host tells them; off: from the host only")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
     command->add_option("--name", flags->name, "Name shown in the session")->capture_default_str();
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     cli::add_seconds_option(*command, flags->every,

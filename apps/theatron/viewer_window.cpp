@@ -15,6 +15,8 @@
 #include "host/filter_choice.h"
 #include "participant_json.h"
 #include "saved_view.h"
+#include "sound/device_watch.h"
+#include "source_remarks.h"
 #include "viewer/renderer_text.h"
 #include "xr/overlay_native.h"
 #include "xr/scaled_picture.h"
@@ -125,6 +127,29 @@ void follow_face(publish::OwnFace& face, const client::Participant& participant,
     viewer.set_own_face(own_face(face));
 }
 
+// Carries out the choice in the panel, and gives the panel the devices while it is open.
+void follow_sound(VoiceLine& voice, std::optional<sound::DeviceWatch>& devices,
+                  viewer::Viewer& viewer, ViewerWindow& options) {
+    if (const auto wish = viewer.take_sound_wish()) {
+        client::Settings& settings = options.settings;
+        if (wish->kind == viewer::UseSound::Kind::microphone) {
+            voice.use_microphone(settings.microphone = wish->device);
+            settings.speaks = true;
+        } else {
+            voice.use_speaker(settings.loudspeaker = wish->device);
+            settings.hears = true;
+        }
+        if (options.keep)
+            options.keep(settings);
+    }
+    if (!viewer.shows_panels())
+        return;
+    if (!devices)
+        devices.emplace();
+    else
+        viewer.set_sound_choices(voice.sound_choices(devices->devices_now()));
+}
+
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                const xr::DesktopWindow& window) {
     std::printf("%s\n", status_line(participant).c_str());
@@ -209,8 +234,10 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     xr::OverlayContent texts;
     std::string title;
     Leaving leaving;
+    SourceRemarks sources;
     TimePoint next_picture{}, next_texts{}, next_voices{};
     std::optional<xr::Overlay::Slider> slider;  // held with the mouse
+    std::optional<sound::DeviceWatch> sound_devices;
     WindowEnd end = WindowEnd::closed;
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
@@ -282,6 +309,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             if (participant.asks_voice_consent())
                 voices.may_record = participant.voice_may_record();
             viewer.set_voices(std::move(voices));
+            follow_sound(*options.voice, sound_devices, viewer, options);
             next_voices = now + voices_every;
         }
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
@@ -294,6 +322,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.note(std::exchange(options.greeting, {}), now);
         for (const std::string& text : remarks.take())
             viewer.note(text, now);
+        if (options.publisher)
+            for (const std::string& text : sources.take(*options.publisher, now))
+                viewer.note(text, now);
         if (now < next_picture)
             continue;
 

@@ -291,6 +291,17 @@ viewer::Voices VoiceLine::voices() const {
     return voices;
 }
 
+viewer::SoundChoices VoiceLine::sound_choices(const sound::DeviceList& devices) const {
+    const auto with_usual = [](const std::vector<std::string>& names) {
+        std::vector<std::string> all = names;
+        if (!all.empty())
+            all.insert(all.begin(), "default");
+        return all;
+    };
+    return {with_usual(devices.microphones), with_usual(devices.loudspeakers),
+            microphone_ ? microphone_->name() : "", speaker_ ? speaker_->name() : ""};
+}
+
 nlohmann::json VoiceLine::json() const {
     nlohmann::json result;
     const bool has = has_microphone();

@@ -16,6 +16,7 @@
 #include "sound/echo_canceller.h"
 #include "sound/kept_device.h"
 #include "sound/spatial_voices.h"
+#include "viewer/sound_panel.h"
 #include "viewer/voices.h"
 #include "voice/mixer.h"
 #include "voice/speakers.h"
@@ -64,6 +65,10 @@ public:
     // another device. False if it is another one. From the thread that made the Talking.
     bool obey(const std::string& line);
 
+    // Another device from now on. From the thread that made the Talking.
+    void use_microphone(const std::string& name);
+    void use_speaker(const std::string& name);
+
     // The key of push to talk is down, or not. The microphone stays open for release_time, so that
     // the end of a word is heard. Call it a few times a second.
     static constexpr Duration release_time = std::chrono::milliseconds(200);
@@ -83,6 +88,8 @@ public:
     std::set<ParticipantId> speaking() const;
     // For a window.
     viewer::Voices voices() const;
+    // The same with these devices of the machine.
+    viewer::SoundChoices sound_choices(const sound::DeviceList& devices) const;
 
     // The head of this person (y up, -z ahead), and those of the others by the participant. Call it
     // many times a second.
@@ -100,8 +107,6 @@ private:
     const Options options_;
     mutable std::mutex talker_mutex_, mixer_mutex_;
     std::unique_ptr<voice::Talker> talker_;  // while somebody talks
-    void use_microphone(const std::string& name);
-    void use_speaker(const std::string& name);
     bool has_microphone() const;
     void play(std::span<float> out);
     void play_in_space(std::span<float> out);

@@ -33,7 +33,7 @@ json to_json(const xr::OverlayContent& overlay) {
 }
 
 json camera_json(const client::CameraFigures& figures) {
-    const auto& [camera, depth, color] = figures;
+    const auto& [camera, depth, color, direct] = figures;
     return {{"name", camera.description.name},
             {"state", wire::text_of(camera.state.condition)},
             {"depth", depth.codec},

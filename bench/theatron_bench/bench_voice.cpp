@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -80,8 +81,12 @@ private:
     std::filesystem::path path_;
 };
 
+struct Links {
+    std::string expert, operator_;
+};
+
 std::unique_ptr<ChildProcess> start_host(const Folder& folder, const VoiceBench& bench,
-                                         std::string& link) {
+                                         Links& links) {
     const bool is_shaped = !bench.host_namespace.empty();
     std::vector<std::string> arguments = {
         "host",   "--listen", is_shaped ? "10.77.0.1:0" : "127.0.0.1:0",
@@ -94,18 +99,18 @@ std::unique_ptr<ChildProcess> start_host(const Folder& folder, const VoiceBench&
     const auto greeting = nlohmann::json::parse(host->read_line(), nullptr, false);
     if (!greeting.is_object())
         throw Error("The host did not start; its message is above.");
-    link = greeting["link"].get<std::string>();
+    links = {greeting["link"].get<std::string>(), greeting["links"]["operator"].get<std::string>()};
     return host;
 }
 
-// Reads the lines of a participant until this time. Returns the newest "voice" of it.
+// Reads the lines of a participant until this time. Returns the newest one.
 nlohmann::json follow(ChildProcess& member, TimePoint end) {
     nlohmann::json newest;
     while (steady_now() < end) {
         const auto line = nlohmann::json::parse(member.read_line(), nullptr, false);
         if (!line.is_object())
             throw Error("A participant ended; its message is above.");
-        newest = line["voice"];
+        newest = line;
     }
     return newest;
 }
@@ -124,19 +129,33 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     files::write_file(folder.file("said.wav"),
                       sound::wav_bytes(clicks(bench.seconds + settling_seconds + 20)));
     enter_namespace(bench.host_namespace);
-    std::string link;
-    const auto host = start_host(folder, bench, link);
+    Links links;
+    const auto host = start_host(folder, bench, links);
     enter_namespace(bench.listener_namespace);
-    ChildProcess listener({"join", link, "--no-window", "--name", "listener", "--every", "0.2",
-                           "--speaker", folder.file("heard.wav")});
+    ChildProcess listener({"join", links.expert, "--no-window", "--name", "listener", "--every",
+                           "0.2", "--speaker", folder.file("heard.wav")});
     enter_namespace(bench.host_namespace);
-    ChildProcess speaker({"join", link, "--no-window", "--name", "speaker", "--every", "0.2",
-                          "--max-mbit", "0.1", "--microphone", folder.file("said.wav"),
-                          "--voice-frame", std::to_string(bench.frame_ms)});
+    // Only operators and publishers may send cameras.
+    std::vector<std::string> speaking = {"join",
+                                         bench.own_camera.empty() ? links.expert : links.operator_,
+                                         "--no-window",
+                                         "--name",
+                                         "speaker",
+                                         "--every",
+                                         "0.2",
+                                         "--max-mbit",
+                                         "0.1",
+                                         "--microphone",
+                                         folder.file("said.wav"),
+                                         "--voice-frame",
+                                         std::to_string(bench.frame_ms)};
+    if (!bench.own_camera.empty())
+        speaking.insert(speaking.end(), {"--camera", bench.own_camera});
+    ChildProcess speaker(speaking);
     std::unique_ptr<Participant> opener;  // opens the case, so that everybody fetches it
     if (!bench.cases.empty()) {
         Participant::Options options;
-        options.link = net::parse_link(link);
+        options.link = net::parse_link(links.expert);
         options.name = "opener";
         options.delivery = {0, 100};
         options.keeps_room = options.keeps_cases = true;
@@ -155,8 +174,8 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     listener.wait();
     speaker.wait();
 
-    const double mouth_us = us_of(said, "microphone_began_us"),
-                 ear_us = us_of(heard, "speaker_began_us");
+    const double mouth_us = us_of(said["voice"], "microphone_began_us"),
+                 ear_us = us_of(heard["voice"], "speaker_began_us");
     const double us_per_sample = 1e6 / voice::sample_rate;
     std::vector<double> delays;
     for (const std::size_t onset :
@@ -169,22 +188,33 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     }
     if (double(delays.size()) < bench.seconds)
         throw Error("Only " + std::to_string(delays.size()) + " clicks were heard.");
-    return {{"p50", percentile(delays, 0.5)},
-            {"p95", percentile(delays, 0.95)},
-            {"max", percentile(delays, 1)},
-            {"count", delays.size()}};
+    nlohmann::json result{{"p50", percentile(delays, 0.5)},
+                          {"p95", percentile(delays, 0.95)},
+                          {"max", percentile(delays, 1)},
+                          {"count", delays.size()}};
+    if (!bench.own_camera.empty()) {
+        const auto own =
+            std::find_if(heard["cameras"].begin(), heard["cameras"].end(),
+                         [](const nlohmann::json& camera) { return camera["publisher"] != 0; });
+        if (own == heard["cameras"].end())
+            throw Error("The speaker's camera did not reach the listener.");
+        const double age_ms = (*own)["color_age_ms"]["p50"];
+        result["color_age_p50"] = age_ms;
+        result["after_color"] = percentile(delays, 0.5) - age_ms;
+    }
+    return result;
 }
 
 nlohmann::json host_cores_of_24(double seconds) {
     constexpr int participants = 24, speakers = 4, frame_ms = 20;
     const Folder folder;
-    std::string link;
-    const auto host = start_host(folder, {}, link);
+    Links links;
+    const auto host = start_host(folder, {}, links);
     std::atomic<std::uint64_t> heard = 0;
     std::vector<std::unique_ptr<Participant>> people;
     for (int i = 0; i < participants; ++i) {
         Participant::Options options;
-        options.link = net::parse_link(link);
+        options.link = net::parse_link(links.expert);
         options.name = "person " + std::to_string(i);
         options.voice = [&heard](ParticipantId, ByteView) { ++heard; };
         people.push_back(std::make_unique<Participant>(std::move(options)));
@@ -256,6 +286,8 @@ void add_voice_bench(CLI::App& bench) {
         ->add_option("--listener-namespace", flags->bench.listener_namespace,
                      "Network namespace of the listener")
         ->needs("--host-namespace");
+    command->add_option("--own-camera", flags->bench.own_camera,
+                        "The speaker's camera, with whose colour the voice is compared");
     command->add_option("--cases", flags->bench.cases,
                         "A folder of cases, of which the listener fetches the first meanwhile");
     command->add_option("--json", flags->json,
@@ -278,6 +310,10 @@ void add_voice_bench(CLI::App& bench) {
             std::printf("mouth to ear, packets of %d ms: p50 %.1f ms, p95 %.1f ms, max %.1f ms\n",
                         b.frame_ms, delay["p50"].get<double>(), delay["p95"].get<double>(),
                         delay["max"].get<double>());
+            if (delay.contains("after_color"))
+                std::printf("the speaker's colour: age p50 %.1f ms, the voice is %.1f ms later\n",
+                            delay["color_age_p50"].get<double>(),
+                            delay["after_color"].get<double>());
             if (!r.contains("lost_5_percent"))
                 return;
             std::printf("host, 24 participants: %.3f cores with 4 speakers, %.3f without\n",

@@ -19,11 +19,16 @@ struct VoiceBench {
     int frame_ms = 20;                 // 10 or 20
     // Network namespaces as in InteractionBench: the speaker is with the host.
     std::string host_namespace, listener_namespace;
+    // A specification: the speaker's own camera, whose colour is compared with the voice. Empty:
+    // none.
+    std::string own_camera;
     // A folder of cases: the listener fetches the first one meanwhile. Empty: none.
     std::string cases;
 };
 
-// {p50,p95,max,count}: milliseconds from the saying of a click to its hearing. Throws Error.
+// {p50,p95,max,count}: milliseconds from the saying of a click to its hearing. With an own camera
+// also {color_age_p50,after_color}: the age of the speaker's decoded colour at the listener, and by
+// how much the voice is later (negative: earlier). Throws Error.
 nlohmann::json mouth_to_ear(const VoiceBench& bench);
 
 // {cores,idle_cores}: of a host without cameras with 24 participants, 4 of whom speak. Throws

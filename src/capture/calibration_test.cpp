@@ -112,8 +112,8 @@ TEST(FolderCalibration, SaysWhatIsWrong) {
     EXPECT_EQ(changed("/depth/k", {1, 2}), "holds no list of 6 numbers as 'k'");
     EXPECT_EQ(changed("/depth/fz", 1), "has the unknown key 'fz' in 'depth'");
     EXPECT_EQ(changed("/depth", 1), "holds no object as 'depth'");
-    EXPECT_EQ(changed("/depth/fx", -1), "describes a camera that cannot be");
-    EXPECT_EQ(changed("/depth_unit_mm", 0), "describes a camera that cannot be");
+    EXPECT_EQ(changed("/depth/fx", -1), "describes an impossible camera");
+    EXPECT_EQ(changed("/depth_unit_mm", 0), "describes an impossible camera");
     EXPECT_EQ(changed("/color_from_depth/rotation", {1, 0, 0, 0, 1, 0, 0, 0, 2}),
               "holds no rotation matrix as 'rotation'");
     EXPECT_EQ(changed("/color_from_depth", {{"quaternion", {2, 0, 0, 0}}}),

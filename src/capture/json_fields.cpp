@@ -109,7 +109,7 @@ void JsonFields::note(std::string problem) {
 std::string implausibility(const Calibration& calibration) {
     return decode_calibration(encode_calibration(calibration)).has_value()
                ? ""
-               : "describes a camera that cannot be";
+               : "describes an impossible camera";
 }
 
 std::string to_text(Size size) {

@@ -126,9 +126,9 @@ private:
         boxes_.push_back(medical::box_of(volume.grid));
         for (const int slice : series.missing_slices)
             if (slice >= volume.grid.slices)
-                return problem("The series '" + series.name + "' lacks slice " +
-                               std::to_string(slice) + " of " + std::to_string(volume.grid.slices) +
-                               ", which cannot be.");
+                return problem("The manifest says that the series '" + series.name +
+                               "' lacks slice " + std::to_string(slice) + ", but it has only " +
+                               std::to_string(volume.grid.slices) + ".");
         if (!series.missing_slices.empty())
             remark("The series '" + series.name + "' lacks " +
                    std::to_string(series.missing_slices.size()) + " of " +

@@ -190,10 +190,9 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<DicomSlice> slice = decode_dicom_slice(copy);
         if (!slice)
-            throw Error(
-                quoted_path(file) +
-                " describes an image whose size, place or scale of values cannot be; export "
-                "it again.");
+            throw Error(quoted_path(file) +
+                        " describes an image with an impossible size, place or scale of values; "
+                        "export it again.");
         return std::move(*slice);
     } catch (const Error& error) {
         // The child does not know which file it had.
@@ -248,7 +247,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         Result<NamedMesh> mesh = decode_named_mesh(copy);
         if (!mesh)
             throw Error(quoted_path(path) +
-                        " has vertices or triangles that cannot be; export it again.");
+                        " has impossible vertices or triangles; export it again.");
         meshes.push_back(std::move(*mesh));
         const std::byte next{1};
         child.send({&next, 1});
@@ -284,7 +283,7 @@ ColorImage read_picture_file(const fs::path& path) {
     const Bytes copy(reply.content.begin(), reply.content.end());
     Result<ColorImage> picture = medical::decode_picture(copy);
     if (!picture)
-        child.refuse("a picture that cannot be");
+        child.refuse("an impossible picture");
     return std::move(*picture);
 }
 

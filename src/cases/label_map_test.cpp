@@ -108,7 +108,7 @@ TEST(Nrrd, EachProblemIsNamed) {
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 -2"), HasSubstr("side of no samples"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 4000 4000 4000"), HasSubstr("more samples"));
     EXPECT_THAT(problem("space: left", "space: top"), HasSubstr("where in the patient"));
-    EXPECT_THAT(problem("(0,0.5,0)", "(0.5,0,0)"), HasSubstr("cannot be"));
+    EXPECT_THAT(problem("(0,0.5,0)", "(0.5,0,0)"), HasSubstr("impossible"));
     EXPECT_THAT(problem("unsigned char", "block"), HasSubstr("type"));
     EXPECT_THAT(problem("", "", "encoding: bzip2\n"), HasSubstr("gzip"));
     EXPECT_THAT(problem("", "", "encoding: raw\ndata file: x.raw\n"), HasSubstr("another file"));

@@ -144,7 +144,7 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
         return "has more samples than are read";
     return medical::is_valid(grid)
                ? ""
-               : "describes a volume whose sides, steps or place cannot be; export it again";
+               : "describes a volume with impossible sides, steps or place; export it again";
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ ParsedLabels parse_nifti(ByteView file) {
         return parsed;
     const double offset = header.real(108);
     if (!(offset >= double(header_size) && offset <= 1 << 20))
-        return {{}, "begins its samples at a place that cannot be"};
+        return {{}, "begins its samples at an impossible place"};
 
     // Unpacking begins again at the header and skips all bytes before the samples.
     const auto skipped = std::size_t(offset);

@@ -140,7 +140,7 @@ std::string read_grid(const Fields& fields, medical::VolumeGrid& grid) {
             vec(directions, 0), vec(directions, 3), vec(directions, 6)};
     return medical::is_valid(grid)
                ? ""
-               : "describes a volume whose sides, steps or place cannot be; export it again";
+               : "describes a volume with impossible sides, steps or place; export it again";
 }
 
 std::vector<LabelName> read_names(const Fields& fields) {

@@ -55,25 +55,26 @@ std::string text_of(const json& series, const char* name) {
                : "";
 }
 
+int texts_in(const PatientTexts& patient) {
+    return int(!patient.name.empty()) + int(!patient.birth_date.empty()) + int(!patient.id.empty());
+}
+
 }  // namespace
 
 std::optional<PatientTexts> parse_patient_texts(const std::string& text) {
     const json all = json::parse(text, nullptr, false);
     if (!all.is_object() || !all.contains("series") || !all["series"].is_array())
         return std::nullopt;
-    PatientTexts patient;
-    const auto take = [](std::string& known, std::string found) {
-        if (known.empty())
-            known = std::move(found);
-    };
-    for (const json& series : all["series"]) {
-        if (!series.is_object())
-            continue;
-        take(patient.name, readable_name(text_of(series, "PatientName")));
-        take(patient.birth_date, readable_date(text_of(series, "PatientBirthDate")));
-        take(patient.id, text_of(series, "PatientID"));
-    }
-    return patient == PatientTexts{} ? std::nullopt : std::optional(std::move(patient));
+    PatientTexts fullest;
+    for (const json& series : all["series"])
+        if (series.is_object()) {
+            PatientTexts one{readable_name(text_of(series, "PatientName")),
+                             readable_date(text_of(series, "PatientBirthDate")),
+                             text_of(series, "PatientID")};
+            if (texts_in(one) > texts_in(fullest))
+                fullest = std::move(one);
+        }
+    return fullest == PatientTexts{} ? std::nullopt : std::optional(std::move(fullest));
 }
 
 std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& folder) {

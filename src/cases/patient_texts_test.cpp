@@ -31,11 +31,16 @@ TEST(PatientTexts, AreReadable) {
     EXPECT_EQ(of_series(R"({"PatientBirthDate": "1961"})")->birth_date, "1961");
 }
 
-TEST(PatientTexts, TheFirstOfSeveralSeriesThatHasOneCounts) {
-    const auto patient = of_series(
-        R"({"PatientName": "", "PatientID": 7}, 5, {"PatientName": "Doe", "PatientID": "1"},
-           {"PatientName": "Roe", "PatientBirthDate": "19610203"})");
-    EXPECT_EQ(patient, (PatientTexts{"Doe", "1961-02-03", "1"}));
+TEST(PatientTexts, AreOfOneSeriesTheFirstOfThoseThatSayMost) {
+    EXPECT_EQ(
+        of_series(
+            R"({"PatientName": "", "PatientID": 7}, 5, {"PatientName": "Doe", "PatientID": "1"},
+                     {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
+        (PatientTexts{"Doe", "", "1"}))
+        << "Doe is not born when Roe is";
+    EXPECT_EQ(of_series(R"({"PatientID": "1"},
+                           {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
+              (PatientTexts{"Roe", "1961-02-03", ""}));
 }
 
 TEST(PatientTexts, OtherContentNamesNobody) {

@@ -42,10 +42,55 @@ TEST(PatientWords, ShortNamesCountAsWholeWordsOnly) {
     EXPECT_FALSE(words.occur_in("phase a"));
 }
 
+TEST(PatientWords, ShortNamesAreAlsoFoundWrittenAsOne) {
+    const PatientWords words = words_of({{"PatientName", "Xu^Li"}});
+    for (const char* text :
+         {"xuli", "XuLi_CT", "XULI-2019", "lixu", "LiXu liver", "xuli2", "CT Xu"})
+        EXPECT_TRUE(words.occur_in(text)) << text;
+    for (const char* text : {"liver", "line", "external iliac", "luxury", "label 2"})
+        EXPECT_FALSE(words.occur_in(text)) << text;
+}
+
+TEST(PatientWords, ShortIdentifiersCountAsWholeWords) {
+    const PatientWords words =
+        words_of({{"PatientID", "P7"}, {"OtherPatientIDs", "A-12\\77\\815"}});
+    for (const char* text : {"liver P7", "p-7", "P7_liver", "A12", "a 12", "case 77", "CT_815"})
+        EXPECT_TRUE(words.occur_in(text)) << text;
+    for (const char* text : {"P70", "VP7", "ca 12 mm", "Segment 77", "label 815", "1815", "770"})
+        EXPECT_FALSE(words.occur_in(text)) << text;
+}
+
+TEST(PatientWords, TheDateOfBirthIsFoundInAllUsualForms) {
+    const PatientWords words = words_of({{"PatientBirthDate", "19610203"}});
+    for (const char* text :
+         {"3.2.61", "03.02.61", "2/3/61", "61-02-03", "020361", "3 Feb 1961", "Feb 3rd, 1961",
+          "03-FEB-61", "03FEB1961", "3. Februar 1961", "3 février 61", "3 de febrero de 1961",
+          "February 3, 1961 liver", "1961 Feb 3"})
+        EXPECT_TRUE(words.occur_in(text)) << text;
+    for (const char* text :
+         {"3.2.62", "4 Feb 1961", "3 Mar 1961", "phase 3 2", "CT 2019-02-03", "3 Feb", "13.2.61"})
+        EXPECT_FALSE(words.occur_in(text)) << text;
+    EXPECT_FALSE(words_of({{"PatientBirthDate", "196102"}}).occur_in("1961 02"));
+}
+
+TEST(PatientWords, NamesThatArePartsOfUsualWordsLeaveThose) {
+    const PatientWords words =
+        words_of({{"PatientName", "Ong^Rena"}, {"OtherPatientNames", "Lee"}});
+    for (const char* text : {"Ong", "ong_liver", "Rena", "renaong", "Lee liver", "leeCT", "CTlee"})
+        EXPECT_TRUE(words.occur_in(text)) << text;
+    for (const char* text :
+         {"long axis", "renal artery", "sleeve", "left renal vein", "congestion"})
+        EXPECT_FALSE(words.occur_in(text)) << text;
+    // Unless the patient is called so.
+    EXPECT_TRUE(words_of({{"PatientName", "Herz^Anna"}}).occur_in("Herz"));
+    EXPECT_TRUE(words_of({{"PatientID", "liver-01"}}).occur_in("liver 01"));
+}
+
 TEST(PatientWords, OfOtherScriptsAreFoundAsTheyAre) {
     const PatientWords words = words_of({{"PatientName", "山田^太郎"}});
     EXPECT_TRUE(words.occur_in("肝臓 山田"));
     EXPECT_FALSE(words.occur_in("肝臓"));
+    EXPECT_TRUE(words_of({{"PatientName", "李^明"}}).occur_in("肝李明"));
 }
 
 TEST(DicomText, IsReadInItsCharacterSet) {

@@ -37,6 +37,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
     features.push_back(wire::Feature::voice_consent);
     if (options.takes_faces || options.face.published)
         features.push_back(wire::Feature::webcam);
+    if (options.direct && DirectReception::is_possible())
+        features.push_back(wire::Feature::direct);
     return features;
 }
 
@@ -47,6 +49,8 @@ Participant::Participant(Options options)
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
                 options_.delivery, options_.records, features_of(options_), options_.person}),
       shared_(std::make_unique<Shared>()),
+      direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
+                                        : nullptr),
       decoders_(std::make_unique<Decoders>(decoded_events())),
       wait_(first_wait) {
     shared_->status.goal = options_.delivery;
@@ -103,6 +107,8 @@ Decoders::Events Participant::decoded_events() {
 
 // From a decoding thread; the participant's thread sends the acknowledgement.
 void Participant::on_taken(std::uint64_t connection, std::size_t bytes) {
+    if ((connection & direct_link) != 0)
+        return direct_reception_->taken(connection & ~direct_link, bytes);
     const std::lock_guard lock(shared_->mutex);
     if (connection != shared_->connection || !shared_->client)
         return;
@@ -170,6 +176,7 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
     shared_->status.problem = why;
     lock.unlock();
+    end_direct();
     for (const Offer offer : {Offer::cameras, Offer::face})
         forget_numbers(offer);
     announce();
@@ -207,6 +214,8 @@ net::Client::Handler Participant::handler() {
 }
 
 bool Participant::on_media(Bytes& message) {
+    if (has_come_directly(message))
+        return true;
     if (!options_.media)
         // Only this thread changes the number.
         return decoders_->on_media(message, shared_->connection);
@@ -343,6 +352,12 @@ void Participant::on_control(ByteView message) {
         case Change::patient:
             on_patient();
             break;
+        case Change::direct:
+            on_direct_grants();
+            break;
+        case Change::direct_receivers:
+            on_direct_receivers();
+            break;
         case Change::cases:
             if (cases_)
                 cases_->on_offer(session_.offered_cases());
@@ -413,7 +428,9 @@ void Participant::on_tick() {
     wire::Report report;
     for (const auto& f : figures)
         report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,
-                                  Duration(std::int64_t(f.age_ms * 1000))});
+                                  Duration(std::int64_t(f.age_ms * 1000)),
+                                  direct_setting(f.stream, local)});
+    note_direct_streams(local);
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->figures = figures;

@@ -17,9 +17,13 @@
 
 #include "client/case_keeper.h"
 #include "client/decoders.h"
+#include "client/direct_reception.h"
+#include "client/direct_sender.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
 #include "session/camera_adjustment.h"
+#include "session/direct_arrivals.h"
+#include "session/key_gate.h"
 #include "session/key_requests.h"
 #include "session/member_room.h"
 #include "session/viewer_session.h"
@@ -83,6 +87,9 @@ public:
         bool shows_patient = false;
         // This person agrees that others record its voice; see allow_voice_recording().
         bool voice_may_record = false;
+        // Takes pictures directly from their publishers, and sends its own directly, where the host
+        // allows it. Not in a browser.
+        bool direct = false;
         // An object of the room or its pose has changed. Called from the participant's thread.
         std::function<void()> room_changed;
     };
@@ -142,6 +149,8 @@ public:
 
     std::vector<receive::StreamFigures> figures() const;
     void reset_figures();
+    // The streams whose frames come directly from their publisher now.
+    std::set<StreamId> direct_streams() const;
 
     // Estimated session time, now and at a time of the steady clock.
     TimePoint now() const;
@@ -291,6 +300,16 @@ private:
     void on_encode_key(StreamId stream, SettingId setting);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
+    // Direct sending.
+    void listen_for_receivers();
+    void end_direct();
+    void on_direct_receivers();
+    void on_direct_grants();
+    void on_direct_media(std::uint64_t link, ParticipantId publisher, Bytes& message);
+    DirectReception::Events direct_events();
+    bool has_come_directly(ByteView message);
+    SettingId direct_setting(StreamId stream, TimePoint now) const;
+    void note_direct_streams(TimePoint now);
     void on_welcome();
     void on_cameras();
     void on_camera_states();
@@ -309,12 +328,17 @@ private:
     std::array<std::vector<CameraId>, offers> numbers_;  // of the cameras that it sends
     std::deque<Offer> offered_;                          // without an answer of the host
     session::KeyRequests missing_keys_;  // of its own streams, where frames could not be sent
+    session::DirectArrivals arrivals_;
+    session::KeyGate to_host_;  // holds back the settings that the host does not need
 
     struct Shared;
     std::unique_ptr<Shared> shared_;
-    std::unique_ptr<Decoders> decoders_;  // its threads use shared_
-    std::unique_ptr<CaseKeeper> cases_;   // likewise; may be null
-    Duration wait_;                       // before another attempt
+    // Their threads use shared_.
+    std::unique_ptr<DirectSender> direct_sender_;        // null: it does not listen
+    std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
+    std::unique_ptr<Decoders> decoders_;                 // its threads use all above
+    std::unique_ptr<CaseKeeper> cases_;                  // likewise; may be null
+    Duration wait_;                                      // before another attempt
     bool was_joined_ = false;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.

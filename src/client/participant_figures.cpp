@@ -97,9 +97,11 @@ ParticipantFigures figures_of(const Participant& participant) {
     figures.status = participant.status();
     std::uint64_t generation = 0;
     const auto streams = participant.figures();
+    const std::set<StreamId> direct = participant.direct_streams();
     for (auto& camera : participant.cameras(generation)) {
         CameraFigures of_camera{std::move(camera), {}, {}};
         const wire::Camera& description = of_camera.camera.description;
+        of_camera.direct = direct.contains(description.depth_stream);
         for (const auto& stream : streams) {
             if (stream.stream == description.depth_stream)
                 of_camera.depth = stream;

@@ -17,6 +17,7 @@ struct CameraFigures {
     Participant::Camera camera;
     receive::StreamFigures depth;
     receive::StreamFigures color;  // without frames where the camera has no colour
+    bool direct = false;           // its pictures come directly from their publisher
 
     double mbit_per_second() const { return depth.mbit_per_second + color.mbit_per_second; }
     std::uint64_t dropped() const { return depth.dropped + color.dropped; }

@@ -101,6 +101,8 @@ void Participant::on_published() {
         return;
     }
     numbers(offer) = answer.cameras;
+    if (offer == Offer::cameras)
+        listen_for_receivers();
     if (events(offer).published)
         events(offer).published(numbers(offer));
 }
@@ -163,14 +165,19 @@ void Participant::push_media(const wire::MediaHeader& header,
     // An outbox keeps one chain of frames for each stream; here each setting of a stream is one,
     // and its number is unique in the session.
     const auto chain = StreamId(std::uint16_t(header.setting));
-    const auto pushed = shared_->client->send_media({std::move(message),
-                                                     chain,
-                                                     header.setting,
-                                                     header.frame,
-                                                     header.reference,
-                                                     header.temporal_layer,
-                                                     header.key,
-                                                     {}});
+    net::Media media{std::move(message), chain,
+                     header.setting,     header.frame,
+                     header.reference,   header.temporal_layer,
+                     header.key,         {}};
+    if (direct_sender_) {
+        direct_sender_->send(header, media);
+        if (!to_host_.passes(header)) {
+            if (!to_host_.is_held(header.setting))
+                missing_keys_.request({header.stream, header.setting});
+            return;
+        }
+    }
+    const auto pushed = shared_->client->send_media(std::move(media));
     if (pushed.dropped > 0) {
         const std::lock_guard lock(shared_->mutex);
         shared_->status.media_dropped += std::uint64_t(pushed.dropped);

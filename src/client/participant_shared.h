@@ -17,6 +17,9 @@
 
 namespace theatron::client {
 
+// In the number of a connection to a publisher; see Decoders::on_media().
+inline constexpr std::uint64_t direct_link = std::uint64_t(1) << 63;
+
 // The loop that makes connections, one after the other.
 struct Participant::Loop {
     virtual ~Loop() = default;
@@ -64,6 +67,7 @@ struct Participant::Shared {
     std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
     std::size_t media_waiting = 0;                           // for the participant's thread
     std::set<std::pair<StreamId, SettingId>> broken;         // frames of these were dropped
+    std::set<StreamId> direct_streams;                       // at the last tick
 };
 
 }  // namespace theatron::client

@@ -12,6 +12,7 @@ namespace theatron::client {
 namespace {
 
 constexpr const char* file_name = "settings";
+constexpr std::size_t max_device_name = 256;
 
 const char* text_of(bool value) {
     return value ? "yes" : "no";
@@ -29,6 +30,20 @@ bool read_text(const std::string& text, std::string& value) {
     return true;
 }
 
+// A name that a line cannot hold is left out.
+std::string device_line(const char* kind, const std::string& device) {
+    return device.empty() || clean_text(device, max_device_name) != device
+               ? ""
+               : std::string("\n") + kind + " " + device;
+}
+
+bool read_device(const std::string& text, std::string& device) {
+    if (text.empty() || clean_text(text, max_device_name) != text)
+        return false;
+    device = text;
+    return true;
+}
+
 bool read_quality(const std::string& text, std::string& value) {
     value = text;
     return text == "auto" || text == "low" || text == "high";
@@ -43,7 +58,9 @@ std::string settings_text(const Settings& settings) {
            "\nfacts " + text_of(settings.shows_facts) + "\nhears " + text_of(settings.hears) +
            "\nspeaks " + text_of(settings.speaks) + "\npush_to_talk " +
            text_of(settings.push_to_talk) + "\nvoice_recorded " +
-           text_of(settings.voice_may_record) + "\nquality " + settings.quality + "\n";
+           text_of(settings.voice_may_record) + device_line("microphone", settings.microphone) +
+           device_line("loudspeaker", settings.loudspeaker) + "\nquality " + settings.quality +
+           "\n";
 }
 
 ParsedSettings parse_settings(const std::string& text) {
@@ -63,6 +80,8 @@ ParsedSettings parse_settings(const std::string& text) {
                               : name == "speaks"         ? read(value, settings.speaks)
                               : name == "push_to_talk"   ? read(value, settings.push_to_talk)
                               : name == "voice_recorded" ? read(value, settings.voice_may_record)
+                              : name == "microphone"     ? read_device(value, settings.microphone)
+                              : name == "loudspeaker"    ? read_device(value, settings.loudspeaker)
                               : name == "quality"        ? read_quality(value, settings.quality)
                                                          : clean_text(name, 100) == name;
         if (!is_right)

@@ -11,14 +11,16 @@ namespace theatron::client {
 struct Settings {
     std::string name = "guest";
     std::string renderer = "auto";
-    bool sits = false;              // the eyes' height after a teleport
-    bool shows_people = false;      // the panel of people and places
-    bool shows_facts = true;        // the line at the bottom
-    std::string quality = "auto";   // of the virtual room: auto, low or high
-    bool hears = false;             // the others' voices, where no command line says more
-    bool speaks = false;            // likewise: to the others
-    bool push_to_talk = false;      // the microphone is open only while a key is held
-    bool voice_may_record = false;  // the person agrees that others record the voice
+    bool sits = false;                    // the eyes' height after a teleport
+    bool shows_people = false;            // the panel of people and places
+    bool shows_facts = true;              // the line at the bottom
+    std::string quality = "auto";         // of the virtual room: auto, low or high
+    bool hears = false;                   // the others' voices, where no command line says more
+    bool speaks = false;                  // likewise: to the others
+    std::string microphone = "default";   // as in sound::open_microphone()
+    std::string loudspeaker = "default";  // likewise
+    bool push_to_talk = false;            // the microphone is open only while a key is held
+    bool voice_may_record = false;        // the person agrees that others record the voice
     bool operator==(const Settings&) const = default;
 };
 

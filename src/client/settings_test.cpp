@@ -10,7 +10,8 @@
 namespace theatron::client {
 namespace {
 
-const Settings mine{"Dr. Ada", "mesh", true, true, false, "high", true, true, true, true};
+const Settings mine{"Dr. Ada", "mesh",          true,      true, false, "high", true,
+                    true,      "Headset (USB)", "default", true, true};
 
 TEST(Settings, AreKept) {
     const testing::TemporaryFolder home;

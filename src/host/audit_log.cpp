@@ -46,8 +46,10 @@ std::string left_out_line(const std::map<session::AuditEvent::What, std::size_t>
 }  // namespace
 
 std::string audit_line(const session::AuditEvent& event, const std::string& time,
-                       const std::string& address) {
+                       const std::string& address, const std::string& session) {
     nlohmann::ordered_json line{{"time", time}, {"event", session::text_of(event.what)}};
+    if (!session.empty())
+        line["session"] = session;
     if (event.participant != ParticipantId{}) {
         line["participant"] = std::uint32_t(event.participant);
         line["name"] = event.name;
@@ -93,8 +95,9 @@ AuditLog::~AuditLog() {
         close(file_);
 }
 
-void AuditLog::add(const session::AuditEvent& event, const std::string& address) {
-    std::string line = audit_line(event, utc_text(utc_now()), address);
+void AuditLog::add(const session::AuditEvent& event, const std::string& address,
+                   const std::string& session) {
+    std::string line = audit_line(event, utc_text(utc_now()), address, session);
     {
         const std::lock_guard lock(mutex_);
         if (waiting_.size() >= max_waiting_lines)

@@ -16,9 +16,10 @@
 
 namespace theatron::host {
 
-// One line without its end. `time` as in base/utc.h; `address` may be empty.
+// One line without its end. `time` as in base/utc.h; `address` may be empty. `session`: its name;
+// empty for the first session of a host.
 std::string audit_line(const session::AuditEvent& event, const std::string& time,
-                       const std::string& address);
+                       const std::string& address, const std::string& session = "");
 
 // An own thread writes each line to the disk before it takes the next ones. A slow or full disk
 // delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many
@@ -39,7 +40,8 @@ public:
     ~AuditLog();
 
     // From any thread; never waits for the disk.
-    void add(const session::AuditEvent& event, const std::string& address);
+    void add(const session::AuditEvent& event, const std::string& address,
+             const std::string& session = "");
     // Counts an event that was not added, for the line about those left out.
     void leave_out(session::AuditEvent::What what);
 

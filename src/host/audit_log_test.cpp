@@ -51,6 +51,12 @@ TEST(Audit, ALineNamesWhoWhatWhenAndByWhom) {
     EXPECT_EQ(ended.size(), 2u) << ended;
 }
 
+TEST(Audit, ALineOfAFurtherSessionNamesIt) {
+    const auto line = nlohmann::json::parse(audit_line(event(), "", "", "OR 2"));
+    EXPECT_EQ(line["session"], "OR 2");
+    EXPECT_FALSE(nlohmann::json::parse(audit_line(event(), "", "")).contains("session"));
+}
+
 TEST(Audit, LinesAreAppendedInOrderToAPrivateFile) {
     const testing::TemporaryFolder folder;
     const auto path = folder.path() / "audit.jsonl";

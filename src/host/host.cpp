@@ -6,9 +6,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/fault.h"
 #include "base/log.h"
-#include "base/thread_name.h"
 #include "capture/placed_camera.h"
 #include "host/codec_steps.h"
 #include "host/host_identity.h"
@@ -65,11 +63,11 @@ wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed)
 
 }  // namespace
 
-void Host::Impl::open(const HostOptions& options, const capture::Progress& progress) {
+void Host::Impl::open(const SessionOptions& options, const capture::Progress& progress) {
     // First, since cameras may take long to open.
     state_folder = options.state.empty() ? default_state_folder() : options.state;
     state_lock.emplace(state_folder);
-    net::require_free(options.listen);
+    port->require_free();
     played = find_played_recording(options.cameras);
     const std::vector<std::string> specifications = without_room_only(played, options.cameras);
     std::vector<std::unique_ptr<capture::Camera>> cameras;
@@ -103,7 +101,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
         }
     const bool has_room = played && played->recording->room().present;
     room_file = std::make_unique<RoomFile>(state_folder / "room");
-    const net::Access access = open_access(options);
+    port->open_certificates(state_folder);
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
@@ -117,16 +115,15 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
     link_watch.emplace(state_folder);
     config.admission.tokens = load_tokens();
     config.admission.asks = options.asks;
-    if (options.is_audited)
-        audit = std::make_unique<AuditLog>(options.audit.empty() ? state_folder / "audit.jsonl"
-                                                                 : options.audit);
+    if (AuditLog* log = port->open_audit())
+        audit = std::make_unique<SessionAudit>(*log, in_audit);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     config.patient_for = options.patient_for;
     config.past.reach = options.look_back;
-    page = options.page.empty() ? Page() : Page(options.page);
-    if (!page.problem().empty())
-        log::warning("host", "page", {{"problem", page.problem()}});
+    if (options.direct)
+        config.make_secret = [] { return net::random_bytes(wire::direct_secret_size); };
+    port->open_page();
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);
     config.streams.adjustments = std::move(saved.adjustments);
@@ -143,9 +140,8 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
             describe(cameras[i]->info(), has_room && plays(*played, specifications[i])));
 
     session = std::make_unique<session::HostSession>(std::move(config));
-    server =
-        std::make_unique<net::Server>(options.listen, certificate->current(), handler(), access);
-    note_link(options, access);
+    server = std::make_unique<SessionPort>(*port, in_port());
+    port->open();
     audit_beginning();
 
     // The lanes never change once the server's thread runs.
@@ -168,10 +164,7 @@ void Host::Impl::open(const HostOptions& options, const capture::Progress& progr
                 carry_out();
             });
         });
-    thread = std::thread([this] {
-        name_this_thread("net");
-        (void)contain("net", [this] { server->run(); });
-    });
+    server->begin();
     if (has_room)
         start_replay();
 }
@@ -220,31 +213,36 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
         lane.make_color = color_watch.make_color();
         lane.moments = moments;
         lane.one_per_moment = true;
-        lanes.push_back(std::make_unique<send::CameraLane>(
-            CameraId(i), std::move(cameras[i]), std::move(events), workers, std::move(lane)));
+        lanes.push_back(std::make_unique<send::CameraLane>(CameraId(i), std::move(cameras[i]),
+                                                           std::move(events), port->workers(),
+                                                           std::move(lane)));
     }
 }
 
 Host::Host(const HostOptions& options, const capture::Progress& progress)
     : impl_(std::make_unique<Impl>(participants_)) {
+    impl_->port = std::make_shared<HostPort>(options);
+    impl_->open(options, progress);
+}
+
+Host::Host(const SessionOptions& options, const Host& first, const capture::Progress& progress)
+    : impl_(std::make_unique<Impl>(participants_)) {
+    impl_->port = first.impl_->port;
+    impl_->in_audit = options.name;
     impl_->open(options, progress);
 }
 
 Host::~Host() = default;
 
 std::string Host::link(wire::Role role) const {
-    net::Link link;
-    {
-        const std::lock_guard lock(impl_->link_mutex);
-        link = impl_->link;
-    }
+    net::Link link = impl_->port->link();
     link.token = impl_->token_of(role);
     link.role = wire::text_of(role);
     return net::format_link(link);
 }
 
 std::uint16_t Host::port() const {
-    return impl_->server->port();
+    return impl_->port->number();
 }
 
 std::vector<std::string> Host::camera_names() const {
@@ -342,6 +340,10 @@ std::string Host::status_line() const {
         line += text;
     }
     return line;
+}
+
+void Host::follow_certificates() {
+    impl_->port->follow_certificates();
 }
 
 std::string Host::room_problem() const {

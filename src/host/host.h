@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A running host: cameras, their lanes, the session and its network port.
+// A running session of a host: cameras, their lanes, the session, and its network port, which other
+// sessions of this host may share.
 #pragma once
 
 #include <atomic>
@@ -12,48 +13,25 @@
 #include "base/time.h"
 #include "codec/strata_region.h"
 #include "host/host_figures.h"
+#include "host/port_options.h"
+#include "host/session_options.h"
 #include "net/link.h"
 #include "send/camera_lane.h"
 #include "session/camera_adjustment.h"
-#include "session/past.h"
 
 namespace theatron::host {
 
-struct HostOptions {
-    std::vector<std::string> cameras;  // specifications; none: people meet without cameras
-    std::filesystem::path places;      // docs/formats/places.md; empty: none
-    std::vector<std::string> filters;  // filter_choice.h
-    net::Endpoint listen;
-    std::string name = "operating room";
-    std::string link_host;        // the link's host; empty: this machine's address
-    std::string token;            // of experts; empty: from the state folder
-    Duration link_lifetime{};     // the roles' links become invalid after it; 0: never
-    bool asks = false;            // experts and observers wait until an operator admits them
-    std::filesystem::path state;  // keys, tokens and links; empty: the user's state folder
-    std::filesystem::path audit;  // empty: audit.jsonl in the state folder
-    bool is_audited = true;
-    std::filesystem::path cases;  // the folder of cases that are offered; empty: none
-    // The roles that are told who the patient of the open case is; never observers.
-    std::vector<wire::Role> patient_for = {wire::Role::operator_};
-    // Files of an organisation's certificate, for browsers (net::read_certificate); empty: the
-    // host's own one.
-    std::filesystem::path certificate, key;
-    bool insists_on_https = false;  // answers carry Strict-Transport-Security; needs `certificate`
-    // "NAME" or "NAME:PORT" (net::parse_public_name), of links instead of `link_host`; requests for
-    // other names are refused. Empty: every name is right.
-    std::string public_name;
-    std::vector<std::string> proxies;         // trusted ones (net::Proxies)
-    std::filesystem::path proxy_certificate;  // that they show, for links; needed with `proxies`
-    std::filesystem::path page;               // the browser client (host/page.h); empty: none
-    // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
-    Duration look_back = session::Past::longest_reach;
-};
+// The options of the first session of a host, and of the port that all its sessions share.
+struct HostOptions : SessionOptions, PortOptions {};
 
 // Runs from construction to destruction, on its own threads. Functions: any thread, unless stated.
 class Host {
 public:
     // Opens cameras and port. Throws Error with one sentence if one of them cannot be opened.
     Host(const HostOptions& options, const capture::Progress& progress);
+    // A further session on the port of `first`, which must outlive it. Its state folder is one of
+    // its own. Throws Error as above.
+    Host(const SessionOptions& options, const Host& first, const capture::Progress& progress);
     ~Host();
 
     // The link of a role, which stays valid, except that it changes with the certificate.

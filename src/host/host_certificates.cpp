@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certificates of a running host, and what its links say of them.
+// The certificates of a host's port, and what its links say of them.
 #include "base/error.h"
 #include "base/log.h"
-#include "host/host_impl.h"
+#include "host/host_identity.h"
+#include "host/host_port.h"
 
 namespace theatron::host {
 namespace {
 
 // A host that people cannot reach as its options say does not start.
-void check_access(const HostOptions& options) {
+void check_access(const PortOptions& options) {
     const bool is_behind_proxy = !options.proxies.empty();
     if (options.insists_on_https && options.certificate.empty())
         throw Error(
@@ -26,88 +27,95 @@ void check_access(const HostOptions& options) {
 
 }  // namespace
 
-net::Access Host::Impl::open_access(const HostOptions& options) {
+void HostPort::open_certificates(const std::filesystem::path& state_folder) {
     constexpr std::uint16_t https_port = 443;
-    check_access(options);
-    if (options.certificate.empty())
-        certificate.emplace(net::load_or_make_certificate(state_folder), state_folder);
+    if (certificate_)
+        return;
+    state_folder_ = state_folder;
+    check_access(options_);
+    if (options_.certificate.empty())
+        certificate_.emplace(net::load_or_make_certificate(state_folder_), state_folder_);
     else
-        certificate.emplace(net::CertificateFiles(options.certificate, options.key));
-    if (!options.proxy_certificate.empty())
-        proxy_certificate.emplace(net::CertificateFiles(options.proxy_certificate, ""));
+        certificate_.emplace(net::CertificateFiles(options_.certificate, options_.key));
+    if (!options_.proxy_certificate.empty())
+        proxy_certificate_.emplace(net::CertificateFiles(options_.proxy_certificate, ""));
 
-    net::Access access;
-    access.proxies = net::Proxies(options.proxies);
-    access.insists_on_https = options.insists_on_https;
-    if (!options.public_name.empty())
-        access.name = net::parse_public_name(
-            options.public_name, access.proxies.empty() ? options.listen.port : https_port);
-    return access;
+    access_.proxies = net::Proxies(options_.proxies);
+    access_.insists_on_https = options_.insists_on_https;
+    if (!options_.public_name.empty())
+        access_.name = net::parse_public_name(
+            options_.public_name, access_.proxies.empty() ? options_.listen.port : https_port);
 }
 
-void Host::Impl::note_link(const HostOptions& options, const net::Access& access) {
-    const bool everywhere = options.listen.address == "0.0.0.0" || options.listen.address == "::";
-    link.host = access.name                  ? access.name->name
-                : !options.link_host.empty() ? options.link_host
-                : everywhere                 ? outside_address()
-                                             : options.listen.address;
-    link.port = access.name && access.name->port != 0 ? access.name->port : server->port();
+void HostPort::note_link() {
+    const net::Endpoint& listen = options_.listen;
+    const bool everywhere = listen.address == "0.0.0.0" || listen.address == "::";
+    net::Link link;
+    link.host = access_.name                  ? access_.name->name
+                : !options_.link_host.empty() ? options_.link_host
+                : everywhere                  ? outside_address()
+                                              : listen.address;
+    link.port = access_.name && access_.name->port != 0 ? access_.name->port : server_->port();
     link.fingerprint = linked_certificate().fingerprint;
-    write_address(state_folder, link);
+    {
+        const std::lock_guard lock(mutex_);
+        link_ = link;
+    }
+    write_address(state_folder_, link);
     note_certificates();
 }
 
-const net::Certificate& Host::Impl::linked_certificate() const {
-    return (proxy_certificate ? *proxy_certificate : *certificate).current();
+const net::Certificate& HostPort::linked_certificate() const {
+    return (proxy_certificate_ ? *proxy_certificate_ : *certificate_).current();
 }
 
-void Host::Impl::note_certificates() {
+void HostPort::note_certificates() {
     const files::UtcSeconds now = files::utc_now();
+    const std::string name = link().host;
     std::vector<HostFigures::Certificate> figures;
     const auto note = [&](const char* of, const KeptCertificate& kept, bool is_in_links) {
         // Browsers see only the one in the links.
-        const std::string expected = is_in_links ? link.host : std::string();
+        const std::string expected = is_in_links ? name : std::string();
         figures.push_back(
             {of, kept.current().fingerprint, kept.validity().ends, kept.problem(now, expected)});
     };
-    note("host", *certificate, !proxy_certificate);
-    if (proxy_certificate)
-        note("proxy", *proxy_certificate, true);
+    note("host", *certificate_, !proxy_certificate_);
+    if (proxy_certificate_)
+        note("proxy", *proxy_certificate_, true);
     for (const auto& certificate_now : figures) {
-        std::string& told = told_of_certificates[certificate_now.of];
+        std::string& told = told_of_certificates_[certificate_now.of];
         if (told != certificate_now.problem && !certificate_now.problem.empty())
             log::warning("host", "certificate", {{"problem", certificate_now.problem}});
         told = certificate_now.problem;
     }
-    const std::lock_guard lock(figures_mutex);
-    certificate_figures = std::move(figures);
+    const std::lock_guard lock(mutex_);
+    certificates_ = std::move(figures);
 }
 
-void Host::follow_certificates() {
-    Impl& host = *impl_;
-    const bool is_other = host.certificate->follow(
-        [&](const net::Certificate& fresh) { host.server->set_certificate(fresh); });
+void HostPort::follow_certificates() {
+    const bool is_other = certificate_->follow(
+        [&](const net::Certificate& fresh) { server_->set_certificate(fresh); });
     const bool is_proxys_other =
-        host.proxy_certificate && host.proxy_certificate->follow([](const net::Certificate&) {});
+        proxy_certificate_ && proxy_certificate_->follow([](const net::Certificate&) {});
     if (is_other)
         log::info("host", "certificate replaced",
-                  {{"expires", files::utc_text(host.certificate->validity().ends)}});
-    const net::Certificate& linked = host.linked_certificate();
-    if (is_proxys_other || (is_other && !host.proxy_certificate)) {
+                  {{"expires", files::utc_text(certificate_->validity().ends)}});
+    const net::Certificate& linked = linked_certificate();
+    if (is_proxys_other || (is_other && !proxy_certificate_)) {
         net::Link address;
         {
-            const std::lock_guard lock(host.link_mutex);
-            host.link.fingerprint = linked.fingerprint;
-            address = host.link;
+            const std::lock_guard lock(mutex_);
+            link_.fingerprint = linked.fingerprint;
+            address = link_;
         }
         try {
-            write_address(host.state_folder, address);
+            write_address(state_folder_, address);
         } catch (const Error& error) {
             log::warning("host", "'theatron link' shows old links", {{"problem", error.what()}});
         }
         log::info("host", "links changed with the certificate, browsers can use the old ones");
     }
-    host.note_certificates();
+    note_certificates();
 }
 
 }  // namespace theatron::host

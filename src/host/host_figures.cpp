@@ -142,7 +142,10 @@ nlohmann::json to_json(const HostFigures& figures) {
     for (const auto& pair : figures.places.pairs)
         overlaps.push_back(
             {{"a", pair.a}, {"b", pair.b}, {"apart_mm", pair.apart_mm}, {"alarm", pair.is_alarm}});
-    for (const auto& participant : figures.participants)
+    for (const auto& participant : figures.participants) {
+        nlohmann::json direct = nlohmann::json::array();
+        for (const CameraId camera : participant.direct)
+            direct.push_back(int(camera));
         participants.push_back({{"id", int(participant.id)},
                                 {"name", participant.name},
                                 {"sent", participant.sent},
@@ -152,7 +155,9 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"refused_faces", participant.refused_faces},
                                 {"role", wire::text_of(participant.role)},
                                 {"muted", participant.muted},
+                                {"direct", direct},
                                 {"age_ms", age_ms(participant)}});
+    }
     nlohmann::json published = nlohmann::json::array();
     for (const auto& camera : figures.published)
         published.push_back({{"id", int(camera.id)},
@@ -160,7 +165,8 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"publisher", int(camera.publisher)},
                              {"state", wire::text_of(camera.condition)},
                              {"adjusted", figures.adjustment(camera.id)},
-                             {"dropped_slow", camera.dropped_slow}});
+                             {"dropped_slow", camera.dropped_slow},
+                             {"bytes", camera.bytes}});
     nlohmann::json visitors = nlohmann::json::array();
     for (const auto& visitor : figures.visitors)
         visitors.push_back({{"id", std::uint32_t(visitor.participant)},
@@ -191,38 +197,80 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"certificates", certificates}};
 }
 
-std::string to_prometheus(const HostFigures& figures) {
+nlohmann::json to_json(const std::vector<HostFigures>& all) {
+    nlohmann::json json = to_json(all.front());
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        nlohmann::json session = to_json(all[i]);
+        for (const char* of_host : {"turned_away", "faults", "certificates"})
+            session.erase(of_host);
+        json["sessions"].push_back(std::move(session));
+    }
+    return json;
+}
+
+std::string to_prometheus(const std::vector<HostFigures>& all) {
     PrometheusText out;
+    using Camera = HostFigures::Camera;
+    using Place = PlaceWatch::Figures::Camera;
+    using Participant = HostFigures::Participant;
+    // The first session's lines are those of a host with a single one.
+    const auto in_session = [&](const HostFigures& figures, const std::string& labels) {
+        if (&figures == &all.front())
+            return labels;
+        return "session=" + quoted(figures.name) + (labels.empty() ? "" : ",") + labels;
+    };
     // Two cameras may have the same name; the number tells them apart.
-    const auto labels = [&](std::size_t i) {
-        return "camera=\"" + std::to_string(i) + "\",name=" + quoted(figures.cameras[i].lane.name);
+    const auto labels = [&](const HostFigures& figures, std::size_t i) {
+        return in_session(figures, "camera=\"" + std::to_string(i) +
+                                       "\",name=" + quoted(figures.cameras[i].lane.name));
+    };
+    using Look = std::function<void(const std::string& labels, const Camera&)>;
+    const auto each_camera = [&](const Look& look) {
+        for (const HostFigures& figures : all)
+            for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+                look(labels(figures, i), figures.cameras[i]);
     };
     const auto per_camera = [&](const char* name, const char* type, const char* help,
-                                const std::function<double(const HostFigures::Camera&)>& value) {
+                                const std::function<double(const Camera&)>& value) {
         out.family(name, type, help);
-        for (std::size_t i = 0; i < figures.cameras.size(); ++i)
-            out.value(labels(i), value(figures.cameras[i]));
+        each_camera([&](const std::string& of, const Camera& c) { out.value(of, value(c)); });
     };
-    using Camera = HostFigures::Camera;
+    const auto per_session = [&](const char* name, const char* help,
+                                 const std::function<std::size_t(const HostFigures&)>& value) {
+        out.family(name, "gauge", help);
+        for (const HostFigures& figures : all)
+            out.value(in_session(figures, ""), double(value(figures)));
+    };
+    const auto per_participant = [&](const char* name, const char* type, const char* help,
+                                     const std::function<double(const Participant&)>& value) {
+        out.family(name, type, help);
+        for (const HostFigures& figures : all)
+            for (const Participant& participant : figures.participants)
+                out.value(in_session(figures,
+                                     "participant=\"" + std::to_string(int(participant.id)) + "\""),
+                          value(participant));
+    };
     per_camera("frames_per_second", "gauge", "Good frames from the camera in the last second.",
                [](const Camera& c) { return c.lane.frames_per_second; });
     per_camera("frames_total", "counter", "Good frames from the camera.",
                [](const Camera& c) { return double(c.lane.frames); });
     out.family("frames_dropped_total", "counter", "Frames that were left out, by reason.");
-    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
-        for (const auto& [reason, count] : drops(figures.cameras[i]))
-            out.value(labels(i) + ",reason=\"" + reason + "\"", double(count));
+    each_camera([&](const std::string& of, const Camera& c) {
+        for (const auto& [reason, count] : drops(c))
+            out.value(of + ",reason=\"" + reason + "\"", double(count));
+    });
     out.family("stage_seconds", "histogram", "Time that a frame spent in a stage of the host.");
-    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
-        for (const auto& stage : figures.cameras[i].lane.stages)
-            out.histogram(labels(i) + ",stage=\"" + stage.name + "\"", stage.seconds);
+    each_camera([&](const std::string& of, const Camera& c) {
+        for (const auto& stage : c.lane.stages)
+            out.histogram(of + ",stage=\"" + stage.name + "\"", stage.seconds);
+    });
     per_camera("age_seconds", "gauge", "Since the camera's newest good frame was captured.",
                [](const Camera& c) { return c.lane.age_seconds; });
     out.family("bits_total", "counter", "Encoded bits, all settings together, by kind of image.");
-    for (std::size_t i = 0; i < figures.cameras.size(); ++i) {
-        out.value(labels(i) + ",kind=\"depth\"", 8.0 * double(figures.cameras[i].lane.depth_bytes));
-        out.value(labels(i) + ",kind=\"color\"", 8.0 * double(figures.cameras[i].lane.color_bytes));
-    }
+    each_camera([&](const std::string& of, const Camera& c) {
+        out.value(of + ",kind=\"depth\"", 8.0 * double(c.lane.depth_bytes));
+        out.value(of + ",kind=\"color\"", 8.0 * double(c.lane.color_bytes));
+    });
     per_camera("sync_offset_seconds", "gauge",
                "From the moment that the newest frame belongs to, to its capture.",
                [](const Camera& c) { return c.lane.sync_offset_seconds; });
@@ -231,75 +279,70 @@ std::string to_prometheus(const HostFigures& figures) {
                    return c.lane.camera.condition == wire::CameraCondition::live ? 0.0 : 1.0;
                });
     out.family("camera_troubles_total", "counter", "How often a camera became stale, by kind.");
-    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+    each_camera([&](const std::string& of, const Camera& c) {
         for (int kind = 1; kind < capture::trouble_kinds; ++kind)
-            out.value(labels(i) + ",kind=\"" + capture::text_of(capture::Trouble(kind)) + "\"",
-                      double(figures.cameras[i].lane.camera.figures.troubles[std::size_t(kind)]));
+            out.value(of + ",kind=\"" + capture::text_of(capture::Trouble(kind)) + "\"",
+                      double(c.lane.camera.figures.troubles[std::size_t(kind)]));
+    });
     per_camera("recorded_pictures_lost_total", "counter",
                "Pictures of a damaged recording that cannot be played.",
                [](const Camera& c) { return double(c.lane.camera.lost_pictures); });
-    const auto per_place =
-        [&](const char* name, const char* help,
-            const std::function<double(const PlaceWatch::Figures::Camera&)>& value) {
-            out.family(name, "gauge", help);
+    const auto per_place = [&](const char* name, const char* help,
+                               const std::function<double(const Place&)>& value) {
+        out.family(name, "gauge", help);
+        for (const HostFigures& figures : all)
             for (std::size_t i = 0; i < figures.places.cameras.size(); ++i)
                 if (figures.places.cameras[i].is_watched)
-                    out.value(labels(i), value(figures.places.cameras[i]));
-        };
-    using Place = PlaceWatch::Figures::Camera;
+                    out.value(labels(figures, i), value(figures.places.cameras[i]));
+    };
     per_place("camera_moved_mm", "How far a camera was moved since the host began.",
               [](const Place& p) { return p.moved_mm; });
     per_place("camera_moved_alarm", "1 while a camera is not where it was registered.",
               [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });
     out.family("overlap_apart_mm", "gauge",
                "Median distance of the surfaces that two cameras see, depth as measured.");
-    for (const auto& pair : figures.places.pairs)
-        out.value("a=\"" + std::to_string(pair.a) + "\",b=\"" + std::to_string(pair.b) + "\"",
-                  pair.apart_mm);
+    for (const HostFigures& figures : all)
+        for (const auto& pair : figures.places.pairs)
+            out.value(in_session(figures, "a=\"" + std::to_string(pair.a) + "\",b=\"" +
+                                              std::to_string(pair.b) + "\""),
+                      pair.apart_mm);
     per_camera("reopens_total", "counter", "How often the camera was opened again.",
                [](const Camera& c) { return double(c.lane.camera.figures.reopens); });
 
-    out.family("participants", "gauge", "Participants that have joined.");
-    out.value("", double(figures.participants.size()));
-    out.family("participant_age_seconds", "gauge",
-               "Age of the oldest of a participant's newest frames when they were decoded.");
-    for (const auto& participant : figures.participants)
-        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
-                  age_ms(participant) / 1000);
-    out.family("requests_refused_total", "counter",
-               "Requests that came too often, by participant.");
-    for (const auto& participant : figures.participants)
-        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
-                  double(participant.refused));
-    out.family("messages_denied_total", "counter",
-               "Messages that a participant's role does not allow.");
-    for (const auto& participant : figures.participants)
-        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
-                  double(participant.denied));
-    out.family("faces_refused_total", "counter",
-               "Pictures of a participant's face that were too large or too many.");
-    for (const auto& participant : figures.participants)
-        out.value("participant=\"" + std::to_string(int(participant.id)) + "\"",
-                  double(participant.refused_faces));
-    out.family("visitors", "gauge", "People who wait to be let in.");
-    out.value("", double(figures.visitors.size()));
-    out.family("past_bytes", "gauge", "Encoded pictures that are kept for looking back.");
-    out.value("", double(figures.past_bytes));
+    per_session("participants", "Participants that have joined.",
+                [](const HostFigures& f) { return f.participants.size(); });
+    per_participant("participant_age_seconds", "gauge",
+                    "Age of the oldest of a participant's newest frames when they were decoded.",
+                    [](const Participant& p) { return age_ms(p) / 1000; });
+    per_participant("requests_refused_total", "counter",
+                    "Requests that came too often, by participant.",
+                    [](const Participant& p) { return double(p.refused); });
+    per_participant("messages_denied_total", "counter",
+                    "Messages that a participant's role does not allow.",
+                    [](const Participant& p) { return double(p.denied); });
+    per_participant("faces_refused_total", "counter",
+                    "Pictures of a participant's face that were too large or too many.",
+                    [](const Participant& p) { return double(p.refused_faces); });
+    per_session("visitors", "People who wait to be let in.",
+                [](const HostFigures& f) { return f.visitors.size(); });
+    per_session("past_bytes", "Encoded pictures that are kept for looking back.",
+                [](const HostFigures& f) { return f.past_bytes; });
+    const HostFigures& host = all.front();
     out.family("strangers_turned_away_total", "counter",
                "Connections that showed no token in time.");
-    out.value("", double(figures.turned_away));
+    out.value("", double(host.turned_away));
     out.family("faults_total", "counter",
                "Faults that cost a connection, a picture or a camera and not the host.");
-    out.value("", double(figures.faults));
+    out.value("", double(host.faults));
     out.family("certificate_seconds_left", "gauge", "Until a certificate expires.");
-    for (const auto& certificate : figures.certificates)
-        out.value("of=" + quoted(certificate.of), double(seconds_left(figures, certificate)));
+    for (const auto& certificate : host.certificates)
+        out.value("of=" + quoted(certificate.of), double(seconds_left(host, certificate)));
     out.family("certificate_problem", "gauge",
                "1 while a certificate must be looked after; status says why.");
-    for (const auto& certificate : figures.certificates)
+    for (const auto& certificate : host.certificates)
         out.value("of=" + quoted(certificate.of), certificate.problem.empty() ? 0 : 1);
     out.family("uptime_seconds", "counter", "Since the host began.");
-    out.value("", figures.seconds);
+    out.value("", host.seconds);
     return out.take();
 }
 
@@ -391,6 +434,8 @@ std::string to_table(const nlohmann::json& figures) {
     for (const auto& visitor : list(figures, "visitors"))
         table += "waits to be let in: " + text(visitor, "name") + " (" + text(visitor, "role") +
                  ", person " + text(visitor, "person") + ")\n";
+    for (const auto& session : list(figures, "sessions"))
+        table += "\n" + to_table(session);
     return table;
 }
 

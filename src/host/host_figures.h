@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct HostFigures {
         std::uint64_t refused_faces = 0;          // pictures of its face beyond their limits
         wire::Role role{};
         bool muted = false;
+        std::set<CameraId> direct = {};  // whose pictures come directly from their publisher
     };
     std::vector<Participant> participants;
     struct Published {
@@ -48,6 +50,7 @@ struct HostFigures {
         wire::CameraCondition condition{};
         std::uint64_t dropped_slow = 0;  // as above
         bool is_face = false;            // of its publisher
+        std::uint64_t bytes = 0;         // of pictures that the host has received
     };
     std::vector<Published> published;          // cameras that participants send now
     std::map<CameraId, std::string> adjusted;  // by operators, and how
@@ -76,14 +79,18 @@ struct HostFigures {
 
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests","denied_messages","refused_faces","role","muted",…}],"visitors":[{"id","name",
+// "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "adjusted","dropped_slow"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
+// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
 // "page_problem","certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
+// The same of the first session of a host; those of its further ones are in "sessions", which is
+// missing where there are none. `all` is not empty.
+nlohmann::json to_json(const std::vector<HostFigures>& all);
 
-// The text format of Prometheus, version 0.0.4.
-std::string to_prometheus(const HostFigures& figures);
+// The text format of Prometheus, version 0.0.4. Lines about a session other than the first have its
+// name in the label `session`. `all` is not empty.
+std::string to_prometheus(const std::vector<HostFigures>& all);
 
 // A table of the output of to_json(), perhaps of another version; fields may be missing.
 std::string to_table(const nlohmann::json& figures);

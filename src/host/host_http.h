@@ -14,10 +14,10 @@
 
 namespace theatron::host {
 
-// A request needs one of `tokens`, in the header "Authorization: Bearer TOKEN" or in
-// the query as token=TOKEN.
-net::HttpAnswer answer_http(const net::HttpRequest& request, const std::vector<std::string>& tokens,
-                            const std::function<HostFigures()>& figures);
+// `may_read`: the request shows a token that opens the figures. `figures`: those of all sessions
+// that it opens.
+net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
+                            const std::function<std::vector<HostFigures>()>& figures);
 
 // Asks a host, perhaps on another machine, for /status: see to_json(). Its texts are clean
 // (base/outside_text.h). Throws Error, also for an answer that is nested more deeply than a host's

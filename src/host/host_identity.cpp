@@ -109,6 +109,15 @@ StateLock::~StateLock() {
         close(file_);
 }
 
+bool is_host_running(const std::filesystem::path& folder) {
+    const int file = open((folder / "host.lock").c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0)
+        return false;
+    const bool is_free = flock(file, LOCK_SH | LOCK_NB) == 0;
+    close(file);
+    return !is_free;
+}
+
 void write_address(const std::filesystem::path& folder, const net::Link& link) {
     net::Link address = link;
     address.token = "none";

@@ -39,6 +39,10 @@ private:
     int file_ = -1;
 };
 
+// True if a host uses this folder now. A host that begins at the same moment may be told so
+// wrongly and not start, so ask rarely.
+bool is_host_running(const std::filesystem::path& folder);
+
 // Notes the address of the host's links, for 'theatron link'. Throws Error.
 void write_address(const std::filesystem::path& folder, const net::Link& link);
 // Address and fingerprint of the host that last ran with this folder; no token. Throws Error if

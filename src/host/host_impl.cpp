@@ -7,8 +7,6 @@
 #include "base/fault.h"
 #include "base/hex_text.h"
 #include "base/log.h"
-#include "host/host_http.h"
-#include "host/lobby.h"
 
 namespace theatron::host {
 namespace {
@@ -36,16 +34,9 @@ std::optional<Bytes> without_pointing(const wire::State& state) {
 
 net::Server::Handler Host::Impl::handler() {
     net::Server::Handler h;
-    h.invited = [this](ByteView first) { return is_invited(first); };
-    h.turned_away = [this](const std::string& address, const std::string& why) {
-        ++turned_away;
-        if (const auto left_out = strangers.take(address, steady_now()))
-            log::info("host", "stranger turned away",
-                      {{"address", address}, {"why", why}, {"left_out", *left_out}});
-    };
     h.connected = [this](net::PeerId peer, const std::string& address, bool) {
         addresses[peer] = address;
-        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now());
+        session->on_connected(ParticipantId(std::uint32_t(peer)), steady_now(), address);
         carry_out();
     };
     h.control = [this](net::PeerId peer, ByteView bytes) {
@@ -81,7 +72,6 @@ net::Server::Handler Host::Impl::handler() {
         heard.erase(peer);
         note_left(peer);
     };
-    h.now = steady_now;
     h.tick = [this] {
         measure_links();
         hold_lanes();
@@ -92,18 +82,19 @@ net::Server::Handler Host::Impl::handler() {
         note_participants();
         room_file->on_tick(session->room(), session->streams().adjustments(), steady_now());
     };
-    h.http = [this](const net::HttpRequest& request) {
-        if (const auto token = find_token(net::shown_token(request));
-            token && token->expires && steady_now() >= *token->expires)
-            return net::HttpAnswer{.status = 410,
-                                   .body = "This link has expired; ask for a new one.\n"};
-        if (is_lobby(request))
-            return answer_lobby(request);
-        if (auto file = page.answer(request))
-            return std::move(*file);
-        return answer_http(request, http_tokens(), [this] { return figures(); });
-    };
     return h;
+}
+
+PortSession Host::Impl::in_port() {
+    PortSession given;
+    given.events = handler();
+    given.find_token = [this](const std::string& secret) { return find_token(secret); };
+    given.must_ask = [this](wire::Role role) { return must_ask(role); };
+    given.http_tokens = [this] { return http_tokens(); };
+    given.metrics_token = metrics_token;
+    given.figures = [this] { return figures(); };
+    given.picture = [this] { return thumbnail.png(); };
+    return given;
 }
 
 // A fault in one action costs only the participant that the action is for.
@@ -432,7 +423,8 @@ void Host::Impl::send_poses_to(ParticipantId receiver,
 void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> message) {
     const auto receivers =
         session->on_media_from(ParticipantId(std::uint32_t(publisher)), *message, steady_now());
-    if (const auto header = wire::parse_media_header(*message))
+    if (const auto header = wire::parse_media_header(*message)) {
+        received[camera_of(header->stream)] += message->size();
         send_media({std::move(message),
                     header->stream,
                     header->setting,
@@ -442,6 +434,7 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
                     header->key,
                     {}},
                    receivers);
+    }
     carry_out();
     set_alarm();
 }
@@ -483,12 +476,12 @@ HostFigures Host::Impl::figures() const {
     if (place_watch)
         figures.places = place_watch->figures();
     figures.visitors = visitor_figures;
-    figures.certificates = certificate_figures;
+    figures.certificates = port->certificates();
     figures.has_ended = ended_figure;
     figures.past_bytes = past_figure;
-    figures.turned_away = turned_away;
+    figures.turned_away = port->turned_away();
     figures.faults = fault_count();
-    figures.page_problem = page.problem();
+    figures.page_problem = port->page_problem();
     return figures;
 }
 

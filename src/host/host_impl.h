@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The implementation of a Host: the state that its threads share.
+// The implementation of a Host: the state that its threads share. That of the network port,
+// which several sessions may share, is in host/host_port.h.
 #pragma once
 
 #include <condition_variable>
@@ -10,20 +11,18 @@
 #include "base/line_limit.h"
 #include "base/steady_clock.h"
 #include "capture/camera_places.h"
-#include "host/audit_log.h"
 #include "host/case_shelf.h"
 #include "host/filter_choice.h"
 #include "host/host.h"
 #include "host/host_identity.h"
-#include "host/kept_certificate.h"
+#include "host/host_port.h"
 #include "host/link_book.h"
-#include "host/page.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
+#include "host/session_audit.h"
+#include "host/session_port.h"
 #include "host/thumbnail.h"
-#include "net/certificate.h"
-#include "net/server.h"
 #include "send/color_watch.h"
 #include "send/media_queue.h"
 #include "session/host_session.h"
@@ -34,36 +33,30 @@ namespace theatron::host {
 
 struct Host::Impl {
     std::atomic<std::size_t>& participants;
-    // Used by the owner of the host.
-    std::optional<KeptCertificate> certificate, proxy_certificate;
-    std::map<std::string, std::string> told_of_certificates;  // problems that were logged
-    mutable std::mutex link_mutex;
-    net::Link link;  // without a token; changed by the owner of the host, guarded by link_mutex
+    std::shared_ptr<HostPort> port;  // perhaps with other sessions
     std::filesystem::path state_folder;
     std::optional<LinkWatch> link_watch;    // used by the owner of the host
     std::optional<TimePoint> roles_expire;  // the links of the roles
     std::string metrics_token;
-    Page page;  // does not change
     bool asks = false;
     bool has_ended = false;  // the session, before the host did
     mutable std::mutex tokens_mutex;
     std::string own_token;                          // guarded by tokens_mutex, as is the next
     std::vector<session::Admission::Token> tokens;  // those of the session
-    std::unique_ptr<AuditLog> audit;                // may be null
+    std::string in_audit;                           // the session's name in the audit log
+    std::unique_ptr<SessionAudit> audit;            // may be null
     session::TokenBucket audited{1, 500};           // events; server's thread
     session::TokenBucket audited_knocks{1, 500};    // of people who wait; likewise
     std::unique_ptr<session::HostSession> session;
-    std::unique_ptr<net::Server> server;
+    std::unique_ptr<SessionPort> server;
     capture::CameraPlaces places;  // does not change once lanes run
-    send::Workers workers;
-    Thumbnail thumbnail;  // of the first camera
+    Thumbnail thumbnail;           // of the first camera
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
     send::ColorWatch color_watch;             // on the thread of the server
     std::vector<FilterSource> filters;        // by camera; used by the owner of the host
     std::vector<Size> depth_sizes;            // by camera; the same way
-    std::thread thread;
-    send::MediaQueue media;  // from the lanes to the server's thread
+    send::MediaQueue media;                   // from the lanes to the server's thread
     std::mutex states_mutex;
     std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
     std::map<CameraId, wire::CameraState> lane_states;  // as the lanes report them
@@ -72,7 +65,6 @@ struct Host::Impl {
     std::map<net::PeerId, std::string> addresses;
     std::map<net::PeerId, TimePoint> heard;  // when the last control message came
     LineLimit joins, changes;                // of log lines; server's thread
-    LineLimit strangers;                     // the door's thread
     // The cameras with a region of interest; server's thread.
     std::set<std::size_t> with_region;
     std::set<std::size_t> held;  // lanes; server's thread
@@ -83,6 +75,7 @@ struct Host::Impl {
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
+    std::map<CameraId, std::uint64_t> received;  // bytes of participants' cameras; likewise
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
@@ -91,11 +84,8 @@ struct Host::Impl {
     bool ended_figure = false;
     std::size_t past_figure = 0;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
-    std::vector<HostFigures::Certificate> certificate_figures;
     std::string name;
     const TimePoint begun = steady_now();
-
-    std::atomic<std::uint64_t> turned_away = 0;  // strangers
 
     std::set<net::PeerId> leaving;  // a Goodbye was sent to them; server's thread
     std::mutex goodbye_mutex;
@@ -116,15 +106,15 @@ struct Host::Impl {
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
-        if (thread.joinable())
+        const bool has_begun = server && server->has_begun();
+        if (has_begun)
             say_goodbye();
         replay.reset();
-        // The server's thread uses the lanes: it ends first. The lanes use the watch, whose
+        // The server's thread uses the lanes: it leaves them first. The lanes use the watch, whose
         // thread posts to the server.
         if (server)
-            server->stop();
-        if (thread.joinable()) {
-            thread.join();
+            server->leave();
+        if (has_begun) {
             room_file->save(session->room(), session->streams().adjustments(), steady_now());
             if (audit && !has_ended)
                 audit->add({session::AuditEvent::What::ended, {}, "", {}, {}, "", "", name}, "");
@@ -133,18 +123,14 @@ struct Host::Impl {
         place_watch.reset();
     }
 
-    void open(const HostOptions& options, const capture::Progress& progress);
+    // `port` is set before; it opens for the first session.
+    void open(const SessionOptions& options, const capture::Progress& progress);
     void audit_beginning();
-    // Throws Error with one sentence about options that do not fit together.
-    net::Access open_access(const HostOptions& options);
-    // When the server has its port.
-    void note_link(const HostOptions& options, const net::Access& access);
-    const net::Certificate& linked_certificate() const;
-    void note_certificates();
     // Reads all links, for the session and for the door.
     std::vector<session::Admission::Token> load_tokens();
     std::string token_of(wire::Role role) const;
     net::Server::Handler handler();
+    PortSession in_port();
     void start_replay();
     void start_lanes(const std::vector<std::string>& specifications,
                      std::vector<std::unique_ptr<capture::Camera>> cameras);
@@ -205,13 +191,11 @@ struct Host::Impl {
     void take_state(wire::CameraState state);
     void take_place(CameraId camera, const wire::Text& problem);
     bool pass_on(wire::CameraState state);
-    bool is_invited(ByteView first) const;
     std::vector<std::string> http_tokens() const;
     // The link whose token this is; it may have expired. On any thread.
     std::optional<session::Admission::Token> find_token(const std::string& secret) const;
     // True if a participant with this role waits for admission.
     bool must_ask(wire::Role role) const;
-    net::HttpAnswer answer_lobby(const net::HttpRequest& request);
     HostFigures figures() const;
 };
 

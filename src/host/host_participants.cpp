@@ -21,12 +21,21 @@ wire::CameraCondition condition_here(const std::optional<wire::CameraState>& sai
 }  // namespace
 
 void Host::Impl::note_participants() {
+    const auto direct_cameras = [&](ParticipantId id,
+                                    const std::vector<wire::StreamReport>& report) {
+        std::set<CameraId> cameras;
+        for (const wire::StreamReport& stream : report)
+            if (session->is_direct(id, stream.direct))
+                cameras.insert(camera_of(stream.stream));
+        return cameras;
+    };
     std::vector<HostFigures::Participant> list;
     for (const auto& [id, participant] : session->participants())
         if (participant.joined)
             list.push_back({id, participant.name, session->step_of(id), participant.report,
                             participant.renderer, participant.budget.refused(), participant.denied,
-                            participant.refused_faces, participant.role, participant.muted});
+                            participant.refused_faces, participant.role, participant.muted,
+                            direct_cameras(id, participant.report)});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {
@@ -39,6 +48,7 @@ void Host::Impl::note_participants() {
     };
     const session::Streams& streams = session->streams();
     std::erase_if(dropped_slow, [&](const auto& entry) { return !streams.find(entry.first); });
+    std::erase_if(received, [&](const auto& entry) { return !streams.find(entry.first); });
     std::map<CameraId, session::CameraAdjustment> adjusted;
     for (const wire::Camera& camera : streams.cameras())
         if (!camera.adjustment.empty())
@@ -49,7 +59,8 @@ void Host::Impl::note_participants() {
             const auto& state = streams.find(camera.id)->state;
             published.push_back({camera.id, camera.name, camera.publisher,
                                  condition_here(state, is_silent(camera.publisher)),
-                                 dropped_slow[camera.id], camera.frame == wire::CameraFrame::face});
+                                 dropped_slow[camera.id], camera.frame == wire::CameraFrame::face,
+                                 received[camera.id]});
         }
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);

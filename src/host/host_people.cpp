@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "host/host_identity.h"
 #include "host/host_impl.h"
+#include "net/certificate.h"
 #include "wire/manage_text.h"
 
 namespace theatron::host {
@@ -40,22 +41,11 @@ std::string Host::Impl::token_of(wire::Role role) const {
     return "";
 }
 
-// On the door's thread.
-bool Host::Impl::is_invited(ByteView first) const {
-    const auto message = wire::decode_to_host(first);
-    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
-    bool shown = false;
-    const std::lock_guard lock(tokens_mutex);
-    for (const auto& token : tokens)
-        shown = (join && net::equal_secrets(join->token, token.secret)) || shown;
-    return shown;
-}
-
 bool Host::Impl::must_ask(wire::Role role) const {
     return asks && (role == wire::Role::expert || role == wire::Role::observer);
 }
 
-// Likewise. Those who must ask to come in see nothing before.
+// On the door's thread. Those who must ask to come in see nothing before.
 std::vector<std::string> Host::Impl::http_tokens() const {
     std::vector<std::string> secrets{metrics_token};
     const TimePoint now = steady_now();
@@ -120,6 +110,15 @@ void Host::Impl::carry_out(const session::action::Audit& a) {
                    {"role", wire::text_of(event.role)},
                    log::outside("by", event.by),
                    {"left_out", *left_out}});
+}
+
+std::optional<session::Admission::Token> Host::Impl::find_token(const std::string& secret) const {
+    std::optional<session::Admission::Token> found;
+    const std::lock_guard lock(tokens_mutex);
+    for (const auto& token : tokens)
+        if (net::equal_secrets(secret, token.secret))
+            found = token;
+    return found;
 }
 
 // The session has already removed those who came by it.

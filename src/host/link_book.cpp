@@ -116,7 +116,7 @@ KnownLink make_link(const fs::path& folder, wire::Role role,
     }
     if (present.size() >= max_made_links)
         throw Error("There are " + std::to_string(max_made_links) +
-                    " links already, which is as many as can be; delete one with 'theatron link "
+                    " links already, which is the most it keeps; delete one with 'theatron link "
                     "--revoke'.");
     KnownLink link{net::random_token().substr(0, name_digits), role, net::random_token(), expires,
                    clean_text(label, max_label)};

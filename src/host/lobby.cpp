@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lobby.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "files/json_text.h"
 #include "host/host_http.h"
-#include "host/host_impl.h"
 #include "wire/condition_text.h"
 
 namespace theatron::host {
@@ -21,53 +22,69 @@ bool is_lobby(const net::HttpRequest& request) {
     return path == lobby_path || path == thumbnail_path;
 }
 
-nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask) {
+nlohmann::json lobby_session(const HostFigures& figures, bool must_ask,
+                             const std::string& thumbnail) {
     nlohmann::json session{{"name", figures.name},
                            {"asks", must_ask},
                            {"ended", figures.has_ended},
                            {"people_count", figures.participants.size()}};
-    if (!must_ask) {
-        nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();
-        for (const auto& person : figures.participants)
-            people.push_back({{"name", person.name},
-                              {"role", wire::text_of(person.role)},
-                              {"muted", person.muted}});
-        for (std::size_t i = 0; i < figures.cameras.size(); ++i)
-            cameras.push_back({{"name", figures.cameras[i].lane.name},
-                               {"state", wire::text_of(figures.cameras[i].lane.camera.condition)},
-                               {"adjusted", figures.adjustment(CameraId(i))}});
-        for (const auto& camera : figures.published)
-            if (!camera.is_face)
-                cameras.push_back({{"name", camera.name},
-                                   {"state", wire::text_of(camera.condition)},
-                                   {"adjusted", figures.adjustment(camera.id)}});
-        session["people"] = people;
-        session["cameras"] = cameras;
-        session["thumbnail"] = thumbnail_path;
-    }
-    return {{"role", wire::text_of(role)}, {"sessions", nlohmann::json::array({session})}};
+    if (must_ask)
+        return session;
+    nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();
+    for (const auto& person : figures.participants)
+        people.push_back(
+            {{"name", person.name}, {"role", wire::text_of(person.role)}, {"muted", person.muted}});
+    for (std::size_t i = 0; i < figures.cameras.size(); ++i)
+        cameras.push_back({{"name", figures.cameras[i].lane.name},
+                           {"state", wire::text_of(figures.cameras[i].lane.camera.condition)},
+                           {"adjusted", figures.adjustment(CameraId(i))}});
+    for (const auto& camera : figures.published)
+        if (!camera.is_face)
+            cameras.push_back({{"name", camera.name},
+                               {"state", wire::text_of(camera.condition)},
+                               {"adjusted", figures.adjustment(camera.id)}});
+    session["people"] = people;
+    session["cameras"] = cameras;
+    session["thumbnail"] = thumbnail;
+    return session;
 }
 
-std::optional<session::Admission::Token> Host::Impl::find_token(const std::string& secret) const {
-    std::optional<session::Admission::Token> found;
-    const std::lock_guard lock(tokens_mutex);
-    for (const auto& token : tokens)
-        if (net::equal_secrets(secret, token.secret))
-            found = token;
-    return found;
+nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask) {
+    return {{"role", wire::text_of(role)},
+            {"sessions", nlohmann::json::array(
+                             {lobby_session(figures, must_ask, std::string(thumbnail_path))})}};
 }
 
-// On the door's thread.
-net::HttpAnswer Host::Impl::answer_lobby(const net::HttpRequest& request) {
-    const auto token = find_token(net::shown_token(request));
-    if (!token)
+net::HttpAnswer answer_lobby(const net::HttpRequest& request,
+                             const SessionSwitch::Sessions& sessions) {
+    const std::string secret = net::shown_token(request);
+    const auto own = std::ranges::find_if(
+        sessions, [&](const auto& entry) { return entry.second.find_token(secret).has_value(); });
+    if (own == sessions.end())
         return {.status = 401, .body = "Show the token of a link: docs/room.md\n"};
-    if (net::path_of(request.target) == lobby_path)
-        return {
-            .type = "application/json",
-            .body =
-                files::json_text(lobby_json(figures(), token->role, must_ask(token->role))) + "\n"};
-    std::string picture = must_ask(token->role) ? std::string() : thumbnail.png();
+    const wire::Role role = own->second.find_token(secret)->role;
+    const bool must_ask = own->second.must_ask(role);
+    const bool sees_all = own == sessions.begin() && role == wire::Role::operator_;
+
+    if (net::path_of(request.target) == lobby_path) {
+        nlohmann::json lobby = lobby_json(own->second.figures(), role, must_ask);
+        for (const auto& [number, session] : sessions)
+            if (sees_all && number != own->first)
+                lobby["sessions"].push_back(
+                    lobby_session(session.figures(), false,
+                                  std::string(thumbnail_path) +
+                                      "?session=" + std::to_string(std::uint32_t(number))));
+        return {.type = "application/json", .body = files::json_text(lobby) + "\n"};
+    }
+    const std::string asked = net::query_value(request.target, "session");
+    std::string picture;
+    for (const auto& [number, session] : sessions) {
+        const bool is_own = number == own->first;
+        const bool is_meant =
+            asked.empty() ? is_own : asked == std::to_string(std::uint32_t(number));
+        if (is_meant && (is_own ? !must_ask : sees_all))
+            picture = session.picture();
+    }
     if (picture.empty())
         return {.status = 404, .body = "There is no picture.\n"};
     return {.type = "image/png", .body = std::move(picture)};

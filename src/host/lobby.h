@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lobby of a host: what a link lets its bearer see of the session before joining it.
+// The lobby of a host: what a link lets its bearer see of sessions before joining one.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/host_figures.h"
+#include "host/session_switch.h"
 #include "net/http.h"
 #include "net/https_get.h"
 #include "net/link.h"
@@ -21,6 +22,14 @@ bool is_lobby(const net::HttpRequest& request);
 // "cameras":[{"name","state"}],"thumbnail"}]}. For a link by which one has to wait for admission:
 // without names, cameras and picture.
 nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask);
+// A further element of its "sessions", whose picture has this address.
+nlohmann::json lobby_session(const HostFigures& figures, bool must_ask,
+                             const std::string& thumbnail);
+
+// The answer to a request for which is_lobby() holds. The bearer of a link sees the session of the
+// link; an operator of the first session sees all of them.
+net::HttpAnswer answer_lobby(const net::HttpRequest& request,
+                             const SessionSwitch::Sessions& sessions);
 
 // The same from a host, perhaps on another machine; its texts are clean. Throws Error, also if the
 // host does not answer for so long.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/png_file.h"
+#include "host/port_pages.h"
 #include "host/thumbnail.h"
 
 namespace theatron::host {
@@ -42,6 +43,78 @@ TEST(Lobby, TellsSomeoneWhoMustAskOnlyTheNumberOfPeople) {
     EXPECT_EQ(lobby.dump().find("Ada"), std::string::npos);
     EXPECT_EQ(lobby.dump().find("lamp"), std::string::npos);
     EXPECT_EQ(lobby.dump().find("thumbnail"), std::string::npos);
+}
+
+// Two sessions: "OR 3" with the links "operator-3" and "expert-3", "OR 4" with "operator-4".
+class LobbyOfTwo : public ::testing::Test {
+protected:
+    static PortSession session(const std::string& name, const std::string& number) {
+        PortSession s;
+        s.find_token = [number](const std::string& secret) {
+            std::optional<session::Admission::Token> found;
+            for (const wire::Role role : wire::roles)
+                if (secret == wire::text_of(role) + ("-" + number))
+                    found = session::Admission::Token{secret, role, std::nullopt, ""};
+            return found;
+        };
+        s.must_ask = [](wire::Role role) { return role == wire::Role::expert; };
+        s.http_tokens = [number] { return std::vector<std::string>{"operator-" + number}; };
+        s.metrics_token = "metrics-" + number;
+        s.figures = [name] {
+            HostFigures figures;
+            figures.name = name;
+            return figures;
+        };
+        s.picture = [name] { return "picture of " + name; };
+        return s;
+    }
+    net::HttpAnswer ask(const std::string& target, const std::string& token) const {
+        return answer_page({target, "Bearer " + token}, Page(), sessions);
+    }
+    std::vector<std::string> names(const std::string& token) const {
+        std::vector<std::string> names;
+        for (const auto& shown : nlohmann::json::parse(ask("/lobby", token).body)["sessions"])
+            names.push_back(shown["name"]);
+        return names;
+    }
+    SessionSwitch::Sessions sessions{{SessionNumber{1}, session("OR 3", "3")},
+                                     {SessionNumber{2}, session("OR 4", "4")}};
+};
+
+TEST_F(LobbyOfTwo, ShowsALinkItsSessionAndTheHostsOperatorAll) {
+    EXPECT_EQ(names("operator-3"), (std::vector<std::string>{"OR 3", "OR 4"}));
+    EXPECT_EQ(names("observer-3"), (std::vector<std::string>{"OR 3"}));
+    EXPECT_EQ(names("operator-4"), (std::vector<std::string>{"OR 4"}));
+    EXPECT_EQ(ask("/lobby", "operator-5").status, 401);
+}
+
+TEST_F(LobbyOfTwo, GivesThePictureOfASessionThatTheLinkShows) {
+    EXPECT_EQ(ask("/thumbnail", "operator-3").body, "picture of OR 3");
+    EXPECT_EQ(ask("/thumbnail?session=2", "operator-3").body, "picture of OR 4");
+    EXPECT_EQ(ask("/thumbnail?session=2", "operator-4").body, "picture of OR 4");
+    EXPECT_EQ(ask("/thumbnail?session=1", "operator-4").status, 404);
+    EXPECT_EQ(ask("/thumbnail?session=2", "observer-3").status, 404);
+    EXPECT_EQ(ask("/thumbnail?session=3", "operator-3").status, 404);
+    EXPECT_EQ(ask("/thumbnail", "expert-4").status, 404) << "who must ask sees nothing before";
+}
+
+TEST_F(LobbyOfTwo, TheFiguresOfAllAreForTheHostsOperator) {
+    const auto all = nlohmann::json::parse(ask("/status", "operator-3").body);
+    EXPECT_EQ(all["name"], "OR 3");
+    ASSERT_EQ(all["sessions"].size(), 1u);
+    EXPECT_EQ(all["sessions"][0]["name"], "OR 4");
+    const auto one = nlohmann::json::parse(ask("/status", "operator-4").body);
+    EXPECT_EQ(one["name"], "OR 4");
+    EXPECT_FALSE(one.contains("sessions"));
+    EXPECT_EQ(ask("/status", "observer-3").status, 401);
+}
+
+TEST_F(LobbyOfTwo, MetricsNameFurtherSessionsInALabel) {
+    const std::string metrics = ask("/metrics", "operator-3").body;
+    EXPECT_NE(metrics.find("\ntheatron_participants{} 0\n"), std::string::npos);
+    EXPECT_NE(metrics.find("\ntheatron_participants{session=\"OR 4\"} 0\n"), std::string::npos);
+    const std::string of_one = ask("/metrics", "operator-4").body;
+    EXPECT_EQ(of_one.find("session="), std::string::npos);
 }
 
 FramePtr frame_of(Size size, Rgb color) {

@@ -194,6 +194,13 @@ std::string random_token() {
     return hex(bytes, sizeof(bytes));
 }
 
+Bytes random_bytes(std::size_t count) {
+    Bytes bytes(count);
+    if (RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), int(count)) != 1)
+        throw Error("The system has no random numbers.");
+    return bytes;
+}
+
 bool equal_secrets(std::string_view a, std::string_view b) {
     return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/bytes.h"
 #include "files/utc_text.h"
 
 struct x509_st;  // OpenSSL's X509
@@ -47,6 +48,9 @@ bool is_for(const Certificate& certificate, const std::string& name);
 
 // 128 random bits as 32 hex digits.
 std::string random_token();
+
+// Secret bytes. Throws Error.
+Bytes random_bytes(std::size_t count);
 
 // Compares in a time that does not depend on the position of the first difference.
 bool equal_secrets(std::string_view a, std::string_view b);

@@ -31,6 +31,7 @@ std::string fingerprint_of_peer(SSL* ssl) {
 struct Client::Impl {
     Link link;
     Handler handler;
+    Duration patience = std::chrono::seconds(10);
     asio::io_context io{1};
     asio::ssl::context tls{asio::ssl::context::tls_client};
     tcp::resolver resolver{io};
@@ -59,7 +60,7 @@ struct Client::Impl {
     void connect(const tcp::resolver::results_type& found) {
         socket = std::make_unique<WebSocket>(io, tls);
         auto& tcp_stream = beast::get_lowest_layer(*socket);
-        tcp_stream.expires_after(std::chrono::seconds(10));
+        tcp_stream.expires_after(patience);
         tcp_stream.async_connect(found, [this](beast::error_code error, const tcp::endpoint&) {
             if (error)
                 return finish("No host answers at " + where() + ": " + error.message() + ".");
@@ -145,6 +146,10 @@ Client::End Client::run() {
     if (!ended)
         return {"The connection ended: it met a fault here.", false};
     return impl_->end;
+}
+
+void Client::set_patience(Duration patience) {
+    impl_->patience = patience;
 }
 
 void Client::stop() {

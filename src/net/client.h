@@ -47,6 +47,9 @@ public:
     // The browser checks the host's certificate by its own rules, not against the link.
     void start(std::function<void(const End&)> ended);
 
+    // Before run(): the longest time for connecting and the TLS handshake. Not in a browser.
+    void set_patience(Duration patience);
+
     // From any thread. Not in a browser.
     void stop();
     void post(std::function<void()> work);  // runs `work` on the client's thread

@@ -8,6 +8,7 @@
 #include "capture/placed_camera.h"
 #include "geometry/calibration.h"
 #include "geometry/screen.h"
+#include "publish/distinct_names.h"
 #include "publish/own_camera.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -95,11 +96,15 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
     }
     if (sharing.frame == wire::CameraFrame::person)
         place_before_person(cameras, calibrations);
+    std::vector<std::string> names;
+    for (const auto& camera : cameras)
+        names.push_back(camera->info().name);
+    names = distinct_names(std::move(names));
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const capture::CameraInfo& info = cameras[i]->info();
         offered_.push_back(i);
         const bool is_in_room = is_screen(calibrations[i]) && !is_face_;
-        offers_.push_back({info.name, info.calibration.color.size != Size{}, info.frames_per_second,
+        offers_.push_back({names[i], info.calibration.color.size != Size{}, info.frames_per_second,
                            encode_calibration(calibrations[i]), sharing.may_record,
                            is_in_room ? wire::CameraFrame::room : sharing.frame});
     }
@@ -136,15 +141,17 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
 
 std::vector<std::string> CameraPublisher::camera_names() const {
     std::vector<std::string> names;
-    for (const auto& lane : lanes_)
-        names.push_back(lane->info().name);
+    for (const wire::OfferedCamera& offer : offers_)
+        names.push_back(offer.name);
     return names;
 }
 
 std::vector<CameraPublisher::Figures> CameraPublisher::figures() const {
     std::vector<Figures> result;
-    for (const auto& lane : lanes_)
-        result.push_back({std::nullopt, true, lane->figures()});
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+        result.push_back({std::nullopt, true, lanes_[i]->figures()});
+        result.back().lane.name = offers_[i].name;
+    }
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < offered_.size(); ++i) {
         Figures& figures = result[offered_[i]];

@@ -111,7 +111,7 @@ std::vector<wire::Feature> Admission::features_of(const wire::Join& hello, Role 
          {wire::Feature::publish, wire::Feature::sends_only, wire::Feature::room,
           wire::Feature::cases, wire::Feature::voice_consent, wire::Feature::adjusting,
           wire::Feature::playback, wire::Feature::screens, wire::Feature::look_back,
-          wire::Feature::webcam, wire::Feature::patient}) {
+          wire::Feature::webcam, wire::Feature::patient, wire::Feature::direct}) {
         const bool is_asked =
             std::find(hello.features.begin(), hello.features.end(), known) != hello.features.end();
         if (is_asked && (known != wire::Feature::publish || may(role, Right::publish)))

@@ -31,8 +31,9 @@ void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room,
     member.role = facts.role;
     member.name = facts.name;
     member.person = person;
-    std::erase_if(authors_,
-                  [&](const auto& mark) { return !state_.objects().contains(mark.first); });
+    const auto is_gone = [&](const auto& one) { return !state_.objects().contains(one.first); };
+    std::erase_if(authors_, is_gone);
+    std::erase_if(sharers_, is_gone);
     std::vector<ObjectId> own;
     for (const auto& [mark, author] : authors_)
         if (author == person)
@@ -42,6 +43,12 @@ void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room,
     take_own_screens(id);
     if (keeps_room)
         send_snapshot(id);
+}
+
+HostRoom::Authors HostRoom::authors() const {
+    Authors all = authors_;
+    all.insert(sharers_.begin(), sharers_.end());
+    return all;
 }
 
 void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {

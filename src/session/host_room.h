@@ -38,13 +38,14 @@ public:
     // Screens whose source is away; the oldest gives way.
     static constexpr std::size_t max_kept_screens = 32;
 
-    // The persons (wire::Join) who made these marks.
+    // The persons (wire::Join) who made these marks, or share these screens.
     using Authors = std::map<ObjectId, Bytes>;
 
     // Continues from `restored`. `actions` must outlive this object.
     HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions, Authors authors = {})
         : state_(restored), authors_(std::move(authors)), actions_(actions) {
         (void)end_presenting(std::nullopt);
+        take_restored_sharers();
         forget_sources();
     }
 
@@ -63,13 +64,22 @@ public:
     void refuse(ParticipantId id, const wire::RoomRequest& message, Refusal refusal);
     void send_snapshot(ParticipantId id);
 
+    struct ChosenPlace {
+        ScreenPlace place;
+        std::optional<ObjectId> kept;  // the screen that its source was before
+    };
     // A publisher's camera that is a screen. Returns its place in the room: where it was before, if
     // its source was here before and no screen stands there now; the place of its calibration, if
-    // that has one; else a place that is free, also of `further` screens, or the usual place.
-    ScreenPlace place_screen(const ScreenOffer& offer,
-                             const std::vector<ScreenPlace>& further = {}) const;
-    // Makes the screen an object of the room, at this place.
-    void add_screen(CameraId camera, const ScreenOffer& offer, const ScreenPlace& place);
+    // that has one; else a place that is free, or the usual place. `further` are the screens of
+    // the same offer that come before it: their places and objects are taken.
+    //
+    // A source is known by its person and by the names of the publisher and of the camera; of
+    // several with the same ones, the first that is offered is the first that there was.
+    ChosenPlace place_screen(const ScreenOffer& offer,
+                             const std::vector<ChosenPlace>& further = {}) const;
+    // Makes the screen an object of the room, at this place. Nothing may have changed in the room
+    // since place_screen(), except that `further` screens were added.
+    void add_screen(CameraId camera, const ScreenOffer& offer, const ChosenPlace& chosen);
     // Its source has left. The place is kept, as are those of at most max_kept_screens sources.
     void remove_screen(CameraId camera);
 
@@ -96,9 +106,9 @@ public:
 
     // Without a replayed recording.
     RoomSnapshot snapshot() const { return state_.snapshot(); }
-    // The authors of the marks of snapshot(), at least. A person's id proves who somebody is, so it
-    // stays at the host.
-    const Authors& authors() const { return authors_; }
+    // Those of the marks and shared screens of snapshot(), at least. A person's id proves who
+    // somebody is, so it stays at the host.
+    Authors authors() const;
     std::uint64_t revision() const { return state_.revision(); }
     // Grows with each change of snapshot().
     std::uint64_t version() const { return state_.revision() - replayed_changes_; }
@@ -126,8 +136,11 @@ private:
     // The camera of the shared screen that the request is to end.
     std::optional<CameraId> camera_of_removed(const Request& request) const;
     bool is_sharer(ParticipantId id, ObjectId screen) const;
-    // The screen of a source that was here before and is away.
-    std::optional<ObjectId> find_kept(const ScreenOffer& offer) const;
+    // The screen of a source that was here before and is away, and that none of `further` is.
+    std::optional<ObjectId> find_kept(const ScreenOffer& offer,
+                                      const std::vector<ChosenPlace>& further) const;
+    // After a restart: those among the authors.
+    void take_restored_sharers();
     // After a restart no source is here.
     void forget_sources();
     void drop_oldest_kept();
@@ -146,7 +159,7 @@ private:
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
     Authors authors_;
-    std::map<ObjectId, Bytes> sharers_;  // the persons (wire::Join) who share the screens
+    Authors sharers_;  // of screens, also of those whose source is away
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

@@ -21,9 +21,11 @@ ObjectId object_of(const Request& request) {
 
 }  // namespace
 
-ScreenPlace HostRoom::place_screen(const ScreenOffer& offer,
-                                   const std::vector<ScreenPlace>& further) const {
-    std::vector<ScreenPlace> others = further;
+HostRoom::ChosenPlace HostRoom::place_screen(const ScreenOffer& offer,
+                                             const std::vector<ChosenPlace>& further) const {
+    std::vector<ScreenPlace> others;
+    for (const ChosenPlace& one : further)
+        others.push_back(one.place);
     for (const auto& [id, object] : state_.objects())
         if (const auto screen = decode_shared_screen(object.kind, object.properties);
             screen && screen->camera)
@@ -36,26 +38,26 @@ ScreenPlace HostRoom::place_screen(const ScreenOffer& offer,
         place.height_m = width_m * picture.height / picture.width;
     };
     set_width(place.width_m);
-    if (const auto kept = find_kept(offer)) {
+    const auto kept = find_kept(offer, further);
+    if (kept) {
         const RoomObject& before = state_.objects().at(*kept);
         set_width(before.scale);
         place.room_from_screen = before.room_from_object;
         if (std::none_of(others.begin(), others.end(),
                          [&](const ScreenPlace& other) { return overlap(place, other); }))
-            return place;
+            return {place, kept};
     } else if (offer.calibration.registered) {
-        return place;
+        return {place, kept};
     }
     place.room_from_screen =
         free_screen_place(place.width_m, place.height_m, others).value_or(usual_screen_place);
-    return place;
+    return {place, kept};
 }
 
-void HostRoom::add_screen(CameraId camera, const ScreenOffer& offer, const ScreenPlace& place) {
-    const auto kept = find_kept(offer);
+void HostRoom::add_screen(CameraId camera, const ScreenOffer& offer, const ChosenPlace& chosen) {
     SharedScreen screen;
-    if (kept) {
-        const RoomObject& before = state_.objects().at(*kept);
+    if (chosen.kept) {
+        const RoomObject& before = state_.objects().at(*chosen.kept);
         screen = *decode_shared_screen(before.kind, before.properties);
     }
     screen.camera = camera;
@@ -65,14 +67,14 @@ void HostRoom::add_screen(CameraId camera, const ScreenOffer& offer, const Scree
     RoomObject object;
     object.kind = ObjectKind::screen;
     object.creator = offer.publisher;
-    object.room_from_object = place.room_from_screen;
-    object.scale = place.width_m;
+    object.room_from_object = chosen.place.room_from_screen;
+    object.scale = chosen.place.width_m;
     object.properties = encode_shared_screen(screen);
     // A calibration may have a picture or a place beyond the limits of objects; then the screen
     // stays where it is.
     if (!decode_shared_screen(object.kind, object.properties))
         return;
-    const auto change = state_.put(kept, std::move(object));
+    const auto change = state_.put(chosen.kept, std::move(object));
     if (!change)
         return;
     tell(*change);
@@ -88,8 +90,11 @@ void HostRoom::take_own_screens(ParticipantId id) {
     std::vector<ObjectId> own;
     for (const auto& [screen, sharer] : sharers_) {
         const auto found = state_.objects().find(screen);
-        if (!person.empty() && sharer == person && found != state_.objects().end() &&
-            !members_.contains(found->second.creator))
+        if (person.empty() || sharer != person || found == state_.objects().end() ||
+            members_.contains(found->second.creator))
+            continue;
+        const auto shown = decode_shared_screen(found->second.kind, found->second.properties);
+        if (shown && shown->camera)
             own.push_back(screen);
     }
     for (const RoomChange& change : state_.set_creator(own, id))
@@ -105,7 +110,6 @@ void HostRoom::remove_screen(CameraId camera) {
         RoomObject away = object;
         away.grip = {};
         away.properties = encode_shared_screen(*screen);
-        sharers_.erase(id);
         if (const auto change = state_.put(id, std::move(away)))
             tell(*change);
         return drop_oldest_kept();
@@ -146,13 +150,35 @@ void HostRoom::forget_sources() {
     drop_oldest_kept();
 }
 
-std::optional<ObjectId> HostRoom::find_kept(const ScreenOffer& offer) const {
-    for (const auto& [id, object] : state_.objects())
-        if (const auto screen = decode_shared_screen(object.kind, object.properties);
-            screen && !screen->camera && screen->publisher == offer.publisher_name &&
-            screen->name == offer.name)
+// Objects are in the order of their age. The screen of a person whom nobody knows any more may be
+// that of anybody with the same names.
+std::optional<ObjectId> HostRoom::find_kept(const ScreenOffer& offer,
+                                            const std::vector<ChosenPlace>& further) const {
+    const auto is_taken = [&](ObjectId id) {
+        return std::any_of(further.begin(), further.end(),
+                           [&](const ChosenPlace& one) { return one.kept == id; });
+    };
+    std::optional<ObjectId> of_nobody;
+    for (const auto& [id, object] : state_.objects()) {
+        const auto screen = decode_shared_screen(object.kind, object.properties);
+        if (!screen || screen->camera || screen->publisher != offer.publisher_name ||
+            screen->name != offer.name || is_taken(id))
+            continue;
+        const auto sharer = sharers_.find(id);
+        const bool is_known = sharer != sharers_.end() && !sharer->second.empty();
+        if (is_known && sharer->second == offer.person)
             return id;
-    return std::nullopt;
+        if (!of_nobody && (!is_known || offer.person.empty()))
+            of_nobody = id;
+    }
+    return of_nobody;
+}
+
+void HostRoom::take_restored_sharers() {
+    for (const auto& [id, object] : state_.objects())
+        if (is_shared_screen(object))
+            if (auto sharer = authors_.extract(id))
+                sharers_.insert(std::move(sharer));
 }
 
 bool HostRoom::is_sharer(ParticipantId id, ObjectId screen) const {

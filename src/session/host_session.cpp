@@ -60,6 +60,9 @@ Kind kind_of(const wire::Play&) {
 Kind kind_of(const wire::LookBack&) {
     return Kind::manage;
 }
+Kind kind_of(const wire::OfferDirect&) {
+    return Kind::publish;
+}
 
 // The number of a decision that is answered with Managed; 0: it is none.
 std::uint32_t decision_number(const wire::ToHost& message) {
@@ -82,6 +85,7 @@ HostSession::HostSession(Config config)
       membership_(config_.admission.asks),
       streams_(config_.streams, actions_),
       look_back_(config_.past, streams_, actions_),
+      direct_(config_.make_secret, actions_),
       room_(config_.room, actions_, config_.authors) {
     std::vector<wire::Camera> cameras = config_.cameras;
     for (wire::Camera& camera : cameras)
@@ -90,10 +94,11 @@ HostSession::HostSession(Config config)
     const std::vector<PlacedScreen> screens = place_screens({}, cameras, Placing::only_unplaced);
     streams_.add(host_publisher, std::move(cameras));
     for (const PlacedScreen& screen : screens)
-        room_.add_screen(screen.camera, screen.offer, screen.place);
+        room_.add_screen(screen.camera, screen.offer, screen.chosen);
 }
 
-void HostSession::on_connected(ParticipantId id, TimePoint now) {
+void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {
+    direct_.set_address(id, address);
     admission_.on_connected(id, 2 * streams_.size(), now);
 }
 
@@ -180,6 +185,10 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     // A recording is of the present.
     if (!look_back_.is_possible() || hello.records || participant.has(wire::Feature::sends_only))
         std::erase(participant.features, wire::Feature::look_back);
+    if (!direct_.is_possible())
+        std::erase(participant.features, wire::Feature::direct);
+    if (participant.has(wire::Feature::direct))
+        direct_.join(id);
     actions_.push_back(action::Joined{id, participant.name, participant.person});
     audit(AuditEvent::What::joined, id, "", hello.records ? "records" : "");
     describe_session(id);
@@ -245,6 +254,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Ping& ping, TimePoint 
 void HostSession::carry_out(ParticipantId id, const wire::Report& report, TimePoint now) {
     Participant& participant = *admission_.find(id);
     participant.report = report.streams;
+    direct_.report(id, report.streams);
     // Reports repeat it; a participant that changes it all the time must not fill the log.
     if (report.renderer == participant.renderer ||
         now - participant.renderer_noted < renderer_interval)
@@ -333,6 +343,7 @@ void HostSession::on_closed(ParticipantId id) {
     }
     renderers_.forget(id);
     look_back_.leave(id);
+    direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
     set_budgets();
@@ -359,6 +370,7 @@ void HostSession::resynchronise(ParticipantId id) {
     describe_session(id);
     tell_renderer(id);
     streams_.tell_again(id);
+    direct_.tell_again(id);
     room_.send_snapshot(id);
     if (!room_.cases().empty())
         tell_cases(id);
@@ -421,6 +433,7 @@ const std::vector<ActiveSetting>& HostSession::color_settings(CameraId camera) c
 }
 
 std::vector<Action> HostSession::take_actions() {
+    follow_paths();
     return std::exchange(actions_, {});
 }
 
@@ -434,6 +447,7 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     unshare(id, streams_.of(id));
     participant.closing = true;
     look_back_.leave(id);
+    direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
     actions_.push_back(action::Close{id, std::move(why)});

@@ -13,6 +13,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/admission.h"
+#include "session/direct_paths.h"
 #include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
@@ -46,7 +47,8 @@ public:
         HostRoom::Authors authors;  // of its marks
         // Those of them that may_know_patient() are told who the patient of the open case is.
         std::vector<Role> patient_for = {Role::operator_};
-        PastBounds past = {};  // that participants may look back at
+        PastBounds past = {};                      // that participants may look back at
+        DirectPaths::MakeSecret make_secret = {};  // empty: nothing is sent directly
     };
 
     // Cameras of one publisher at once.
@@ -56,7 +58,8 @@ public:
     HostSession(const HostSession&) = delete;
     HostSession& operator=(const HostSession&) = delete;
 
-    void on_connected(ParticipantId participant, TimePoint now);
+    // `address`: at which the host sees the participant; empty: not known.
+    void on_connected(ParticipantId participant, TimePoint now, const std::string& address = "");
     void on_control(ParticipantId participant, ByteView message, TimePoint now);
     void on_closed(ParticipantId participant);
     void on_tick(TimePoint now);
@@ -95,6 +98,11 @@ public:
     std::vector<LookBack::Due> take_past(TimePoint now) { return look_back_.take_due(now); }
     std::optional<TimePoint> past_due() const { return look_back_.due(); }
     std::size_t past_bytes() const { return look_back_.bytes(); }
+
+    // Frames of this setting come to the participant directly from their publisher.
+    bool is_direct(ParticipantId participant, SettingId setting) const {
+        return direct_.is_direct(participant, setting);
+    }
 
     // A pose of an object in the room, to be sent to the receivers of the result at once.
     HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
@@ -184,6 +192,8 @@ private:
     void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
+    void follow_paths();
     void tell_cases(ParticipantId id);
     void tell_patient();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
@@ -206,7 +216,7 @@ private:
     struct PlacedScreen {
         CameraId camera{};
         ScreenOffer offer;
-        ScreenPlace place;
+        HostRoom::ChosenPlace chosen;
     };
     enum class Placing { all, only_unplaced };
     // Gives the screens among these cameras their places in the room, one after the other. `offer`
@@ -232,6 +242,8 @@ private:
     Membership membership_;
     Streams streams_;
     LookBack look_back_;
+    DirectPaths direct_;
+    std::uint64_t streams_seen_ = 0;  // Streams::changes() at the last follow_paths()
     HostRoom room_;
     RendererWishes renderers_;
     bool has_ended_ = false;

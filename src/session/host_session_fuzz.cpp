@@ -76,6 +76,7 @@ HostSession::Config config(bool asks) {
     config.streams.codecs = steps();
     config.streams.usual = {"strata", "jpeg"};
     config.past = {30s, 4096};
+    config.make_secret = [] { return Bytes(wire::direct_secret_size, std::byte{1}); };
     return config;
 }
 
@@ -89,7 +90,8 @@ Bytes hello(std::uint8_t choice) {
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
     wishes.features = {wire::Feature::publish, wire::Feature::room,      wire::Feature::cases,
-                       wire::Feature::screens, wire::Feature::look_back, wire::Feature::patient};
+                       wire::Feature::screens, wire::Feature::look_back, wire::Feature::patient,
+                       wire::Feature::direct};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     return session::ViewerSession(wishes).begin();
@@ -163,6 +165,20 @@ wire::Patient patient_of(int number) {
     return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", ""};
 }
 
+// A publisher sends directly only to so many receivers, and a recorder gets nothing directly.
+void check_direct(const HostSession& host, const session::action::Send& send) {
+    const auto* grants = std::get_if<wire::DirectGrants>(&send.message);
+    const auto* receivers = std::get_if<wire::DirectReceivers>(&send.message);
+    if (!grants && !receivers)
+        return;
+    const auto found = host.participants().find(send.participant);
+    if (!wire::decode_to_participant(wire::encode(send.message)) ||
+        (grants && !grants->grants.empty() &&
+         (found == host.participants().end() || !found->second.takes_part() ||
+          found->second.records)))
+        std::abort();
+}
+
 // A participant who waits for admission gets nothing of the session, and only an operator learns
 // who the patient is.
 void check_sent(const HostSession& host, const session::action::Send& send) {
@@ -215,7 +231,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto choice = in.get<std::uint8_t>();
         const ParticipantId id{1 + choice % participants};
         const SettingId setting{std::uint16_t(choice / 8)};
-        switch (what % 20) {
+        switch (what % 21) {
             case 0:
                 if (!host.participants().contains(id))
                     host.on_connected(id, now);
@@ -349,6 +365,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             case 9:
                 host.on_camera({CameraId(choice % 2), wire::CameraCondition(choice % 4), {}, ""});
                 break;
+            case 20: {
+                const std::uint16_t port = choice % 7 == 0 ? 0 : choice;
+                host.on_control(
+                    id,
+                    wire::encode(wire::OfferDirect{
+                        {"192.0.2.1", "127.0.0.1"}, port, Bytes(wire::fingerprint_size)}),
+                    now);
+                wire::Report report;
+                for (int number = 0; number < choice % 8; ++number)
+                    report.streams.push_back(
+                        {StreamId(choice % 8), 0, 0, 0, {}, SettingId(choice / 16 + number)});
+                host.on_control(id, wire::encode(report), now);
+                break;
+            }
             default: {
                 const std::size_t length = in.get<std::uint16_t>();
                 host.on_control(id, in.get_bytes(std::min(length, in.rest().size())), now);
@@ -360,6 +390,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const session::Action& action : host.take_actions())
             if (const auto* send = std::get_if<session::action::Send>(&action)) {
                 check_sent(host, *send);
+                check_direct(host, *send);
                 (void)viewer.on_control(wire::encode(send->message));
             }
         check(host);

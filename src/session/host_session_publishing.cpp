@@ -48,7 +48,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
         place_screens({id, publisher.name, publisher.person, {}, {}}, cameras);
     streams_.add(id, std::move(cameras), publisher.name);
     for (const PlacedScreen& screen : screens)
-        room_.add_screen(screen.camera, screen.offer, screen.place);
+        room_.add_screen(screen.camera, screen.offer, screen.chosen);
     take_media(id);
     set_budgets();
 }
@@ -56,7 +56,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
 std::vector<HostSession::PlacedScreen> HostSession::place_screens(
     const ScreenOffer& offer, std::vector<wire::Camera>& cameras, Placing which) const {
     std::vector<PlacedScreen> screens;
-    std::vector<ScreenPlace> places;
+    std::vector<HostRoom::ChosenPlace> places;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const auto calibration = decode_calibration(cameras[i].calibration);
         if (cameras[i].frame == wire::CameraFrame::face || !calibration ||
@@ -66,11 +66,12 @@ std::vector<HostSession::PlacedScreen> HostSession::place_screens(
         ScreenOffer one = offer;
         one.name = cameras[i].name;
         one.calibration = *calibration;
-        const ScreenPlace place = room_.place_screen(one, places);
+        const HostRoom::ChosenPlace chosen = room_.place_screen(one, places);
+        const ScreenPlace& place = chosen.place;
         cameras[i].calibration = encode_calibration(
             screen_calibration(calibration->color.size, place.width_m, place.room_from_screen));
-        places.push_back(place);
-        screens.push_back({streams_.next_id(i), std::move(one), place});
+        places.push_back(chosen);
+        screens.push_back({streams_.next_id(i), std::move(one), chosen});
     }
     return screens;
 }
@@ -211,7 +212,28 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         !lets_face_through(*participant, *camera, *header, message.size(), now))
         return {};
     look_back_.keep(*header, message, now);
-    return streams_.on_media(*header, message.size(), now);
+    std::vector<ParticipantId> receivers = streams_.on_media(*header, message.size(), now);
+    std::erase_if(receivers,
+                  [&](ParticipantId receiver) { return !direct_.is_relayed(receiver, *header); });
+    return receivers;
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::OfferDirect& offer, TimePoint) {
+    direct_.offer(id, offer);
+}
+
+// In the same step as the change, so that a receiver that was removed gets nothing more.
+void HostSession::follow_paths() {
+    const bool have_streams_changed =
+        std::exchange(streams_seen_, streams_.changes()) != streams_.changes();
+    if ((!direct_.take_change() && !have_streams_changed) || !direct_.is_used())
+        return;
+    std::vector<StreamUse> uses = streams_.uses();
+    if (!look_back_.is_possible())
+        for (StreamUse& use : uses)
+            use.is_kept = false;
+    for (const KeyRequests::Key& key : direct_.follow(uses))
+        streams_.request_key(key.stream, key.setting);
 }
 
 // Pictures of settings that are gone are ignored later, as those of all cameras.

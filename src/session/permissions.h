@@ -62,6 +62,9 @@ constexpr Right needed_right(const wire::Unpublish&) {
 constexpr Right needed_right(const wire::CameraState&) {
     return Right::be_seen;
 }
+constexpr Right needed_right(const wire::OfferDirect&) {
+    return Right::publish;
+}
 // Number 0 asks for a snapshot.
 constexpr Right needed_right(const wire::RoomRequest& message) {
     return message.number == 0 ? Right::see : Right::handle;

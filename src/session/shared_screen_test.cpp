@@ -37,10 +37,10 @@ protected:
         return offered;
     }
     ScreenPlace share(CameraId camera, const ScreenOffer& offered) {
-        const ScreenPlace place = host.place_screen(offered);
-        host.add_screen(camera, offered, place);
+        const HostRoom::ChosenPlace chosen = host.place_screen(offered);
+        host.add_screen(camera, offered, chosen);
         deliver();
-        return place;
+        return chosen.place;
     }
     ObjectId id_of(CameraId camera) {
         return find_screen(host.snapshot().objects, camera, "").value();
@@ -192,7 +192,8 @@ TEST_F(ScreensInRoom, ASourceThatComesBackHasItsPlaceWidthAndPin) {
     deliver();
     EXPECT_EQ(find_screen(host.snapshot().objects, scope, ""), std::nullopt);
     EXPECT_TRUE(all_agree());
-    EXPECT_EQ(host.place_screen(offer(sharer, "another")).room_from_screen, usual_screen_place);
+    EXPECT_EQ(host.place_screen(offer(sharer, "another")).place.room_from_screen,
+              usual_screen_place);
     share(other, offer());
     EXPECT_EQ(object_of(other).scale, 2.5);
     EXPECT_EQ(object_of(other).room_from_object.translation, (Vec3{0.5, 1.6, -1}));
@@ -223,6 +224,41 @@ TEST_F(ScreensInRoom, AHostThatIsRestartedKeepsTheirPlaces) {
     EXPECT_EQ(screen.room_from_object.translation, (Vec3{0.5, 1.6, -1}));
     EXPECT_EQ(screen.grip, Grip{});
     EXPECT_TRUE(is_pinned(screen));
+}
+
+TEST_F(ScreensInRoom, SourcesOfTheSameNamesHaveEachItsOwnPlaceAlsoAfterARestart) {
+    const ScreenOffer left = offer(), right = offer();
+    ScreenOffer of_ben = offer();  // who calls himself Anna
+    of_ben.person = person_of(2);
+    constexpr CameraId third{7};
+    share(scope, left);
+    share(other, right);
+    share(third, of_ben);
+    ASSERT_EQ(put(guest, scope, {-1.5, 1.6, -1}, 0.5), Refusal::none);
+    ASSERT_EQ(put(guest, other, {0, 1.6, -1}, 0.75), Refusal::none);
+    ASSERT_EQ(put(guest, third, {1.5, 1.6, -1}, 1), Refusal::none);
+
+    const auto widths_of = [&](HostRoom& room) {
+        const auto bens = room.place_screen(of_ben);
+        room.add_screen(third, of_ben, bens);
+        const auto first = room.place_screen(left), second = room.place_screen(right, {first});
+        room.add_screen(scope, left, first);
+        room.add_screen(other, right, second);
+        std::vector<double> widths;
+        for (const CameraId camera : {scope, other, third}) {
+            const RoomObjects objects = room.snapshot().objects;
+            const RoomObject& screen = objects.at(*find_screen(objects, camera, ""));
+            EXPECT_NEAR(screen.room_from_object.translation.y, 1.6, 1e-9) << "a place of before";
+            widths.push_back(screen.scale);
+        }
+        return widths;
+    };
+    std::vector<Action> later;
+    HostRoom restarted{{host.revision(), host.snapshot().objects, 0}, later, host.authors()};
+    EXPECT_EQ(widths_of(restarted), (std::vector{0.5, 0.75, 1.0}));
+    for (const CameraId camera : {scope, other, third})
+        host.remove_screen(camera);
+    EXPECT_EQ(widths_of(host), (std::vector{0.5, 0.75, 1.0})) << "the publishers come back";
 }
 
 TEST_F(ScreensInRoom, FewPlacesOfSourcesThatAreAwayAreKept) {

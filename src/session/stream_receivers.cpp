@@ -131,6 +131,8 @@ void Streams::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
     if (found == receivers_.end())
         return;
     found->second.delivery.set_goal(goal);
+    found->second.has_ceiling = goal.max_kbit_per_s > 0;
+    ++changes_;
     actions_.push_back(action::SetCeiling{id, goal.max_kbit_per_s * 125ull});
 }
 
@@ -170,6 +172,7 @@ void Streams::look_back(ParticipantId id, std::set<CameraId> cameras) {
         receiver.delivery.forget(depth_stream(camera));
         receiver.delivery.forget(color_stream(camera));
     }
+    ++changes_;
     tell_receiver(id, receiver);
 }
 
@@ -204,6 +207,7 @@ Duration Streams::made_in(ParticipantId id) const {
 // Encoders and receivers in line with the tables.
 
 void Streams::apply() {
+    ++changes_;
     std::set<ParticipantId> publishers;
     for (auto& [id, camera] : cameras_) {
         const auto gone = camera.take_change();

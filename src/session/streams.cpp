@@ -110,6 +110,7 @@ const std::vector<ActiveSetting>& Streams::settings(CameraId id, bool depth) con
 }
 
 void Streams::remove(const std::vector<CameraId>& cameras) {
+    ++changes_;
     std::map<ParticipantId, wire::CamerasRemoved> removals;
     for (const CameraId camera : cameras) {
         const auto found = cameras_.find(camera);
@@ -309,6 +310,32 @@ std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting
         for (const auto& [id, announced] : camera->receivers)
             if (announced.of(is_depth(stream)) == setting)
                 result.push_back(id);
+    return result;
+}
+
+std::vector<StreamUse> Streams::uses() const {
+    std::vector<StreamUse> result;
+    for (const auto& [id, camera] : cameras_) {
+        if (camera.publisher() == host_publisher || camera.is_face())
+            continue;
+        for (const bool depth : {true, false}) {
+            const ActiveSetting* kept = kept_setting(camera.stream(depth));
+            for (const ActiveSetting& setting : camera.table(depth).active()) {
+                StreamUse use{camera.publisher(),
+                              camera.stream(depth),
+                              setting.id,
+                              {},
+                              kept && kept->id == setting.id};
+                for (const auto& [number, announced] : camera.receivers) {
+                    const Receiver& receiver = receivers_.at(number);
+                    if (announced.of(depth) == setting.id && !receiver.past.contains(id))
+                        use.receivers.push_back(
+                            {number, !receiver.records && !receiver.has_ceiling});
+                }
+                result.push_back(std::move(use));
+            }
+        }
+    }
     return result;
 }
 

@@ -26,6 +26,19 @@ namespace theatron::session {
 // The publisher of the host's own cameras.
 inline constexpr ParticipantId host_publisher{0};
 
+// A stream of a participant's camera in one of its settings, and those who get it.
+struct StreamUse {
+    struct Receiver {
+        ParticipantId id{};
+        bool may_be_direct = false;  // it needs not every frame, and has no ceiling
+    };
+    ParticipantId publisher{};
+    StreamId stream{};
+    SettingId setting{};
+    std::vector<Receiver> receivers;
+    bool is_kept = false;  // for looking back
+};
+
 class Streams {
 public:
     struct Config {
@@ -115,6 +128,10 @@ public:
     const ActiveSetting* kept_setting(StreamId stream) const;
     // The receivers of this stream in this setting.
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
+    // All streams of participants' cameras, without faces, whose frames have limits at the host.
+    std::vector<StreamUse> uses() const;
+    // Grows whenever uses() may have changed.
+    std::uint64_t changes() const { return changes_; }
     // The stream needs a key frame.
     void request_key(StreamId stream, SettingId setting);
     // The same at the request of a receiver; ignored if it does not get this stream and setting.
@@ -131,6 +148,7 @@ private:
         Wish wish;
         std::map<CameraId, Wish> wishes;  // for single cameras; empty texts: as `wish`
         bool records = false, takes_faces = false;
+        bool has_ceiling = false;
         std::set<CameraId> past;  // that it is shown the past of
         Delivery delivery;
 
@@ -168,6 +186,7 @@ private:
     StreamRates rates_;
     bool region_is_drawn_ = false;
     std::vector<KeptAdjustment> adjustments_;  // the oldest first
+    std::uint64_t changes_ = 0;
 };
 
 }  // namespace theatron::session

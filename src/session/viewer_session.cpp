@@ -36,6 +36,8 @@ Bytes ViewerSession::begin() {
     playback_.reset();
     patient_ = {};
     visitors_.clear();
+    direct_grants_.clear();
+    direct_receivers_ = {};
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -167,6 +169,14 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
     if (auto* patient = std::get_if<wire::Patient>(&message)) {
         patient_ = std::move(*patient);
         return Change::patient;
+    }
+    if (auto* grants = std::get_if<wire::DirectGrants>(&message)) {
+        direct_grants_ = std::move(grants->grants);
+        return Change::direct;
+    }
+    if (auto* receivers = std::get_if<wire::DirectReceivers>(&message)) {
+        direct_receivers_ = std::move(*receivers);
+        return Change::direct_receivers;
     }
     if (auto* content = std::get_if<wire::Content>(&message)) {
         content_ = std::move(*content);

@@ -56,7 +56,9 @@ public:
         content,     // content(): a piece of what this participant has asked for
         playback,    // playback(): where the recording is that the host plays
         patient,     // patient(): who the patient of the open case is
-        goodbye,     // goodbye() says why: the session is over, the connection will end
+        direct,      // direct_grants(): the publishers that this participant may connect to
+        direct_receivers,  // direct_receivers(): who may connect to this participant
+        goodbye,           // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
     Change on_control(ByteView message);
@@ -109,6 +111,8 @@ public:
     // Empty: not known, or this participant may not know it. To be shown to this person alone, and
     // kept nowhere else.
     const wire::Patient& patient() const { return patient_; }
+    const std::vector<wire::DirectGrant>& direct_grants() const { return direct_grants_; }
+    const wire::DirectReceivers& direct_receivers() const { return direct_receivers_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -144,6 +148,8 @@ private:
     wire::Content content_;
     std::optional<wire::Playback> playback_;
     wire::Patient patient_;
+    std::vector<wire::DirectGrant> direct_grants_;
+    wire::DirectReceivers direct_receivers_;
 };
 
 }  // namespace theatron::session

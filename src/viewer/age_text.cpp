@@ -25,4 +25,10 @@ std::string seen_age(double ms, bool is_live) {
     return is_live ? age : "NOT LIVE: " + age + " old";
 }
 
+std::string picture_title(const std::string& name, std::optional<double> age_ms, bool is_live) {
+    if (age_ms)
+        return name + "  " + seen_age(*age_ms, is_live);
+    return is_live ? name : name + "  NOT LIVE";
+}
+
 }  // namespace theatron::viewer

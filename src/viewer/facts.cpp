@@ -35,12 +35,16 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
         text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + wire::text_of(condition);
         trouble = trouble || condition != Condition::live;
     }
+    const auto direct = std::count_if(cameras.begin(), cameras.end(),
+                                      [](const auto& camera) { return camera.direct; });
+    if (direct > 0)
+        text += ", " + std::to_string(direct) + " direct";
     return {"Cameras", text.empty() ? "none" : text, trouble};
 }
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
 void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
-    for (const auto& [camera, depth, color] : cameras)
+    for (const auto& [camera, depth, color, direct] : cameras)
         if (camera.state.condition == wire::CameraCondition::live && !camera.state.problem.empty())
             line.push_back({"Camera " + camera.description.name,
                             first_sentence(wire::english(camera.state.problem)), true});

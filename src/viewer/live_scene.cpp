@@ -10,6 +10,7 @@
 #include "room/facing.h"
 #include "session/room_object.h"
 #include "viewer/age_text.h"
+#include "viewer/looking_back.h"
 #include "wire/condition_text.h"
 #include "xr/font.h"
 
@@ -70,9 +71,25 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
+    leave_out_other_moments(participant);
     note_screens(participant);
     captions_changed_ |= faces_.note(participant.now());
     return updated;
+}
+
+// Pictures of two moments in one cloud would show what never was.
+void LiveScene::leave_out_other_moments(const client::Participant& participant) {
+    const std::set<CameraId> before =
+        std::exchange(left_out_, of_another_moment(newest_, participant.past_cameras()));
+    if (before == left_out_)
+        return;
+    for (const auto& [id, calibration] : calibrations_)
+        clouds_.set_presence(id, presence_of(id));
+}
+
+double LiveScene::presence_of(CameraId camera) const {
+    const auto known = presence_.find(camera);
+    return left_out_.contains(camera) ? 0 : known == presence_.end() ? 1 : known->second;
 }
 
 void LiveScene::note_screens(const client::Participant& participant) {
@@ -116,6 +133,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
             faces_.remove_camera(id);
             origins_.erase(id);
             presence_.erase(id);
+            left_out_.erase(id);
             newest_.erase(id);
         }
     for (const auto& camera : cameras) {
@@ -198,7 +216,8 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
 std::vector<CloudCamera> LiveScene::cloud() const {
     std::vector<CloudCamera> cameras;
     for (const auto& [id, frame] : newest_)
-        if (const auto known = calibrations_.find(id); known != calibrations_.end())
+        if (const auto known = calibrations_.find(id);
+            known != calibrations_.end() && !left_out_.contains(id))
             cameras.push_back({std::uint32_t(id), &known->second, frame->depth.view()});
     return cameras;
 }
@@ -212,7 +231,8 @@ std::vector<ColoredPoint> LiveScene::points() const {
     std::vector<ColoredPoint> all;
     for (const auto& [id, frame] : newest_) {
         const auto known = calibrations_.find(id);
-        if (known == calibrations_.end() || frame->depth.size != known->second.depth.size)
+        if (known == calibrations_.end() || left_out_.contains(id) ||
+            frame->depth.size != known->second.depth.size)
             continue;
         Calibration calibration = known->second;
         const ColorView color = frame->color ? frame->color->view() : ColorView{};
@@ -385,12 +405,13 @@ bool LiveScene::note_ages(const client::Participant& participant) {
     bool changed = false;
     if (participant.status().clock_known)
         for (const auto& [id, frame] : newest_) {
-            const bool is_live = shows_present(id);
+            const bool is_live = shows_present(id) && !left_out_.contains(id);
             if (!shows_ages_ && is_live)
                 continue;
             const double ms = to_ms(participant.now() - frame->times.captured);
             const auto known = before.find(id);
-            std::string age = seen_age(ms, is_live);
+            std::string age = left_out_.contains(id) ? "not drawn: " + age_text(std::max(ms, 0.0))
+                                                     : seen_age(ms, is_live);
             changed = changed || (!is_live && (known == before.end() || known->second != age));
             ages_.emplace(id, std::move(age));
         }
@@ -407,7 +428,7 @@ void LiveScene::add_ages(const render::CameraView& view) {
         const Vec3 lens = camera->second.room_from_camera.translation;
         if (length(lens - eye) < room::camera_label_from_m)
             continue;
-        const bool is_live = shows_present(id);
+        const bool is_live = shows_present(id) && !left_out_.contains(id);
         Pose place = room::facing(lens - Vec3{0, age_below_m, 0}, eye);
         place.translation =
             place * Vec3{-0.5 * age_height_m * letter_width * double(age.size()), 0, 0};
@@ -440,7 +461,7 @@ bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
         if (presence == wanted)
             continue;
         presence = live ? std::min(wanted, presence + step) : std::max(wanted, presence - step);
-        clouds_.set_presence(id, presence);
+        clouds_.set_presence(id, presence_of(id));
         changed = true;
     }
     return changed;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "client/participant.h"
 #include "geometry/ply.h"
@@ -63,8 +64,8 @@ public:
     // See render::CloudSet; from the next picture on.
     void set_point_size(double factor) { point_size_ = factor; }
 
-    // The points of the room's cameras in their newest pictures, in the room. Takes some tenths of
-    // a second.
+    // The points of the room's cameras that are drawn, in their newest pictures, in the room. Takes
+    // some tenths of a second.
     std::vector<ColoredPoint> points() const;
 
     // Fades stale cameras out to a low presence, and others back in, and tells the ages of screens.
@@ -77,7 +78,7 @@ public:
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
     const std::optional<room::FreeSpace>& free_space() const { return room_.free_space(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
-    // The newest pictures of these, for cloud_pick.h; valid until take().
+    // The newest pictures of those that are drawn, for cloud_pick.h; valid until take().
     std::vector<CloudCamera> cloud() const;
     // The distance of the measured surface that a ray meets, in metres; none where the clouds are
     // not drawn.
@@ -99,8 +100,11 @@ public:
     // The rays of all people who point, with the surfaces that they meet in the newest pictures.
     // The sizes of what is drawn depend on the view, the rays do not. Empty where no room is shown.
     const std::vector<room::Pointer>& pointers(const render::CameraView& view);
-    // The last frame of each of these that sent one.
+    // The last frame of each of these that sent one, also of those that are not drawn since their
+    // picture is of another moment than the others' (looking_back.h).
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
+    // The camera is live and its newest frame is of the present, as judged last.
+    bool shows_present(CameraId camera) const;
 
     // A step of the work on the room, of some milliseconds; true if the picture changes by it. Only
     // needed with RoomChoice::in_steps.
@@ -134,7 +138,8 @@ private:
     void add_headset_text(const render::CameraView& view);
     void add_ages(const render::CameraView& view);
     bool note_ages(const client::Participant& participant);
-    bool shows_present(CameraId camera) const;
+    void leave_out_other_moments(const client::Participant& participant);
+    double presence_of(CameraId camera) const;
     void make_passes();
     // Everything in the picture except the clouds; null if nothing.
     const render::SceneFrame* scene_for(const render::CameraView& view);
@@ -163,6 +168,7 @@ private:
     std::unique_ptr<render::ScenePasses> passes_;     // made when there is a room
     std::uint64_t generation_ = 0;
     std::map<CameraId, double> presence_;
+    std::set<CameraId> left_out_;  // not drawn: of another moment than the others
     TimePoint faded_at_, judged_at_;
     std::map<CameraId, bool> live_;  // as judged last
     bool shows_ages_ = false;

@@ -14,23 +14,33 @@ constexpr Duration looked_back_within = std::chrono::seconds(1);
 
 }  // namespace
 
+std::set<CameraId> of_another_moment(const std::map<CameraId, receive::CameraFramePtr>& frames,
+                                     const std::set<CameraId>& looking) {
+    std::set<CameraId> past, present;
+    for (const auto& [camera, frame] : frames)
+        (frame->past ? past : present).insert(camera);
+    if (past.empty() || present.empty())
+        return {};
+    return looking.empty() ? past : present;
+}
+
 std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
                       const std::set<CameraId>& looking,
                       const std::map<CameraId, std::string>& names, TimePoint session_time) {
+    std::string left_out;
+    for (const CameraId camera : of_another_moment(frames, looking))
+        if (const auto name = names.find(camera); !looking.contains(camera) && name != names.end())
+            left_out += (left_out.empty() ? "" : ", ") + name->second;
     std::optional<TimePoint> oldest;
-    std::string live;
-    for (const auto& [camera, frame] : frames) {
+    for (const auto& [camera, frame] : frames)
         if (frame->past)
             oldest = std::min(oldest.value_or(frame->times.captured), frame->times.captured);
-        else if (const auto name = names.find(camera);
-                 !looking.contains(camera) && name != names.end())
-            live += (live.empty() ? "" : ", ") + name->second;
-    }
-    if (!oldest && looking.empty())
-        return "";
-    const std::string ago = oldest ? age_text(std::max(to_ms(session_time - *oldest), 0.0)) + " ago"
-                                   : "looking back...";
-    return "NOT LIVE: " + ago + (live.empty() ? "" : " (live: camera " + live + ")");
+    if (!oldest)
+        return looking.empty() ? "" : "NOT LIVE: looking back...";
+    if (looking.empty() && !left_out.empty())
+        return "NOT LIVE: camera " + left_out + " is not drawn until it is live";
+    return "NOT LIVE: " + age_text(std::max(to_ms(session_time - *oldest), 0.0)) + " ago" +
+           (left_out.empty() ? "" : " (not drawn: live camera " + left_out + ")");
 }
 
 Duration LookingBack::here(const client::Participant& participant, TimePoint now) const {

@@ -12,9 +12,15 @@
 
 namespace theatron::viewer {
 
-// The moment that is shown: "NOT LIVE: 23 s ago", "NOT LIVE: 23 s ago (live: camera left)"; empty:
-// the present. `frames` are those that are shown, by camera; `looking` are the cameras whose past
-// the host sends. The text ends when every camera shows the present again.
+// The cameras whose newest picture is of another moment than the others', so that they cannot be
+// drawn together: while the host sends the past of `looking`, those of the present; else those that
+// are still of the past. Empty while all are of the same.
+std::set<CameraId> of_another_moment(const std::map<CameraId, receive::CameraFramePtr>& frames,
+                                     const std::set<CameraId>& looking);
+
+// The moment that is shown: "NOT LIVE: 23 s ago", "NOT LIVE: 23 s ago (not drawn: live camera
+// left)"; empty: the present. `frames` are the newest, by camera; `looking` are the cameras whose
+// past the host sends. The text ends when every camera shows the present again.
 std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
                       const std::set<CameraId>& looking,
                       const std::map<CameraId, std::string>& names, TimePoint session_time);

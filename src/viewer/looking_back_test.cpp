@@ -32,19 +32,32 @@ TEST(PastText, IsEmptyInThePresentOnly) {
 TEST(PastText, BeginsWithTheHostsAnswerAndEndsWithTheLastPictureOfThePast) {
     EXPECT_EQ(shown_text({{past_left, past_frame(99.9, false)}}, {past_left}),
               "NOT LIVE: looking back...");
+    EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}}, {}), "NOT LIVE: 23 s ago");
     EXPECT_EQ(
         shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(99.9, false)}}, {}),
-        "NOT LIVE: 23 s ago (live: camera right)");
+        "NOT LIVE: camera left is not drawn until it is live");
 }
 
-TEST(PastText, NamesCamerasThatAreShownLiveMeanwhile) {
+TEST(PastText, NamesCamerasThatAreNotDrawnSinceTheyAreLive) {
     EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(99.9, false)}},
                          {past_left}),
-              "NOT LIVE: 23 s ago (live: camera right)");
+              "NOT LIVE: 23 s ago (not drawn: live camera right)");
     // Its first picture of the past has not come yet.
     EXPECT_EQ(shown_text({{past_left, past_frame(77, true)}, {past_right, past_frame(95, false)}},
                          {past_left, past_right}),
               "NOT LIVE: 23 s ago");
+}
+
+TEST(PastText, TheOtherMomentIsThatWhichThePersonDoesNotWant) {
+    using Cameras = std::set<CameraId>;
+    const std::map<CameraId, receive::CameraFramePtr> mixed{{past_left, past_frame(77, true)},
+                                                            {past_right, past_frame(99, false)}};
+    EXPECT_EQ(of_another_moment(mixed, {past_left}), Cameras{past_right});
+    EXPECT_EQ(of_another_moment(mixed, {past_left, past_right}), Cameras{past_right})
+        << "its first picture of the past has not come yet";
+    EXPECT_EQ(of_another_moment(mixed, {}), Cameras{past_left}) << "back in the present";
+    EXPECT_EQ(of_another_moment({{past_left, past_frame(99, false)}}, {past_left}), Cameras{});
+    EXPECT_EQ(of_another_moment({{past_left, past_frame(77, true)}}, {}), Cameras{});
 }
 
 TEST(LookingBack, OffersTheLastMinuteAndOnePressBackToThePresent) {

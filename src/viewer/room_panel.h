@@ -66,6 +66,10 @@ struct AdjustStep {  // of the chosen camera
 struct ShowFace {  // the user's own; false: no longer
     bool shown = false;
 };
+struct UseSound {  // from now on
+    enum class Kind { microphone, loudspeaker } kind{};
+    std::string device;
+};
 struct PlayStep {  // of the recording that the host plays
     enum class What { toggle, back, forward, slide } what{};
 };
@@ -81,7 +85,7 @@ struct LookBackTo {  // for this person alone; 0: the present
 using RoomCommand =
     std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
                  ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
-                 ChangeScreen, ShowFace, LookBackTo>;
+                 ChangeScreen, ShowFace, LookBackTo, UseSound>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

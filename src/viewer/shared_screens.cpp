@@ -18,8 +18,10 @@ constexpr Rgb ink{235, 240, 245}, warning{255, 170, 60};
 }  // namespace
 
 ScreenCaption screen_caption(const std::string& name, const wire::CameraState& state,
-                             std::optional<double> age_ms) {
+                             std::optional<double> age_ms, bool is_past) {
     using Condition = wire::CameraCondition;
+    if (is_past && age_ms)
+        return {name + "  " + seen_age(*age_ms, false), true};
     if (state.condition == Condition::ended)
         return {name + ": has ended, this is its last picture", true};
     if (state.condition == Condition::failed)
@@ -57,6 +59,7 @@ void SharedScreens::take(const receive::CameraFrame& frame) {
         return;
     screen.color = frame.color;
     screen.captured = frame.times.captured;
+    screen.is_past = frame.past;
     screen.is_new = true;
 }
 
@@ -70,7 +73,8 @@ bool SharedScreens::note(const std::vector<client::CameraFigures>& cameras, Time
         std::optional<double> age_ms;
         if (screen.color)
             age_ms = std::max(0.0, to_ms(now - screen.captured));
-        ScreenCaption caption = screen_caption(screen.name, one.camera.state, age_ms);
+        ScreenCaption caption =
+            screen_caption(screen.name, one.camera.state, age_ms, screen.is_past);
         changed = changed || caption != screen.caption;
         screen.caption = std::move(caption);
     }

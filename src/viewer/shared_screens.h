@@ -24,9 +24,10 @@ struct ScreenCaption {
     bool operator==(const ScreenCaption&) const = default;
 };
 
-// The caption of a screen whose newest picture has this age; nullopt: none has come. Pure.
+// The caption of a screen whose newest picture has this age; nullopt: none has come. `is_past`: the
+// person looks back, and the picture is of then. Pure.
 ScreenCaption screen_caption(const std::string& name, const wire::CameraState& state,
-                             std::optional<double> age_ms);
+                             std::optional<double> age_ms, bool is_past = false);
 
 // Use from one thread, with the same GL context current.
 class SharedScreens {
@@ -62,7 +63,8 @@ private:
         std::optional<Object> object;
         ScreenCaption caption;
         std::shared_ptr<const ColorImage> color;
-        TimePoint captured;   // of `color`
+        TimePoint captured;  // of `color`
+        bool is_past = false;
         bool is_new = false;  // `color` is not in the texture
         std::optional<render::SceneTexture> texture;
         // One metre wide.

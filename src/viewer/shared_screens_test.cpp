@@ -24,6 +24,8 @@ TEST(ScreenCaptionTest, AScreenWithoutPicturesOrWithOldOnesSaysSo) {
               (ScreenCaption{"e: no picture yet", true}));
     EXPECT_EQ(screen_caption("e", in(CameraCondition::live), 3000),
               (ScreenCaption{"e: stands still for 3 s", true}));
+    EXPECT_EQ(screen_caption("e", in(CameraCondition::live), 3000, true),
+              (ScreenCaption{"e  NOT LIVE: 3 s old", true}));
     EXPECT_EQ(screen_caption("e", in(CameraCondition::ended), 85),
               (ScreenCaption{"e: has ended, this is its last picture", true}));
     EXPECT_EQ(screen_caption("e", in(CameraCondition::failed), std::nullopt),

@@ -242,6 +242,10 @@ void Viewer::press(int command, TimePoint now) {
         face_wish_ = face->shown;
         return;
     }
+    if (const auto* sound = std::get_if<UseSound>(&chosen)) {
+        sound_wish_ = *sound;
+        return;
+    }
     if (const auto* step = std::get_if<PlayStep>(&chosen))
         return play(*step, now);
     if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
@@ -513,6 +517,7 @@ Facts Viewer::facts(TimePoint now) {
                                    places_of(cameras()), followed_, role == wire::Role::operator_,
                                    facts.visitors, session::may(role, session::Right::point),
                                    is_calling(now), voices_.speaking, own_face_}));
+        add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, participant_, now, panel);
     }
@@ -525,7 +530,7 @@ Facts Viewer::facts(TimePoint now) {
     if (marking_.tool())
         add_mark_panel(marking_.tool(),
                        facts.received.status.standing.role == wire::Role::operator_, panel);
-    add_camera_pictures(facts, panel);
+    add_camera_pictures(facts, panel, now);
     facts.pointed = pointed_text();
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);

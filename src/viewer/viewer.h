@@ -29,6 +29,7 @@
 #include "viewer/renderer_text.h"
 #include "viewer/room_panel.h"
 #include "viewer/shown_moment.h"
+#include "viewer/sound_panel.h"
 #include "xr/drawing_pace.h"
 #include "xr/window_input.h"
 
@@ -112,6 +113,9 @@ public:
     // which the program carries out.
     void set_own_face(OwnFace face) { own_face_ = face; }
     std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
+    // The devices to choose from, and the choice in the panel, likewise.
+    void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
+    std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
     // The codec of colour that was requested last, and another one, which no text says.
     const std::string& color_codec() const { return options_.color_codec; }
     void choose_color_codec(const std::string& codec);
@@ -119,6 +123,8 @@ public:
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
+    // The panel of people, places and sound is open.
+    bool shows_panels() const { return shows_panels_; }
     // `before` with this person's newest choices.
     client::Settings settings(client::Settings before) const;
     // True while a fading camera or a moving person changes the picture by itself.
@@ -139,7 +145,7 @@ private:
     void change_point_size(double factor, TimePoint now);
     void freeze(TimePoint now);
     void take_pictures(TimePoint now);
-    void add_camera_pictures(Facts& facts, RoomPanel& panel);
+    void add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now);
     std::string pointed_text();
     void choose_next_renderer(TimePoint now);
     void choose_depth_codec();
@@ -221,6 +227,8 @@ private:
     Voices voices_;
     OwnFace own_face_ = OwnFace::none;
     std::optional<bool> face_wish_;
+    SoundChoices sound_choices_;
+    std::optional<UseSound> sound_wish_;
     bool shows_panels_ = false, shows_case_ = false;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "viewer/age_text.h"
 #include "viewer/viewer.h"
 #include "wire/manage_text.h"
 
@@ -230,7 +231,7 @@ ColorImage Viewer::picture(Size size) {
     return scene_.render({eye_.view(size)}, size, way().renderer, true).color;
 }
 
-void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel) {
+void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) {
     if (!camera_pictures_)
         return;
     for (const auto& [camera, frame] : scene_.newest()) {
@@ -238,6 +239,11 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel) {
         const auto known = scene_.calibrations().find(id);
         if (known == scene_.calibrations().end() || (large_ && large_->camera != id))
             continue;
+        // Without the session's clock no age is known.
+        std::optional<double> age_ms;
+        if (facts.received.status.clock_known)
+            age_ms = to_ms(participant_.session_time(now) - frame->times.captured);
+        const bool is_live = scene_.shows_present(id) && !frozen_;
         const auto& pictures =
             camera_pictures_->of(id, frame->number, known->second, frame->depth.view(),
                                  frame->color, large_ ? large_width : small_width);
@@ -248,7 +254,12 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel) {
                 return;
             panel.commands.push_back(show);
             xr::OverlayPicture picture{
-                camera_text(id) + ", " + name, pixels, {}, "", "", large_.has_value(),
+                picture_title(camera_text(id) + ", " + name, age_ms, is_live),
+                pixels,
+                {},
+                "",
+                "",
+                large_.has_value(),
                 int(panel.commands.size()) - 1};
             if (kind != PictureKind::color) {
                 picture.legend = depth_legend();

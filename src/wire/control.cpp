@@ -191,6 +191,16 @@ bool is_sound(const Content& content) {
 bool is_sound(const Patient& patient) {
     return patient.of_case.empty() || patient.of_case.size() == content_hash_size;
 }
+bool is_sound(const OfferDirect& offer) {
+    return offer.port == 0 || offer.fingerprint.size() == fingerprint_size;
+}
+bool is_sound(const DirectGrant& grant) {
+    return grant.fingerprint.size() == fingerprint_size &&
+           grant.secret.size() == direct_secret_size;
+}
+bool is_sound(const DirectReceiver& receiver) {
+    return receiver.secret.size() == direct_secret_size;
+}
 bool is_sound(const Managed& answer) {
     return answer.refusal <= ManageRefusal::nothing_kept;
 }

@@ -56,6 +56,7 @@ enum class Feature : std::uint16_t {
     look_back = 9,      // may look back at the last minute: LookBack
     webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
+    direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
@@ -66,6 +67,14 @@ inline constexpr std::size_t max_adjustment_size = 64;           // bytes of one
 inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
+
+// Direct sending (docs/decisions/direct-sending.md): addresses of one publisher, receivers of one
+// publisher, publishers that one receiver may connect to.
+inline constexpr std::size_t max_direct_addresses = 6;
+inline constexpr std::size_t max_direct_receivers = 32;
+inline constexpr std::size_t max_direct_grants = 32;
+inline constexpr std::size_t direct_secret_size = 32;
+inline constexpr std::size_t fingerprint_size = 32;  // SHA-256 of a certificate
 
 // A run of a host; random. Numbers of cameras and participants are of one session.
 enum class SessionId : std::uint32_t {};
@@ -188,6 +197,8 @@ struct StreamReport {
     std::uint32_t frames = 0;
     std::uint64_t bytes = 0;
     Duration age{};  // of the newest frame when it was decoded
+    // The setting whose frames come directly from the publisher now; {}: none.
+    SettingId direct{};
 
     static void fields(auto& m, auto&& field) {
         field(m.stream);
@@ -195,6 +206,7 @@ struct StreamReport {
         field(m.frames);
         field(m.bytes);
         field(m.age);
+        field(m.direct);
     }
 };
 
@@ -324,6 +336,20 @@ struct VoiceConsent {
     bool may_record = false;
 
     static void fields(auto& m, auto&& field) { field(m.may_record); }
+};
+
+// The participant listens for receivers of its cameras. The host sends receivers there, and answers
+// with DirectReceivers. Port 0: it no longer listens.
+struct OfferDirect {
+    std::vector<std::string> addresses;  // IPv4 or IPv6, of its machine
+    std::uint16_t port = 0;
+    Bytes fingerprint;  // of the certificate that it shows
+
+    static void fields(auto& m, auto&& field) {
+        field(m.addresses, max_direct_addresses);
+        field(m.port);
+        field(m.fingerprint, fingerprint_size);
+    }
 };
 
 struct Camera {
@@ -728,15 +754,66 @@ struct Patient {
     }
 };
 
+// To a receiver: the permission to connect to this publisher for the pictures of its cameras.
+struct DirectGrant {
+    ParticipantId publisher{};
+    std::vector<std::string> addresses;  // to be tried in this order
+    std::uint16_t port = 0;
+    Bytes fingerprint;  // of the certificate that the publisher shows
+    Bytes secret;       // that the receiver shows
+    bool operator==(const DirectGrant&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.publisher);
+        field(m.addresses, max_direct_addresses + 1);
+        field(m.port);
+        field(m.fingerprint, fingerprint_size);
+        field(m.secret, direct_secret_size);
+    }
+};
+
+// All permissions of the receiver from now on.
+struct DirectGrants {
+    std::vector<DirectGrant> grants;
+    bool operator==(const DirectGrants&) const = default;
+
+    static void fields(auto& m, auto&& field) { field(m.grants, max_direct_grants); }
+};
+
+struct DirectReceiver {
+    Bytes secret;                     // that it shows
+    std::vector<SettingId> settings;  // whose frames it is sent
+    bool operator==(const DirectReceiver&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.secret, direct_secret_size);
+        field(m.settings, max_encodings);
+    }
+};
+
+// To a publisher: all receivers that may connect to it from now on.
+struct DirectReceivers {
+    std::vector<DirectReceiver> receivers;
+    // Nobody needs the frames of these settings from the host: they are not to be sent to it.
+    std::vector<SettingId> not_to_host;
+    bool operator==(const DirectReceivers&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.receivers, max_direct_receivers);
+        field(m.not_to_host, max_encodings);
+    }
+};
+
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
                             Unpublish, CameraState, RoomRequest, Manage, RequestContent,
-                            VoiceConsent, AdjustCamera, Play, LookBack>;
+                            VoiceConsent, AdjustCamera, Play, LookBack, OfferDirect>;
 using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
                  CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
                  RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed, OfferedCases,
-                 Content, CameraChanged, Playback, ShareEnded, Patient>;
+                 Content, CameraChanged, Playback, ShareEnded, Patient, DirectGrants,
+                 DirectReceivers>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

@@ -25,7 +25,7 @@ constexpr Row rows[] = {
     {TextCode::wrong_token, "The join token is wrong; ask for the host's current link."},
     {TextCode::link_expired, "This link has expired; ask for a new one."},
     {TextCode::too_many_recordings,
-     "This session is recorded {0} times already, which is as often as can be; end another "
+     "This session is recorded {0} times already, which is the most it allows; end another "
      "recording."},
     {TextCode::damaged_message, "A message was {0}."},
     {TextCode::not_joined, "Join first."},
@@ -51,7 +51,7 @@ constexpr Row rows[] = {
 
     {TextCode::camera_silent, "It sends no pictures."},
     {TextCode::camera_repeating, "It sends the same picture again and again."},
-    {TextCode::camera_time_jump, "The times of its pictures cannot be."},
+    {TextCode::camera_time_jump, "The times of its pictures are impossible."},
     {TextCode::camera_gone, "It does not answer."},
     {TextCode::recording_lost_one, "Its recording is damaged: 1 picture is lost."},
     {TextCode::recording_lost_pictures, "Its recording is damaged: {0} pictures are lost."},
@@ -59,7 +59,7 @@ constexpr Row rows[] = {
      "The camera {0} has the number {1}, beyond all that there are; it is left out."},
     {TextCode::camera_foreign_streams,
      "The camera {0} names streams that are not its own; it is left out."},
-    {TextCode::camera_bad_rate, "The camera {0} has a frame rate that is none; it is left out."},
+    {TextCode::camera_bad_rate, "The camera {0} has an impossible frame rate; it is left out."},
     {TextCode::camera_bad_calibration,
      "The camera {0} has a calibration that is {1}; it is left out."},
     {TextCode::one_camera_too_many,
@@ -99,7 +99,7 @@ constexpr Row rows[] = {
      "This link lets nobody send cameras; ask for the host's link for publishers."},
     {TextCode::no_camera_offered, "No camera was offered."},
     {TextCode::too_many_own_cameras, "A participant can send {0} cameras at once."},
-    {TextCode::session_full, "The session has {0} cameras, which is as many as can be."},
+    {TextCode::session_full, "The session has {0} cameras, which is the most it allows."},
     {TextCode::no_camera_numbers,
      "The session has had so many cameras that there are no numbers left; the host has to be "
      "started anew."},
@@ -108,7 +108,7 @@ constexpr Row rows[] = {
      "The picture of a face is a screen of at most {0} pixels, {1} times a second."},
     {TextCode::one_face, "A participant shows one face; withdraw the first one."},
     {TextCode::too_many_faces,
-     "The session shows {0} faces, which is as many as can be; you are seen without a picture."},
+     "The session shows {0} faces, which is the most it allows; you are seen without a picture."},
     {TextCode::face_forbidden, "Observers show no face; ask the operator to make you an expert."},
     {TextCode::host_without_faces,
      "This host is too old to show your face; you are seen without a picture."},

@@ -70,6 +70,10 @@ class Playback(unittest.TestCase):
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer:
             f = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["state"] == "ended", 20)
             self.assertEqual(f["playback"]["position_s"], f["playback"]["length_s"])
+            # A latecomer sees its last picture.
+            with Process("join", h.greeting["link"], "--every", "0.1") as late:
+                f = late.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0, 20)
+                self.assertEqual(f["cameras"][0]["state"], "ended")
             viewer.say("play")
             viewer.wait_for(lambda f: f["cameras"][0]["state"] == "live" and f["playback"]["position_s"] < 2, 10)
             viewer.wait_for(lambda f: f["cameras"][0]["state"] == "ended", 20)

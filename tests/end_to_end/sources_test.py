@@ -12,7 +12,7 @@ import unittest
 
 import rtsp_standin
 from rtsp_standin import RtspStandIn
-from theatron_process import PROGRAM, Process, host, make_recording, read_png, run
+from theatron_process import PROGRAM, Process, host, make_recording, read_png, run, wait_until
 from virtual_screen import VirtualScreen
 
 WAIT = 30
@@ -57,6 +57,8 @@ class Sources(unittest.TestCase):
                 Process("publish", h.greeting["publish_link"], "--share", server.url + ",name=tower", "--every", "0.2") as cart:
             cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale", WAIT)
             cart.wait_for(lambda f: server.connections >= 2 and camera(f, "tower")["state"] == "live", WAIT)
+            wait_until(lambda: any('"tower" goes on.' in line for line in list(cart.errors)))
+            self.assertTrue(any('"tower" stands still' in line for line in cart.errors), cart.errors)
 
     def test_servers_that_mean_harm_end_only_their_screen(self):
         large = rtsp_standin.encode(4112, 2800, 1, source="color")

@@ -7,7 +7,7 @@ import tempfile
 import time
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, run
+from theatron_process import Process, host, make_recording, read_png, run, wait_until
 from virtual_screen import VirtualScreen
 
 SIZE = (320, 240)
@@ -90,7 +90,7 @@ class Webcam(unittest.TestCase):
         with host(self.folder / "state2", self.lamp) as h:
             with Process("join", h.greeting["link"], "--webcam", "/dev/theatron-none", "--every", "0.2") as ben:
                 ben.wait_for(lambda f: f["phase"] == "joined" and f["webcam"]["state"] == "off", 20)
-                self.assertIn("You are not seen", "".join(ben.errors))
+                wait_until(lambda: "You are not seen" in "".join(ben.errors), 10)
             with Process("join", h.greeting["links"]["observer"], "--webcam", "test", "--every", "0.2") as eve:
                 refused = eve.wait_for(lambda f: f["webcam"]["problem"], 20)
                 self.assertEqual(refused["phase"], "joined")

@@ -8,6 +8,8 @@ SEGMENT, CLUSTER, GROUP, BLOCK = 0x18538067, 0x1F43B675, 0xA0, 0xA1
 ADDITIONS, MORE, ADD_ID, ADDITIONAL = 0x75A1, 0xA6, 0xEE, 0xA5
 MEDIA_HEADER_ID, MEDIA_HEADER_SIZE = 2, 64
 UNKNOWN_SIZE = -1
+# Streams from here on are voices and the room.
+FIRST_VOICE = 127
 
 # Version, codec, flags, layer; stream, setting; frame, reference; slice, slices; payload; moment, captured.
 HEADER = struct.Struct("<BBBBHHIIHHIqq")
@@ -97,7 +99,7 @@ def _collect(data, at, end, pictures, seen):
         elif identity == CLUSTER:
             for group, a, b in elements(data, begin, stop):
                 header = header_of(data, a, b) if group == GROUP else None
-                if header:
+                if header and header[4] < FIRST_VOICE:
                     stream, setting, frame, reference = header[4:8]
                     pictures.append(Picture(stream, setting, frame, reference, header[12], stream not in seen))
                     seen.add(stream)

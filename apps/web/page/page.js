@@ -102,7 +102,7 @@ async function load_client() {
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
 const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null, workers: [],
-    graphics: "card", way: "room", headset_kinds: {}, voice_may_record: false, Patience };
+    graphics: "card", way: "room", visit: 0, headset_kinds: {}, voice_may_record: false, Patience };
 
 function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
@@ -189,10 +189,13 @@ function run({ client, voice, face, module, flat }) {
         document.title = `${page.state.host || host} - Theatron`;
     };
     // Asks soon, because the time that drawing takes decides on the quality.
-    const await_picture = () => {
+    const await_picture = visit => {
+        // Its picture went with it.
+        if (visit !== page.visit)
+            return;
         const is_left = page.state.phase === "left";
         if (!is_left && !client.finish_drawing())
-            return setTimeout(await_picture, poll_every_ms);
+            return setTimeout(() => await_picture(visit), poll_every_ms);
         is_drawing = false;
         if (!is_left)
             note_picture();
@@ -210,6 +213,8 @@ function run({ client, voice, face, module, flat }) {
         page.way = way;
         page.why = why;
         patience = new Patience();
+        ++page.visit;
+        is_drawing = false;
         enter(client);
         follow_way(face);
     };
@@ -219,7 +224,7 @@ function run({ client, voice, face, module, flat }) {
     const wait_for_picture = () => {
         if (!is_drawing) {
             is_drawing = true;
-            await_picture();
+            await_picture(page.visit);
         }
     };
     const show_texts = now => {

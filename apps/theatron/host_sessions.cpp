@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_sessions.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/camera_names.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "cli/progress.h"
+#include "host/host_identity.h"
+#include "region_text.h"
+
+namespace theatron::app {
+
+void draw_regions(host::Host& host, const std::vector<std::string>& texts) {
+    std::map<std::size_t, codec::strata::Region> regions;
+    for (const std::string& text : texts) {
+        RegionText part = parse_region(text);
+        regions[find_camera(part.camera, host.camera_names())].push_back(std::move(part.polygon));
+    }
+    for (auto& [camera, region] : regions)
+        host.set_region(camera, std::move(region));
+}
+
+namespace {
+
+std::unique_ptr<host::Host> open_beside(const host::Host& first, const std::filesystem::path& state,
+                                        const SessionFlags& flags,
+                                        const capture::Progress& progress) {
+    host::SessionOptions options = session_options(flags);
+    options.state = host::session_folder(state, options.name);
+    auto host = std::make_unique<host::Host>(options, first, progress);
+    draw_regions(*host, flags.regions);
+    return host;
+}
+
+// The sessions of a command line, with that of `first` at the beginning.
+void check_names(const std::string& first, const std::vector<SessionFlags>& further) {
+    std::vector<std::string> names{first};
+    for (const SessionFlags& flags : further) {
+        if (std::ranges::find(names, flags.options.name) != names.end())
+            throw Error("Two sessions are called '" + flags.options.name +
+                        "'; each needs a name of its own.");
+        names.push_back(flags.options.name);
+    }
+    if (names.size() > host::max_sessions)
+        throw Error("A host has at most " + std::to_string(host::max_sessions) +
+                    " sessions; these are " + std::to_string(names.size()) + ".");
+}
+
+}  // namespace
+
+HostSessions::HostSessions(const host::HostOptions& options, const SessionFlags& first,
+                           const std::vector<SessionFlags>& further)
+    : state_(options.state.empty() ? host::default_state_folder() : options.state),
+      first_name_(options.name) {
+    check_names(first_name_, further);
+    const capture::Progress progress = cli::show_progress();
+    first_ = std::make_unique<host::Host>(options, progress);
+    draw_regions(*first_, first.regions);
+    for (const SessionFlags& flags : further) {
+        auto session = std::make_unique<Further>();
+        session->flags = flags;
+        session->opened.host = open_beside(*first_, state_, flags, progress);
+        further_.push_back(std::move(session));
+    }
+    follow();
+}
+
+HostSessions::~HostSessions() {
+    if (opening_.valid())
+        opening_.wait();
+    opening_ = {};
+    host::tell_no_sessions(state_);
+    further_.clear();
+}
+
+std::vector<std::pair<std::string, host::Host*>> HostSessions::open() const {
+    std::vector<std::pair<std::string, host::Host*>> open{{first_name_, first_.get()}};
+    for (const auto& session : further_)
+        if (session->opened.host)
+            open.emplace_back(session->flags.options.name, session->opened.host.get());
+    return open;
+}
+
+void HostSessions::follow() {
+    for (const auto& [name, host] : open())
+        host->follow_links();
+    take_opened();
+    if (steady_now() < next_look_)
+        return;
+    next_look_ = steady_now() + 500ms;
+    for (const auto& [name, host] : open())
+        host->follow_filter_files();
+    first_->follow_certificates();
+    std::string problem;
+    try {
+        follow_folders();
+    } catch (const Error& error) {
+        problem = error.what();
+    }
+    if (!problem.empty() && problem != folder_problem_)
+        log::warning("host", "sessions stay as they were", {{"problem", problem}});
+    folder_problem_ = std::move(problem);
+}
+
+void HostSessions::follow_folders() {
+    const std::vector<host::KeptSession> kept = host::kept_sessions(state_);
+    for (const host::KeptSession& session : kept)
+        take_kept(session);
+    std::vector<std::string> gone;  // by hand
+    for (const auto& session : further_)
+        if (session->is_kept && std::ranges::find(kept, session->flags.options.name,
+                                                  &host::KeptSession::name) == kept.end())
+            gone.push_back(session->flags.options.name);
+    for (const std::string& name : gone)
+        end(name);
+    open_next();
+    tell();
+}
+
+void HostSessions::take_kept(const host::KeptSession& kept) {
+    if (kept.ends && kept.name != opening_name_) {
+        end(kept.name);
+        host::forget_session(state_, kept.name);
+        return;
+    }
+    if (find(kept.name) || kept.ends || (!kept.words && kept.problem.empty()))
+        return;
+    auto session = std::make_unique<Further>();
+    session->is_kept = true;
+    try {
+        if (!kept.problem.empty())
+            throw Error(kept.problem);
+        if (kept.name == first_name_)
+            throw Error("The first session of this host has the same name.");
+        std::vector<std::string> words{"--session", kept.name};
+        words.insert(words.end(), kept.words->begin(), kept.words->end());
+        session->flags = parse_session(words);
+    } catch (const Error& error) {
+        session->opened.problem = error.what();
+        session->next_try = TimePoint::max();
+        log::error("host", "a session cannot be opened",
+                   {{"session", kept.name}, {"problem", error.what()}});
+    }
+    session->flags.options.name = kept.name;
+    further_.push_back(std::move(session));
+}
+
+void HostSessions::open_next() {
+    if (opening_.valid())
+        return;
+    const TimePoint now = steady_now();
+    for (const auto& session : further_) {
+        if (session->opened.host || session->next_try > now)
+            continue;
+        if (open().size() >= host::max_sessions) {
+            session->opened.problem = "A host has at most " + std::to_string(host::max_sessions) +
+                                      " sessions at once; end another one.";
+            session->next_try = now + retry_interval;
+            continue;
+        }
+        opening_name_ = session->flags.options.name;
+        opening_ = std::async(std::launch::async, [this, flags = session->flags] {
+            return open(*first_, state_, flags);
+        });
+        return;
+    }
+}
+
+HostSessions::Opened HostSessions::open(const host::Host& first, const std::filesystem::path& state,
+                                        const SessionFlags& flags) {
+    Opened opened;
+    try {
+        opened.host = open_beside(first, state, flags, {});
+    } catch (const std::exception& error) {
+        opened.problem = error.what();
+    }
+    return opened;
+}
+
+void HostSessions::take_opened() {
+    if (!opening_.valid() || opening_.wait_for(Duration(0)) != std::future_status::ready)
+        return;
+    Opened opened = opening_.get();
+    const std::string name = std::exchange(opening_name_, {});
+    Further* session = find(name);
+    if (!session)
+        return;
+    if (opened.host)
+        log::info("host", "session is open", {{"session", name}});
+    else if (opened.problem != session->opened.problem)
+        log::error("host", "a session cannot be opened",
+                   {{"session", name}, {"problem", opened.problem}});
+    session->opened = std::move(opened);
+    session->next_try = steady_now() + retry_interval;
+    next_look_ = {};
+}
+
+void HostSessions::end(const std::string& name) {
+    const auto found =
+        std::ranges::find(further_, name, [](const auto& s) { return s->flags.options.name; });
+    if (found == further_.end() || name == opening_name_)
+        return;
+    further_.erase(found);
+    log::info("host", "session has ended", {{"session", name}});
+}
+
+HostSessions::Further* HostSessions::find(const std::string& name) {
+    const auto found =
+        std::ranges::find(further_, name, [](const auto& s) { return s->flags.options.name; });
+    return found == further_.end() ? nullptr : found->get();
+}
+
+void HostSessions::tell() {
+    using State = host::ToldSession::State;
+    std::vector<host::ToldSession> now{{first_name_, State::open, ""}};
+    for (const auto& session : further_)
+        now.push_back({session->flags.options.name,
+                       session->opened.host              ? State::open
+                       : session->opened.problem.empty() ? State::opening
+                                                         : State::failed,
+                       session->opened.problem});
+    if (now == told_)
+        return;
+    host::tell_sessions(state_, now);
+    told_ = std::move(now);
+}
+
+std::vector<host::HostFigures> HostSessions::figures() const {
+    std::vector<host::HostFigures> figures;
+    for (const auto& [name, host] : open())
+        figures.push_back(host->figures());
+    return figures;
+}
+
+std::string HostSessions::room_problem() const {
+    for (const auto& [name, host] : open())
+        if (std::string problem = host->room_problem(); !problem.empty())
+            return problem;
+    return "";
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_flags.h"
+
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "cli/camera_option.h"
+#include "cli/seconds_option.h"
+#include "host/session_folder.h"
+#include "session/permissions.h"
+
+namespace theatron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view session_word = "--session";
+
+bool begins_session(const std::string& word) {
+    return word == session_word || word.starts_with(std::string(session_word) + "=");
+}
+
+// "operator,expert", or "nobody".
+std::vector<wire::Role> parse_patient_roles(const std::string& text) {
+    std::vector<wire::Role> roles;
+    if (text == "nobody")
+        return roles;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) {
+        const auto role = wire::parse_role(word);
+        if (!role || !session::may_know_patient(*role))
+            throw Error("'" + clean_text(word, 40) +
+                        "' in --identifiers-for is none of operator, expert and publisher" +
+                        (role ? ": observers never learn who the patient is." : ", or nobody."));
+        roles.push_back(*role);
+    }
+    return roles;
+}
+
+std::string absolute_path(const std::string& path, const fs::path& folder) {
+    return path.empty() ? path : (folder / path).lexically_normal().string();
+}
+
+// The source of a camera is a file in some kinds only: it is one where there is a file.
+std::string absolute_camera(const std::string& specification, const fs::path& folder) {
+    const std::size_t colon = specification.find(':');
+    const std::size_t comma = specification.find(',');
+    if (colon == std::string::npos || comma < colon)
+        return specification;
+    const std::string source = specification.substr(colon + 1, comma - colon - 1);
+    std::error_code none;
+    if (source.empty() || !fs::exists(folder / source, none))
+        return specification;
+    return specification.substr(0, colon + 1) + absolute_path(source, folder) +
+           (comma == std::string::npos ? "" : specification.substr(comma));
+}
+
+// "FILTER" or "CAMERA=FILTER", where FILTER may be a file.
+std::string absolute_filter(const std::string& text, const fs::path& folder) {
+    const std::size_t equals = text.find('=');
+    const std::size_t begin = equals == std::string::npos ? 0 : equals + 1;
+    std::error_code none;
+    for (const std::size_t at : {std::size_t(0), begin})
+        if (fs::is_regular_file(folder / text.substr(at), none))
+            return text.substr(0, at) + absolute_path(text.substr(at), folder);
+    return text;
+}
+
+std::string number_text(double value) {
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+}
+
+}  // namespace
+
+void add_session_options(CLI::App& command, SessionFlags& flags) {
+    cli::add_camera_option(command, flags.options.cameras);
+    command.add_option("--places", flags.places,
+                       "Where the cameras are in the room: a file that 'theatron register' wrote. "
+                       "A camera's own place=X:Y:Z:YAW:PITCH:ROLL is the last word");
+    command
+        .add_option("--region", flags.regions,
+                    "CAMERA=X:Y:WIDTH:HEIGHT, the part of a camera's depth image that stays exact "
+                    "when a slow link makes the rest coarser; a polygon is CAMERA=X:Y:X:Y:X:Y. "
+                    "CAMERA is a number from 0 or a name. Repeat for more parts. Without a region "
+                    "the whole image stays exact")
+        ->allow_extra_args(false);
+    command.add_option("--cases", flags.cases,
+                       "A folder of cases (docs/cases.md): each case that lies there, or is put "
+                       "there later, can be opened in the room");
+    command
+        .add_option("--identifiers-for", flags.identifiers_for,
+                    "The roles that see the name, date of birth and number of the open case's "
+                    "patient: operator, expert and publisher, with commas, or nobody")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--filter", flags.options.filters,
+            "Filters of depth: off, paper, default, a line of filters or a JSON file, which "
+            "may change meanwhile; CAMERA=... for one camera, by number from 0 or name")
+        ->allow_extra_args(false);
+    command
+        .add_option("--link-hours", flags.link_hours,
+                    "The links let nobody in after so many hours; participants who are in stay. "
+                    "0: they always do")
+        ->check([](const std::string& text) -> std::string {
+            double value = 0;
+            // A comparison with nan is false.
+            if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1000)
+                return "";
+            return "'" + text + "' is not a number of hours from 0 to 1000";
+        });
+    command
+        .add_option("--admit", flags.admit,
+                    "all: everyone with a valid link is let in; ask: experts and observers wait "
+                    "until an operator admits them")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"all", "ask"}));
+    command
+        .add_option("--look-back", flags.look_back_s,
+                    "How many seconds participants may look back at the cameras of the room, 0 to "
+                    "60; they are kept in memory only, 512 MiB at most. 0: nothing is kept")
+        ->capture_default_str()
+        ->check([](const std::string& text) -> std::string {
+            double seconds = -1;
+            // A range check of CLI11 takes "nan".
+            const bool is_number = CLI::detail::lexical_cast(text, seconds);
+            if (is_number && seconds >= 0 && seconds <= to_seconds(session::Past::longest_reach))
+                return "";
+            return "'" + text + "' is not a number of seconds from 0 to 60";
+        });
+    command
+        .add_option("--direct", flags.direct,
+                    "on: pictures of a participant's cameras go from it to those who can reach "
+                    "it; off: all pictures go through this host")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"on", "off"}));
+}
+
+host::SessionOptions session_options(const SessionFlags& flags) {
+    host::SessionOptions options = flags.options;
+    options.places = flags.places;
+    options.cases = flags.cases;
+    options.patient_for = parse_patient_roles(flags.identifiers_for);
+    options.asks = flags.admit == "ask";
+    options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
+    options.look_back = seconds_to_duration(flags.look_back_s);
+    options.direct = flags.direct == "on";
+    return options;
+}
+
+std::vector<std::string> words_of(const SessionFlags& flags, const fs::path& folder) {
+    std::vector<std::string> words;
+    const auto add = [&](const char* option, const std::string& value) {
+        words.emplace_back(option);
+        words.push_back(value);
+    };
+    for (const std::string& camera : flags.options.cameras)
+        add("--camera", absolute_camera(camera, folder));
+    for (const std::string& region : flags.regions)
+        add("--region", region);
+    for (const std::string& filter : flags.options.filters)
+        add("--filter", absolute_filter(filter, folder));
+    if (!flags.places.empty())
+        add("--places", absolute_path(flags.places, folder));
+    if (!flags.cases.empty())
+        add("--cases", absolute_path(flags.cases, folder));
+    add("--identifiers-for", flags.identifiers_for);
+    add("--admit", flags.admit);
+    add("--link-hours", number_text(flags.link_hours));
+    add("--look-back", number_text(flags.look_back_s));
+    add("--direct", flags.direct);
+    return words;
+}
+
+SessionFlags parse_session(const std::vector<std::string>& words) {
+    SessionFlags flags;
+    CLI::App session;
+    session.set_help_flag();
+    add_session_options(session, flags);
+    session.add_option("--session", flags.options.name)->required();
+    try {
+        session.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ExtrasError& error) {
+        throw Error("A further session has no such options: " + std::string(error.what()) +
+                    ". Those of the host stand before its second --session.");
+    } catch (const CLI::ParseError& error) {
+        throw Error("Session '" + clean_text(flags.options.name, host::max_session_name) +
+                    "': " + error.what() + ".");
+    }
+    host::check_session_name(flags.options.name);
+    return flags;
+}
+
+PartedWords part_sessions(const std::vector<std::string>& words) {
+    PartedWords parted;
+    std::size_t count = 0;
+    for (const std::string& word : words) {
+        if (begins_session(word) && ++count > 1)
+            parted.further.emplace_back();
+        (parted.further.empty() ? parted.first : parted.further.back()).push_back(word);
+    }
+    return parted;
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/fault.h"
+#include "base/hex_text.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "base/thread_name.h"
+#include "client/direct_reception.h"
+#include "net/client.h"
+#include "wire/direct_greeting.h"
+
+namespace theatron::client {
+
+// One publisher, on a thread of its own.
+class DirectReception::Link {
+public:
+    Link(std::uint64_t number, wire::DirectGrant grant, const Events& events)
+        : number_(number),
+          grant_(std::move(grant)),
+          events_(events),
+          addresses_(grant_.addresses),
+          thread_([this] {
+              name_this_thread("direct");
+              (void)contain("direct", [this] { run(); });
+          }) {}
+    ~Link() {
+        {
+            const std::lock_guard lock(mutex_);
+            stopping_ = true;
+            if (client_)
+                client_->stop();
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    const wire::DirectGrant& grant() const { return grant_; }
+
+    void taken(std::size_t bytes) {
+        --waiting_;
+        const std::lock_guard lock(mutex_);
+        if (client_)
+            client_->post([this, bytes, connection = connection_] {
+                if (running_ && connection == connection_)
+                    running_->taken(bytes);
+            });
+    }
+
+private:
+    void run() {
+        Duration pause = first_pause;
+        while (true) {
+            bool was_proven = false;
+            for (auto address = addresses_.begin(); address != addresses_.end(); ++address) {
+                const auto lasted = connect(*address);
+                if (!lasted)
+                    return;
+                if (*lasted == Duration(0))
+                    continue;
+                // The next attempt begins with the address that has answered.
+                std::rotate(addresses_.begin(), address, address + 1);
+                was_proven = *lasted > proven;
+                break;
+            }
+            pause = was_proven ? first_pause : pause;
+            std::unique_lock lock(mutex_);
+            if (changed_.wait_for(lock, pause, [&] { return stopping_; }))
+                return;
+            pause = std::min(2 * pause, longest_pause);
+        }
+    }
+
+    // Returns how long frames have come, or nothing when the link is to end.
+    std::optional<Duration> connect(const std::string& address) {
+        std::optional<TimePoint> first, newest;
+        TimePoint begun = steady_now();
+        net::Client::Handler h;
+        h.connected = [&] {
+            begun = steady_now();
+            running_->send_control(wire::encode_direct_greeting(grant_.secret));
+        };
+        h.control = [](ByteView) {};
+        h.media = [&](Bytes& message) {
+            newest = steady_now();
+            first = first.value_or(*newest);
+            if (waiting_ >= max_frames_waiting)
+                return true;
+            ++waiting_;
+            events_.media(number_, grant_.publisher, message);
+            message = {};
+            return false;
+        };
+        h.now = steady_now;
+        h.tick = [&] {
+            if (steady_now() - newest.value_or(begun) > silence)
+                running_->stop();
+        };
+        net::Client client({address, grant_.port, "", hex_text(grant_.fingerprint)}, std::move(h));
+        client.set_patience(connect_patience);
+        if (!begin(client))
+            return std::nullopt;
+        const net::Client::End end = client.run();
+        const bool stops = !finish();
+        events_.ended(grant_.publisher);
+        if (first)
+            log::info("direct", "direct pictures have ended",
+                      {{"publisher", int(grant_.publisher)}, log::outside("why", end.why)});
+        if (stops)
+            return std::nullopt;
+        return first ? *newest - *first + std::chrono::microseconds(1) : Duration(0);
+    }
+
+    bool begin(net::Client& client) {
+        const std::lock_guard lock(mutex_);
+        if (stopping_)
+            return false;
+        client_ = running_ = &client;
+        ++connection_;
+        return true;
+    }
+    // False when the link is to end.
+    bool finish() {
+        const std::lock_guard lock(mutex_);
+        client_ = running_ = nullptr;
+        return !stopping_;
+    }
+
+    const std::uint64_t number_;
+    const wire::DirectGrant grant_;
+    const Events& events_;
+    std::vector<std::string> addresses_;  // the thread of the link only
+    std::atomic<std::size_t> waiting_ = 0;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool stopping_ = false;          // guarded by mutex_, as is the next
+    net::Client* client_ = nullptr;  // while one runs
+    // The thread of the link only.
+    net::Client* running_ = nullptr;
+    std::uint64_t connection_ = 0;
+    std::thread thread_;
+};
+
+struct DirectReception::Impl {
+    std::uint64_t next = 1;
+    std::mutex mutex;
+    std::map<std::uint64_t, std::shared_ptr<Link>> links;  // guarded by mutex
+};
+
+bool DirectReception::is_possible() {
+    return true;
+}
+
+DirectReception::DirectReception(Events events)
+    : events_(std::move(events)), impl_(std::make_unique<Impl>()) {}
+
+DirectReception::~DirectReception() {
+    set_grants({});
+}
+
+void DirectReception::set_grants(const std::vector<wire::DirectGrant>& grants) {
+    std::vector<std::shared_ptr<Link>> ended;  // their threads are waited for without the lock
+    const auto is_linked = [&](const wire::DirectGrant& grant) {
+        return std::any_of(impl_->links.begin(), impl_->links.end(),
+                           [&](const auto& entry) { return entry.second->grant() == grant; });
+    };
+    const std::lock_guard lock(impl_->mutex);
+    std::erase_if(impl_->links, [&](const auto& entry) {
+        if (std::find(grants.begin(), grants.end(), entry.second->grant()) != grants.end())
+            return false;
+        ended.push_back(entry.second);
+        return true;
+    });
+    for (const wire::DirectGrant& grant : grants) {
+        if (is_linked(grant))
+            continue;
+        const std::uint64_t number = impl_->next++;
+        impl_->links[number] = std::make_shared<Link>(number, grant, events_);
+    }
+}
+
+void DirectReception::taken(std::uint64_t link, std::size_t bytes) {
+    std::shared_ptr<Link> found;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        if (const auto known = impl_->links.find(link); known != impl_->links.end())
+            found = known->second;
+    }
+    if (found)
+        found->taken(bytes);
+}
+
+}  // namespace theatron::client

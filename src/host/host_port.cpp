@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host_port.h"
+
+#include <future>
+#include <utility>
+
+#include "base/fault.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "base/thread_name.h"
+#include "host/port_pages.h"
+
+namespace theatron::host {
+
+HostPort::HostPort(PortOptions options)
+    : options_(std::move(options)),
+      sessions_([this](TimePoint when) { server_->set_alarm(when); }) {}
+
+HostPort::~HostPort() = default;
+
+void HostPort::require_free() const {
+    if (!server_)
+        net::require_free(options_.listen);
+}
+
+AuditLog* HostPort::open_audit() {
+    if (options_.is_audited && !audit_)
+        audit_ = std::make_unique<AuditLog>(options_.audit.empty() ? state_folder_ / "audit.jsonl"
+                                                                   : options_.audit);
+    return audit_.get();
+}
+
+void HostPort::open_page() {
+    if (page_)
+        return;
+    page_ = options_.page.empty() ? Page() : Page(options_.page);
+    if (!page_->problem().empty())
+        log::warning("host", "page", {{"problem", page_->problem()}});
+}
+
+void HostPort::open() {
+    if (server_)
+        return;
+    server_ =
+        std::make_unique<net::Server>(options_.listen, certificate_->current(), handler(), access_);
+    note_link();
+}
+
+net::Server::Handler HostPort::handler() {
+    net::Server::Handler h;
+    h.invited = [this](ByteView first) { return sessions_.is_invited(first); };
+    h.turned_away = [this](const std::string& address, const std::string& why) {
+        ++turned_away_;
+        if (const auto left_out = strangers_.take(address, steady_now()))
+            log::info("host", "stranger turned away",
+                      {{"address", address}, {"why", why}, {"left_out", *left_out}});
+    };
+    h.http = [this](const net::HttpRequest& request) { return answer(request); };
+    h.now = steady_now;
+    h.tick = [this] { sessions_.tick(); };
+    h.alarm = [this] { sessions_.alarm(steady_now()); };
+    using net::PeerId;
+    h.connected = [this](PeerId peer, const std::string& address, bool invited) {
+        sessions_.connected(peer, address, invited);
+    };
+    h.control = [this](PeerId peer, ByteView message) { sessions_.control(peer, message); };
+    h.state = [this](PeerId peer, const wire::State& state) { sessions_.state(peer, state); };
+    h.voice = [this](PeerId peer, const wire::Voice& voice) { sessions_.voice(peer, voice); };
+    h.frame_left = [this](PeerId peer) { sessions_.frame_left(peer); };
+    h.control_lost = [this](PeerId peer) { sessions_.control_lost(peer); };
+    h.media = [this](PeerId peer, Bytes& message) { return sessions_.media(peer, message); };
+    h.closed = [this](PeerId peer, const std::string& why) { sessions_.closed(peer, why); };
+    return h;
+}
+
+// On the door's thread.
+net::HttpAnswer HostPort::answer(const net::HttpRequest& request) const {
+    return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
+        return answer_page(request, *page_, sessions);
+    });
+}
+
+void HostPort::serve() {
+    thread_ = std::thread([this] {
+        name_this_thread("net");
+        (void)contain("net", [this] { server_->run(); });
+    });
+}
+
+void HostPort::run_there(const std::function<void()>& work) {
+    const auto done = std::make_shared<std::promise<void>>();
+    server_->post([work, done] {
+        (void)contain("net", work);
+        done->set_value();
+    });
+    done->get_future().wait();
+}
+
+net::Link HostPort::link() const {
+    const std::lock_guard lock(mutex_);
+    return link_;
+}
+
+std::vector<HostFigures::Certificate> HostPort::certificates() const {
+    const std::lock_guard lock(mutex_);
+    return certificates_;
+}
+
+}  // namespace theatron::host

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session_switch.h"
+
+#include <algorithm>
+
+#include "base/fault.h"
+#include "wire/control.h"
+
+namespace theatron::host {
+
+SessionNumber SessionSwitch::add(PortSession session) {
+    const std::lock_guard lock(mutex_);
+    const SessionNumber number{next_++};
+    sessions_.emplace_back(number, std::move(session));
+    return number;
+}
+
+std::vector<net::PeerId> SessionSwitch::remove(SessionNumber number) {
+    std::vector<net::PeerId> peers;
+    std::erase_if(peers_, [&](const auto& entry) {
+        if (entry.second == number)
+            peers.push_back(entry.first);
+        return entry.second == number;
+    });
+    alarms_.erase(number);
+    const std::lock_guard lock(mutex_);
+    std::erase_if(sessions_, [&](const auto& entry) { return entry.first == number; });
+    return peers;
+}
+
+const PortSession* SessionSwitch::find(SessionNumber number) const {
+    const auto found = std::ranges::find(sessions_, number, &Sessions::value_type::first);
+    return found == sessions_.end() ? nullptr : &found->second;
+}
+
+const PortSession* SessionSwitch::find(net::PeerId peer) const {
+    const auto found = peers_.find(peer);
+    return found == peers_.end() ? nullptr : find(found->second);
+}
+
+// Asks every session, so that the time tells nothing about tokens.
+std::optional<SessionNumber> SessionSwitch::session_of(ByteView first) const {
+    std::optional<SessionNumber> found;
+    const auto message = wire::decode_to_host(first);
+    if (const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr)
+        for (const auto& [number, session] : sessions_)
+            if (session.find_token(join->token) && !found)
+                found = number;
+    return found;
+}
+
+bool SessionSwitch::is_invited(ByteView first) const {
+    const std::lock_guard lock(mutex_);
+    return session_of(first).has_value();
+}
+
+void SessionSwitch::connected(net::PeerId peer, const std::string& address, bool invited) {
+    entering_[peer] = {address, invited};
+}
+
+void SessionSwitch::control(net::PeerId peer, ByteView message) {
+    if (const auto entering = entering_.extract(peer)) {
+        if (sessions_.empty())
+            return;
+        const SessionNumber number = session_of(message).value_or(sessions_.front().first);
+        peers_[peer] = number;
+        find(number)->events.connected(peer, entering.mapped().address, entering.mapped().invited);
+    }
+    if (const PortSession* session = find(peer))
+        session->events.control(peer, message);
+}
+
+void SessionSwitch::state(net::PeerId peer, const wire::State& state) {
+    if (const PortSession* session = find(peer))
+        session->events.state(peer, state);
+}
+
+void SessionSwitch::voice(net::PeerId peer, const wire::Voice& voice) {
+    if (const PortSession* session = find(peer))
+        session->events.voice(peer, voice);
+}
+
+void SessionSwitch::frame_left(net::PeerId peer) {
+    if (const PortSession* session = find(peer))
+        session->events.frame_left(peer);
+}
+
+void SessionSwitch::control_lost(net::PeerId peer) {
+    if (const PortSession* session = find(peer))
+        session->events.control_lost(peer);
+}
+
+bool SessionSwitch::media(net::PeerId peer, Bytes& message) {
+    const PortSession* session = find(peer);
+    return !session || session->events.media(peer, message);
+}
+
+void SessionSwitch::closed(net::PeerId peer, const std::string& why) {
+    entering_.erase(peer);
+    const PortSession* session = find(peer);
+    peers_.erase(peer);
+    if (session)
+        session->events.closed(peer, why);
+}
+
+void SessionSwitch::tick() {
+    for (const auto& [number, session] : sessions_)
+        (void)contain("net", session.events.tick);
+}
+
+void SessionSwitch::set_alarm(SessionNumber number, TimePoint when) {
+    alarms_[number] = when;
+    arm();
+}
+
+void SessionSwitch::alarm(TimePoint now) {
+    armed_.reset();
+    std::vector<SessionNumber> due;
+    std::erase_if(alarms_, [&](const auto& entry) {
+        if (entry.second <= now)
+            due.push_back(entry.first);
+        return entry.second <= now;
+    });
+    for (const SessionNumber number : due)
+        if (const PortSession* session = find(number))
+            (void)contain("net", session->events.alarm);
+    arm();
+}
+
+void SessionSwitch::arm() {
+    const auto earliest =
+        std::ranges::min_element(alarms_, {}, [](const auto& entry) { return entry.second; });
+    if (earliest == alarms_.end() || armed_ == earliest->second)
+        return;
+    armed_ = earliest->second;
+    set_server_alarm_(*armed_);
+}
+
+}  // namespace theatron::host

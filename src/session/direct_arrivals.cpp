@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/direct_arrivals.h"
+
+#include <algorithm>
+
+namespace theatron::session {
+namespace {
+
+// Frame numbers wrap.
+bool is_newer(FrameNumber frame, FrameNumber than) {
+    return std::int32_t(frame - than) > 0;
+}
+
+}  // namespace
+
+bool DirectArrivals::take(const wire::MediaHeader& header, Way way, TimePoint now) {
+    const auto known = streams_.find(header.stream);
+    if (known == streams_.end() && way == Way::by_host)
+        return true;
+    Stream& stream = streams_[header.stream];
+    if (way == Way::direct) {
+        stream.direct = header.setting;
+        stream.came_directly = now;
+    }
+    const bool is_first = stream.setting != header.setting || now - stream.taken > memory;
+    if (!is_first && !is_newer(header.frame, stream.newest))
+        return false;
+    stream.setting = header.setting;
+    stream.newest = header.frame;
+    stream.taken = now;
+    return true;
+}
+
+SettingId DirectArrivals::direct_setting(StreamId stream, Duration period, TimePoint now) const {
+    const auto found = streams_.find(stream);
+    if (found == streams_.end())
+        return {};
+    const Duration longest = std::max(patience, patience_in_periods * period);
+    return now - found->second.came_directly <= longest ? found->second.direct : SettingId{};
+}
+
+void DirectArrivals::end(StreamId stream) {
+    if (const auto found = streams_.find(stream); found != streams_.end())
+        found->second.direct = {};
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The panel of people (P) has the sound devices of the machine; the one that is chosen is used, and kept."""
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+from theatron_process import Process, host, make_recording, wait_until
+from virtual_screen import VirtualScreen
+
+WIDTH, HEIGHT = 640, 480
+
+
+class SoundPanel(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_sound_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_a_person_chooses_devices_with_the_mouse(self):
+        camera = f"folder:{make_recording(self.folder / 'lamp', color=False)},loop=1,preload=1,place=0:1.5:0"
+        settings = self.folder / "home" / "theatron" / "settings"
+        kept = lambda: settings.read_text() if settings.exists() else ""
+        with VirtualScreen(WIDTH, HEIGHT) as screen, host(self.folder / "state", camera) as h:
+            # SDL's devices without hardware: one that hears silence, one that nobody hears.
+            environment = {**screen.environment, "XDG_STATE_HOME": str(self.folder / "home"), "SDL_AUDIODRIVER": "dummy"}
+            with Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
+                    Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}",
+                            env=environment) as window:
+                ada.wait_for(lambda f: any(p["name"] == "Wim" and p["head"] for p in f["room"]["people"]), 30)
+                before = screen.buttons(WIDTH, HEIGHT)
+                self.assertEqual(before, [])
+                screen.do("mousemove", 600, 400, "key", "p")
+                # Both kinds have two devices: the usual one and the dummy; none is in use yet.
+                wait_until(lambda: len(self.alone(screen)) >= 4, 20)
+                microphone = self.alone(screen)[-4]
+                screen.do("mousemove", *microphone, "click", 1)
+                wait_until(lambda: "speaks yes" in kept(), 10)
+                self.assertIn("\nmicrophone default\n", kept())
+                # The device in use has no button any more.
+                wait_until(lambda: len(self.alone(screen)) >= 3, 10)
+                screen.do("mousemove", *self.alone(screen)[-1], "click", 1)
+                wait_until(lambda: "hears yes" in kept(), 10)
+                self.assertNotIn("\nloudspeaker default\n", kept())
+                screen.do("key", "Escape", "sleep", 0.3, "key", "Escape")
+                self.assertEqual(window.end(), 0, "".join(window.errors))
+
+    def alone(self, screen):
+        """Buttons that stand alone in their row."""
+        buttons = screen.buttons(WIDTH, HEIGHT)
+        return [b for b in buttons if sum(abs(b[1] - other[1]) < 8 for other in buttons) == 1]
+
+
+if __name__ == "__main__":
+    unittest.main()
