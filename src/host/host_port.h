@@ -48,6 +48,7 @@ public:
     net::Link link() const;  // without a token
     std::uint16_t number() const { return server_->port(); }
     std::vector<HostFigures::Certificate> certificates() const;
+    const std::string& page_problem() const { return page_->problem(); }
     std::uint64_t turned_away() const { return turned_away_; }
     std::string page_problem() const { return page_->problem(); }
     // The threads of all lanes.
