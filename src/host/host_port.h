@@ -50,7 +50,6 @@ public:
     std::vector<HostFigures::Certificate> certificates() const;
     const std::string& page_problem() const { return page_->problem(); }
     std::uint64_t turned_away() const { return turned_away_; }
-    std::string page_problem() const { return page_->problem(); }
     // The threads of all lanes.
     send::Workers& workers() { return workers_; }
 
