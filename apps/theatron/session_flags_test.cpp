@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string problem_of(const std::vector<std::string>& words) {
+std::string refusal_of_words(const std::vector<std::string>& words) {
     try {
         (void)parse_session(words);
     } catch (const Error& error) {
@@ -52,11 +52,11 @@ TEST(SessionWords, AreReadWithTheOptionsOfASession) {
 }
 
 TEST(SessionWords, NameAnOptionThatOnlyAHostHas) {
-    EXPECT_THAT(problem_of({"--session", "OR 4", "--listen", ":0"}),
+    EXPECT_THAT(refusal_of_words({"--session", "OR 4", "--listen", ":0"}),
                 HasSubstr("before its second --session"));
-    EXPECT_THAT(problem_of({"--session", "OR 4", "--admit", "none"}), HasSubstr("OR 4"));
-    EXPECT_THAT(problem_of({"--session", ""}), HasSubstr("name"));
-    EXPECT_NE(problem_of({"--camera", "synthetic"}), "");
+    EXPECT_THAT(refusal_of_words({"--session", "OR 4", "--admit", "none"}), HasSubstr("OR 4"));
+    EXPECT_THAT(refusal_of_words({"--session", ""}), HasSubstr("name"));
+    EXPECT_NE(refusal_of_words({"--camera", "synthetic"}), "");
 }
 
 TEST(SessionWords, GiveTheSameFlagsAgain) {
