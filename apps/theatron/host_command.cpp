@@ -12,6 +12,7 @@
 
 #include "base/camera_names.h"
 #include "base/error.h"
+#include "base/log_scope.h"
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "capture/camera.h"
@@ -102,8 +103,10 @@ void obey(HostSessions& sessions, const std::string& line) {
     const std::string name = line.substr(prefix.size(), colon - prefix.size());
     std::string names;
     for (const auto& [open_name, host] : sessions.open()) {
-        if (open_name == name)
+        if (open_name == name) {
+            const log::SessionScope scope(sessions.name_in_log(name));
             return obey(*host, line.substr(colon + 2));
+        }
         names += (names.empty() ? "'" : ", '") + open_name + "'";
     }
     throw Error("There is no session '" + name + "'; there are " + names + ".");

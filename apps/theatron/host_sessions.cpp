@@ -8,6 +8,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/log_scope.h"
 #include "base/steady_clock.h"
 #include "cli/progress.h"
 #include "host/host_identity.h"
@@ -87,14 +88,18 @@ std::vector<std::pair<std::string, host::Host*>> HostSessions::open() const {
 }
 
 void HostSessions::follow() {
-    for (const auto& [name, host] : open())
+    for (const auto& [name, host] : open()) {
+        const log::SessionScope scope(name_in_log(name));
         host->follow_links();
+    }
     take_opened();
     if (steady_now() < next_look_)
         return;
     next_look_ = steady_now() + 500ms;
-    for (const auto& [name, host] : open())
+    for (const auto& [name, host] : open()) {
+        const log::SessionScope scope(name_in_log(name));
         host->follow_filter_files();
+    }
     first_->follow_certificates();
     std::string problem;
     try {

@@ -30,6 +30,10 @@ public:
     HostSessions& operator=(const HostSessions&) = delete;
 
     host::Host& first() { return *first_; }
+    // The name of a session in lines of the log; empty for the first one.
+    std::string name_in_log(const std::string& name) const {
+        return name == first_name_ ? "" : name;
+    }
     // Those that are open, with their names; the first one first.
     std::vector<std::pair<std::string, host::Host*>> open() const;
 

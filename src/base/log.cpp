@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <ctime>
+#include <utility>
 
 #include "base/log_output.h"
+#include "base/log_scope.h"
 #include "base/outside_text.h"
 
 namespace theatron::log {
@@ -14,7 +16,29 @@ std::atomic<Level> lowest_level{Level::info};
 
 constexpr const char* names[] = {"debug", "info", "warning", "error"};
 
+thread_local const std::string* session = nullptr;  // of the newest SessionScope
+
+void add_field(std::string& line, const Field& field) {
+    line += " " + std::string(field.key) + "=";
+    const std::string value = clean_text(field.value, field.max_characters);
+    if (value.find_first_of(" \"") == std::string::npos) {
+        line += value;
+        return;
+    }
+    line += '"';
+    for (const char c : value)
+        line += c == '"' ? '\'' : c;
+    line += '"';
+}
+
 }  // namespace
+
+SessionScope::SessionScope(const std::string& name)
+    : name_(name), outer_(std::exchange(session, name.empty() ? nullptr : &name_)) {}
+
+SessionScope::~SessionScope() {
+    session = outer_;
+}
 
 void set_level(Level lowest) {
     lowest_level = lowest;
@@ -32,23 +56,17 @@ void write(Level level, std::string_view area, std::string_view what,
 
     std::string line = std::string(clock) + " " + names[int(level)] + " " + std::string(area) +
                        ": " + std::string(what);
-    for (const Field& field : fields) {
-        line += " " + std::string(field.key) + "=";
-        const std::string value = clean_text(field.value, field.max_characters);
-        if (value.find_first_of(" \"") == std::string::npos) {
-            line += value;
-            continue;
-        }
-        line += '"';
-        for (const char c : value)
-            line += c == '"' ? '\'' : c;
-        line += '"';
-    }
+    for (const Field& field : fields)
+        add_field(line, field);
+    if (session)
+        add_field(line, outside("session", *session));
     output_line(line + '\n');
 }
 
 void say(std::string_view sentence) {
-    output_line(clean_text(sentence, max_field_characters) + '\n');
+    const std::string of =
+        session ? clean_text(*session, max_outside_characters) + ": " : std::string();
+    output_line(of + clean_text(sentence, max_field_characters) + '\n');
 }
 
 }  // namespace theatron::log

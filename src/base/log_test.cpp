@@ -9,6 +9,7 @@
 
 #include "base/line_limit.h"
 #include "base/line_writer.h"
+#include "base/log_scope.h"
 
 namespace theatron {
 namespace {
@@ -45,6 +46,25 @@ TEST(LineWriter, NobodyWaitsForAnOutputThatIsStuckAndWhatWasLeftOutIsCounted) {
     EXPECT_TRUE(writer.idle());
     ASSERT_EQ(written.size(), 1 + LineWriter::max_waiting + 1);
     EXPECT_EQ(written[2], "... 7 lines were left out.\n");
+}
+
+TEST(SessionScope, LinesAndSentencesNameTheirSession) {
+    testing::internal::CaptureStderr();
+    const auto write = log::in_session("OR 4", std::function<void(int)>([](int id) {
+                                           log::info("host", "one", {{"id", id}});
+                                           {
+                                               const log::SessionScope first("");
+                                               log::info("host", "two");
+                                           }
+                                           log::say("Three.");
+                                       }));
+    write(7);
+    log::info("host", "four");
+    log::flush(std::chrono::minutes(1));
+    std::string lines = testing::internal::GetCapturedStderr();
+    for (const std::string expected : {"info host: one id=7 session=\"OR 4\"\n", "info host: two\n",
+                                       "OR 4: Three.\n", "info host: four\n"})
+        EXPECT_NE(lines.find(expected), std::string::npos) << expected << lines;
 }
 
 TEST(LineLimit, WritesOneLinePerSourceAndInterval) {

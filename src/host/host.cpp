@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/log_scope.h"
 #include "capture/placed_camera.h"
 #include "host/codec_steps.h"
 #include "host/host_identity.h"
@@ -119,7 +120,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     config.admission.tokens = load_tokens();
     config.admission.asks = options.asks;
     if (AuditLog* log = port->open_audit())
-        audit = std::make_unique<SessionAudit>(*log, in_audit);
+        audit = std::make_unique<SessionAudit>(*log, in_logs);
     config.session = wire::SessionId(std::stoul(net::random_token().substr(0, 8), nullptr, 16));
     config.name = name = options.name;
     config.patient_for = options.patient_for;
@@ -231,7 +232,8 @@ Host::Host(const HostOptions& options, const capture::Progress& progress)
 Host::Host(const SessionOptions& options, const Host& first, const capture::Progress& progress)
     : impl_(std::make_unique<Impl>(participants_)) {
     impl_->port = first.impl_->port;
-    impl_->in_audit = options.name;
+    impl_->in_logs = options.name;
+    const log::SessionScope scope(impl_->in_logs);
     impl_->open(options, progress);
 }
 

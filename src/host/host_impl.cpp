@@ -87,6 +87,7 @@ net::Server::Handler Host::Impl::handler() {
 
 PortSession Host::Impl::in_port() {
     PortSession given;
+    given.name_in_log = in_logs;
     given.events = handler();
     given.find_token = [this](const std::string& secret) { return find_token(secret); };
     given.must_ask = [this](wire::Role role) { return must_ask(role); };

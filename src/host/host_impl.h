@@ -46,7 +46,7 @@ struct Host::Impl {
     mutable std::mutex tokens_mutex;
     std::string own_token;                          // guarded by tokens_mutex, as is the next
     std::vector<session::Admission::Token> tokens;  // those of the session
-    std::string in_audit;                           // the session's name in the audit log
+    std::string in_logs;                            // the session's name; empty: the first one
     std::unique_ptr<SessionAudit> audit;            // may be null
     session::TokenBucket audited{1, 500};           // events; server's thread
     session::TokenBucket audited_knocks{1, 500};    // of people who wait; likewise

@@ -16,6 +16,7 @@
 namespace theatron::host {
 
 struct PortSession {
+    std::string name_in_log;  // empty for the first session of a host
     // For the connections of this session, on the server's thread; `tick` and `alarm` as well.
     // `invited`, `http`, `turned_away` and `now` are the port's own and stay empty.
     net::Server::Handler events;

@@ -4,11 +4,32 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/log_scope.h"
 
 namespace theatron::host {
 
+namespace {
+
+void name_in_log(net::Server::Handler& events, const std::string& session) {
+    const auto name = [&](auto& event) { event = log::in_session(session, std::move(event)); };
+    name(events.connected);
+    name(events.control);
+    name(events.state);
+    name(events.voice);
+    name(events.frame_left);
+    name(events.control_lost);
+    name(events.media);
+    name(events.closed);
+    name(events.tick);
+    name(events.alarm);
+}
+
+}  // namespace
+
 SessionPort::SessionPort(HostPort& port, PortSession session)
-    : port_(port), session_(std::move(session)) {}
+    : port_(port), name_in_log_(session.name_in_log), session_(std::move(session)) {
+    name_in_log(session_.events, name_in_log_);
+}
 
 void SessionPort::begin() {
     const std::lock_guard changing(port_.changing_);
@@ -61,7 +82,7 @@ void SessionPort::post(std::function<void()> work) {
 }
 
 void SessionPort::send_there(std::function<void()> work) {
-    port_.server_->post([share = share_, work = std::move(work)] {
+    port_.server_->post([share = share_, work = log::in_session(name_in_log_, std::move(work))] {
         if (!share->has_left)
             work();
     });

@@ -75,6 +75,7 @@ private:
     void send_there(std::function<void()> work);
 
     HostPort& port_;
+    const std::string name_in_log_;
     PortSession session_;  // until begin()
     SessionNumber number_{};
     const std::shared_ptr<Share> share_ = std::make_shared<Share>();

@@ -87,6 +87,9 @@ class Sessions(unittest.TestCase):
                                            (carla, ["Carla", "David"], "lamp"), (david, ["Carla", "David"], "lamp")):
                 person.wait_for(lambda f: people(f) == others and cameras(f) == [camera]
                                 and f["cameras"][0]["frames"] > 5, 30)
+            log = "".join(h.errors)
+            self.assertRegex(log, r'participant joined.*name=David.* session="OR 4"\n')
+            self.assertNotRegex(log, r'participant joined.*name=Ben.* session=')
 
             # Objects and voices stay where they are.
             anna.say("brick 1 1 1")
