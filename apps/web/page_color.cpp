@@ -2,6 +2,7 @@
 #include "page_color.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "video/color_codec.h"
 
@@ -16,7 +17,8 @@ client::ColorMeasure measure_of(const client::ParticipantFigures& figures) {
     client::ColorMeasure measure;
     measure.is_thinned = figures.status.delivery.level > 0;
     std::optional<double> slowest;
-    for (const auto& [camera, depth, color] : figures.cameras) {
+    for (const client::CameraFigures& one : figures.cameras) {
+        const auto& [camera, color] = std::tie(one.camera, one.color);
         // Faces come in codecs of their own.
         if (!camera.description.has_color || camera.description.frame == wire::CameraFrame::face)
             continue;

@@ -17,7 +17,7 @@ constexpr int passes = 40;
 
 DepthImage usual_picture() {
     const auto camera =
-        capture::open_camera("synthetic:seconds=1,fps=30,loop=1,preload=1,quality=quick");
+        capture::open_camera("synthetic:seconds=2,fps=30,loop=1,preload=1,quality=quick");
     for (int tries = 0; tries < 100; ++tries)
         if (const capture::Capture next = camera->next(100ms);
             next.kind == capture::Capture::Kind::frame)

@@ -17,7 +17,7 @@
 EM_JS(int, theatron_open_h264, (), { return Module.h264.open(); });
 EM_JS(void, theatron_decode_h264,
       (int decoder, const char* codec, int key, unsigned number, const void* data, unsigned size), {
-          Module.h264.decode(decoder, UTF8ToString(codec), key != = 0, number,
+          Module.h264.decode(decoder, UTF8ToString(codec), !!key, number,
                              HEAPU8.slice(data, data + size));
       });
 EM_JS(void, theatron_close_h264, (int decoder), { Module.h264.close(decoder); });

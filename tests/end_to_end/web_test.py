@@ -84,7 +84,9 @@ class Web(unittest.TestCase):
                    "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA=="}
         own = "https://" + self.link.split("/")[2]
         for origin, status in ((own, 101), ("https://elsewhere.example", 403), ("null", 403)):
-            self.assertEqual(get(self.link, "/connection", upgrade | {"Origin": origin}, body=False)[0].status, status)
+            answer = get(self.link, "/connection", upgrade | {"Origin": origin}, body=False)[0]
+            self.assertEqual(answer.status, status)
+            self.assertNotIn("Boost", answer.headers.get("Server", ""))
 
     def test_by_the_link_into_the_room_to_a_native_participant(self):
         with Process("join", self.link, "--name", "Ben", "--every", "0.2") as ben:
