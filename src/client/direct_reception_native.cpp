@@ -92,6 +92,7 @@ private:
     // Returns how long frames have come, or nothing when the link is to end.
     std::optional<Duration> connect(const std::string& address) {
         std::optional<TimePoint> first, newest;
+        std::string why;
         TimePoint begun = steady_now();
         net::Client::Handler h;
         h.connected = [&] {
@@ -116,8 +117,10 @@ private:
         };
         h.now = steady_now;
         h.tick = [&] {
-            if (steady_now() - newest.value_or(begun) > silence)
+            if (steady_now() - newest.value_or(begun) > silence) {
+                why = "no picture came any more";
                 running_->stop();
+            }
         };
         net::Client client({address, grant_.port, "", hex_text(grant_.fingerprint)}, std::move(h));
         client.set_patience(connect_patience);
@@ -125,10 +128,14 @@ private:
             return std::nullopt;
         const net::Client::End end = client.run();
         const bool stops = !finish();
+        if (stops)
+            why = "the host no longer allows it, or the session is over";
+        else if (why.empty())
+            why = end.why;
         events_.ended(grant_.publisher);
         if (first)
             log::info("direct", "direct pictures have ended",
-                      {{"publisher", int(grant_.publisher)}, log::outside("why", end.why)});
+                      {{"publisher", int(grant_.publisher)}, log::outside("why", why)});
         if (stops)
             return std::nullopt;
         return first ? *newest - *first + std::chrono::microseconds(1) : Duration(0);

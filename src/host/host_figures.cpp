@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/hex_text.h"
@@ -24,12 +25,13 @@ std::vector<std::pair<const char*, std::uint64_t>> drops(const HostFigures::Came
     return result;
 }
 
-// Frames of depth and colour alike: the older one counts.
-double age_ms(const HostFigures::Participant& participant) {
-    Duration age{};
+// Frames of depth and colour alike: the older one counts. Nothing for who receives no pictures.
+std::optional<double> age_ms(const HostFigures::Participant& participant) {
+    std::optional<Duration> age;
     for (const wire::StreamReport& stream : participant.streams)
-        age = std::max(age, stream.age);
-    return to_ms(age);
+        if (stream.frames > 0)
+            age = std::max(age.value_or(stream.age), stream.age);
+    return age ? std::optional(to_ms(*age)) : std::nullopt;
 }
 
 // Negative after its end.
@@ -156,7 +158,9 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"role", wire::text_of(participant.role)},
                                 {"muted", participant.muted},
                                 {"direct", direct},
-                                {"age_ms", age_ms(participant)}});
+                                {"age_ms", nullptr}});
+        if (const auto age = age_ms(participant))
+            participants.back()["age_ms"] = *age;
     }
     nlohmann::json published = nlohmann::json::array();
     for (const auto& camera : figures.published)
@@ -313,7 +317,9 @@ std::string to_prometheus(const std::vector<HostFigures>& all) {
                 [](const HostFigures& f) { return f.participants.size(); });
     per_participant("participant_age_seconds", "gauge",
                     "Age of the oldest of a participant's newest frames when they were decoded.",
-                    [](const Participant& p) { return age_ms(p) / 1000; });
+                    [none = std::numeric_limits<double>::quiet_NaN()](const Participant& p) {
+                        return age_ms(p).value_or(none) / 1000;
+                    });
     per_participant("requests_refused_total", "counter",
                     "Requests that came too often, by participant.",
                     [](const Participant& p) { return double(p.refused); });
@@ -410,12 +416,17 @@ std::string to_table(const nlohmann::json& figures) {
     }
     for (const auto& participant : participants) {
         const std::string renderer = text(participant, "renderer");
-        std::snprintf(line, sizeof(line),
-                      "participant %.0f %.100s: newest picture %.0f ms old%s%.40s",
-                      number(participant, "id"), text(participant, "name").c_str(),
-                      number(participant, "age_ms"), renderer.empty() ? "" : ", drawn with ",
-                      renderer.c_str());
+        std::snprintf(line, sizeof(line), "participant %.0f %.100s: ", number(participant, "id"),
+                      text(participant, "name").c_str());
         table += line;
+        if (const auto age = participant.find("age_ms");
+            age != participant.end() && age->is_number()) {
+            std::snprintf(line, sizeof(line), "newest picture %.0f ms old", age->get<double>());
+            table += line;
+        } else
+            table += "receives no pictures";
+        if (!renderer.empty())
+            table += ", drawn with " + renderer.substr(0, 40);
         if (const std::string role = text(participant, "role"); !role.empty())
             table += ", " + role;
         if (const auto muted = participant.find("muted");

@@ -96,7 +96,8 @@ constexpr Row rows[] = {
     {TextCode::loss_outside_region, "bounded loss outside the region"},
 
     {TextCode::link_without_cameras,
-     "This link lets nobody send cameras; ask for the host's link for publishers."},
+     "Your role here lets you send no cameras; use the host's link for publishers, or ask an "
+     "operator for that role."},
     {TextCode::no_camera_offered, "No camera was offered."},
     {TextCode::too_many_own_cameras, "A participant can send {0} cameras at once."},
     {TextCode::session_full, "The session has {0} cameras, which is the most it allows."},

@@ -94,7 +94,7 @@ class Publishing(unittest.TestCase):
             seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)
             code, _, errors = run("publish", h.greeting["link"], "--camera", self.cameras["face"])
             self.assertEqual(code, 1)
-            self.assertIn("lets nobody send cameras", errors)
+            self.assertIn("lets you send no cameras", errors)
 
     def test_a_viewers_link_lets_no_camera_in(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
