@@ -40,6 +40,7 @@ std::unique_ptr<host::Host> open_beside(const host::Host& first, const std::file
 
 // The sessions of a command line, with that of `first` at the beginning.
 void check_names(const std::string& first, const std::vector<SessionFlags>& further) {
+    host::check_session_name(first);
     std::vector<std::string> names{first};
     for (const SessionFlags& flags : further) {
         if (std::ranges::find(names, flags.options.name) != names.end())

@@ -32,6 +32,13 @@ std::string text_of(const host::KnownLink& link, const net::Link& address) {
     return net::format_link(text);
 }
 
+// 'theatron link' with these options, for the same folder and session.
+std::string command_of(const Flags& flags, const std::string& options) {
+    return "theatron link " + options +
+           (flags.session.empty() ? "" : " --session '" + flags.session + "'") +
+           (flags.state.empty() ? "" : " --state '" + flags.state + "'");
+}
+
 nlohmann::json facts_of(const host::KnownLink& link) {
     return {{"name", link.name},
             {"role", wire::text_of(link.role)},
@@ -52,11 +59,11 @@ void print(const host::KnownLink& link, const net::Link& address, const Flags& f
     if (flags.qr)
         std::cout << "\n" << qr_text(text, isatty(STDOUT_FILENO));
     // Not on standard output, which may be a file for 'theatron join @FILE'.
-    std::fprintf(stderr, "Link %s: %s%s%s. 'theatron link --revoke %s' ends it at once.\n",
-                 link.name.c_str(), wire::text_of(link.role),
+    std::fprintf(stderr, "Link %s: %s%s%s. '%s' ends it at once.\n", link.name.c_str(),
+                 wire::text_of(link.role),
                  link.label.empty() ? "" : (", for " + link.label).c_str(),
                  link.expires ? (", until " + files::utc_text(*link.expires)).c_str() : "",
-                 link.name.c_str());
+                 command_of(flags, "--revoke " + link.name).c_str());
 }
 
 void print_list(const std::vector<host::KnownLink>& links, bool json) {
@@ -86,13 +93,17 @@ void run(const Flags& flags) {
         flags.session.empty() ? state : host::find_session_folder(state, flags.session);
     if (!flags.revoke.empty()) {
         if (!host::revoke_link(folder, flags.revoke))
-            throw Error("There is no link '" + flags.revoke +
-                        "'; 'theatron link --list' lists "
-                        "them.");
+            throw Error("There is no link '" + flags.revoke + "'; '" + command_of(flags, "--list") +
+                        "' lists them.");
         if (flags.json)
             std::cout << files::json_text({{"revoked", flags.revoke}}) << "\n";
         else
-            std::fprintf(stderr, "Link %s admits nobody any more.\n", flags.revoke.c_str());
+            std::fprintf(stderr, "Link %s admits nobody any more.%s\n", flags.revoke.c_str(),
+                         wire::parse_role(flags.revoke)
+                             ? (" There is a new one: '" +
+                                command_of(flags, "--show " + flags.revoke) + "' prints it.")
+                                   .c_str()
+                             : "");
         return;
     }
     const host::KnownLinks book = host::load_links(folder);
@@ -104,7 +115,8 @@ void run(const Flags& flags) {
         for (const host::KnownLink& link : book.links)
             if (link.name == flags.show)
                 return print(link, address, flags);
-        throw Error("There is no link '" + flags.show + "'; 'theatron link --list' lists them.");
+        throw Error("There is no link '" + flags.show + "'; '" + command_of(flags, "--list") +
+                    "' lists them.");
     }
     std::optional<files::UtcSeconds> expires;
     if (flags.hours > 0)

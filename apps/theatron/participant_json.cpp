@@ -125,8 +125,17 @@ nlohmann::json participant_json(const client::Participant& participant) {
     const client::ParticipantFigures figures = client::figures_of(participant);
     const client::Participant::Status& status = figures.status;
     nlohmann::json cameras = nlohmann::json::array();
-    for (const client::CameraFigures& camera : figures.cameras)
+    const bool joined = status.phase == client::Participant::Phase::joined;
+    for (const client::CameraFigures& camera : figures.cameras) {
         cameras.push_back(camera_json(camera));
+        // Rates and ages are those of the last moment that was seen.
+        if (!joined)
+            cameras.back().update({{"state", "lost"},
+                                   {"fps", 0.0},
+                                   {"mbit_per_s", 0.0},
+                                   {"newest_age_ms", nullptr},
+                                   {"age_now_ms", nullptr}});
+    }
     nlohmann::json recordings = nlohmann::json::array();
     for (const auto& [name, lasts] : figures.recordings)
         recordings.push_back({{"name", name}, {"seconds", to_seconds(lasts)}});
@@ -137,8 +146,8 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"playback", playback_json(participant)},
             {"phase", client::text_of(status.phase)},
             {"cameras", cameras},
-            {"fps", figures.frames_per_second()},
-            {"mbit_per_s", figures.mbit_per_second()},
+            {"fps", joined ? figures.frames_per_second() : 0.0},
+            {"mbit_per_s", joined ? figures.mbit_per_second() : 0.0},
             {"age_ms", age_json(oldest_age(figures))},
             {"past", is_past(figures)},
             {"dropped", figures.dropped()},

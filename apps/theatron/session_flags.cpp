@@ -18,10 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view session_word = "--session";
+bool is_option(const std::string& word, const std::string& option) {
+    return word == option || word.starts_with(option + "=");
+}
 
 bool begins_session(const std::string& word) {
-    return word == session_word || word.starts_with(std::string(session_word) + "=");
+    return is_option(word, "--session") || is_option(word, "--name");
 }
 
 // "operator,expert", or "nobody".
@@ -177,7 +179,7 @@ SessionFlags parse_session(const std::vector<std::string>& words) {
     session.set_help_flag();
     session.allow_extras();
     // First, since options are read in this order and a problem names the session.
-    session.add_option("--session", flags.options.name)->required();
+    session.add_option("--session,--name", flags.options.name)->required();
     add_session_options(session, flags);
     try {
         session.parse(std::vector<std::string>(words.rbegin(), words.rend()));
@@ -201,6 +203,20 @@ PartedWords part_sessions(const std::vector<std::string>& words) {
         if (begins_session(word) && ++count > 1)
             parted.further.emplace_back();
         (parted.further.empty() ? parted.first : parted.further.back()).push_back(word);
+    }
+    if (parted.further.empty())
+        return parted;
+    // Somebody who writes a camera before each name would show it to the people of another room.
+    SessionFlags unused;
+    CLI::App session;
+    add_session_options(session, unused);
+    for (const std::string& word : words) {
+        if (begins_session(word))
+            break;
+        const std::string option = word.substr(0, word.find('='));
+        if (option.starts_with("--") && option != "--help" && session.get_option_no_throw(option))
+            throw Error("With several sessions the options of each stand behind its --session; " +
+                        option + " stands before the first one.");
     }
     return parted;
 }

@@ -32,11 +32,12 @@ std::vector<std::string> words_of(const SessionFlags& flags, const std::filesyst
 // Reads words of one session: "--session NAME" and its options. Throws Error with one sentence.
 SessionFlags parse_session(const std::vector<std::string>& words);
 
-// The words of 'theatron host', parted before each "--session" but the first.
+// The words of 'theatron host', parted before each "--session" (or "--name") but the first.
 struct PartedWords {
     std::vector<std::string> first;                 // of the host and its first session
     std::vector<std::vector<std::string>> further;  // of one session each
 };
+// Throws Error if several sessions have an option before the first of these words.
 PartedWords part_sessions(const std::vector<std::string>& words);
 
 }  // namespace theatron::app

@@ -39,6 +39,21 @@ TEST(PartedSessions, WordsBeforeTheSecondSessionAreOfTheHost) {
                                            ElementsAre("--session", "OR 5")));
 }
 
+TEST(PartedSessions, ANameBeginsASessionToo) {
+    const PartedWords two = part_sessions({"theatron", "host", "--name", "OR 3", "--name=OR 4"});
+    EXPECT_THAT(two.first, ElementsAre("theatron", "host", "--name", "OR 3"));
+    EXPECT_THAT(two.further, ElementsAre(ElementsAre("--name=OR 4")));
+    EXPECT_EQ(parse_session(two.further[0]).options.name, "OR 4");
+}
+
+TEST(PartedSessions, ACameraBeforeEachNameIsNotShownToAnotherRoom) {
+    for (const std::string camera : {"--camera", "--camera=a"})
+        EXPECT_THROW(part_sessions({"theatron", "host", camera, "a", "--session", "OR 3",
+                                    "--camera", "b", "--session", "OR 4"}),
+                     Error);
+    EXPECT_NO_THROW(part_sessions({"theatron", "host", "--camera", "a", "--session", "OR 3"}));
+}
+
 TEST(SessionWords, AreReadWithTheOptionsOfASession) {
     const SessionFlags flags =
         parse_session({"--session", "OR 4", "--camera", "synthetic", "--admit", "ask", "--camera",

@@ -130,8 +130,17 @@ void keep_session(const fs::path& state, const std::string& session,
     if (words.size() > max_session_words)
         throw Error("A session is created with at most " + std::to_string(max_session_words) +
                     " words of options.");
-    files::open_private_folder(folder);
-    files::write_private_file(folder / words_file, files::json_text({{"words", words}}) + "\n");
+    const bool is_new = !fs::exists(folder);
+    try {
+        files::open_private_folder(folder);
+        files::write_private_file(folder / words_file, files::json_text({{"words", words}}) + "\n");
+    } catch (const Error&) {
+        // A disk may be full; nothing of the session is to stay.
+        std::error_code ignored;
+        if (is_new)
+            fs::remove_all(folder, ignored);
+        throw;
+    }
 }
 
 void ask_for_end(const fs::path& state, const std::string& session) {
