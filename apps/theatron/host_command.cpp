@@ -97,19 +97,25 @@ void obey(host::Host& host, const std::string& line) {
 // "in NAME: LINE" is for the session of this name, other lines are for the first one.
 void obey(HostSessions& sessions, const std::string& line) {
     const std::string_view prefix = "in ";
-    const std::size_t colon = line.find(": ");
-    if (!line.starts_with(prefix) || colon == std::string::npos)
+    if (!line.starts_with(prefix) || line.find(": ") == std::string::npos)
         return obey(sessions.first(), line);
-    const std::string name = line.substr(prefix.size(), colon - prefix.size());
-    std::string names;
+    // A name may hold ": ", so the longest one that fits is meant.
+    std::string name, names;
+    host::Host* meant = nullptr;
     for (const auto& [open_name, host] : sessions.open()) {
-        if (open_name == name) {
-            const log::SessionScope scope(sessions.name_in_log(name));
-            return obey(*host, line.substr(colon + 2));
+        if (line.starts_with(std::string(prefix) + open_name + ": ") &&
+            (!meant || open_name.size() > name.size())) {
+            meant = host;
+            name = open_name;
         }
         names += (names.empty() ? "'" : ", '") + open_name + "'";
     }
-    throw Error("There is no session '" + name + "'; there are " + names + ".");
+    if (!meant)
+        throw Error("There is no session '" +
+                    line.substr(prefix.size(), line.find(": ") - prefix.size()) + "'; there are " +
+                    names + ".");
+    const log::SessionScope scope(sessions.name_in_log(name));
+    obey(*meant, line.substr(prefix.size() + name.size() + 2));
 }
 
 void obey(HostSessions& sessions, InputLines& input) {

@@ -60,8 +60,22 @@ HostSessions::HostSessions(const host::HostOptions& options, const SessionFlags&
     : state_(options.state.empty() ? host::default_state_folder() : options.state),
       first_name_(options.name) {
     check_names(first_name_, further);
+    // Its links and its room would become those of another session.
+    if (std::filesystem::exists(host::session_folder(state_, first_name_)))
+        throw Error("Session '" + first_name_ + "' is a further one in the state folder '" +
+                    state_.string() +
+                    "', so it cannot be the first: name the session first that was first, or use "
+                    "another folder with --state.");
+    std::vector<std::string> others;
+    for (const SessionFlags& flags : further)
+        others.push_back(flags.options.name);
+    for (const host::KeptSession& kept : host::kept_sessions(state_))
+        if (kept.words && !kept.ends)
+            others.push_back(kept.name);
+    host::HostOptions with_others = options;
+    with_others.closed_tokens = host::valid_tokens(state_, others);
     const capture::Progress progress = cli::show_progress();
-    first_ = std::make_unique<host::Host>(options, progress);
+    first_ = std::make_unique<host::Host>(with_others, progress);
     draw_regions(*first_, first.regions);
     for (const SessionFlags& flags : further) {
         auto session = std::make_unique<Further>();
@@ -125,7 +139,16 @@ void HostSessions::follow_folders() {
     for (const std::string& name : gone)
         end(name);
     open_next();
+    tell_closed();
     tell();
+}
+
+void HostSessions::tell_closed() {
+    std::vector<std::string> closed;
+    for (const auto& session : further_)
+        if (!session->opened.host)
+            closed.push_back(session->flags.options.name);
+    first_->set_closed_tokens(host::valid_tokens(state_, closed));
 }
 
 void HostSessions::take_kept(const host::KeptSession& kept) {

@@ -58,6 +58,7 @@ private:
     };
 
     void follow_folders();
+    void tell_closed();
     void take_kept(const host::KeptSession& kept);
     void open_next();
     void take_opened();

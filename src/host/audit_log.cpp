@@ -136,7 +136,7 @@ void AuditLog::run() {
                 lines += line + "\n";
         if (!left_out_.empty() && (!is_failing || stopping_))
             lines += left_out_line(std::exchange(left_out_, {})) + "\n";
-        const bool is_last = stopping_ && waiting_.empty();
+        const bool stops = stopping_, is_last = stops && waiting_.empty();
         lock.unlock();
         const bool was_failing = std::exchange(is_failing, !lines.empty() && !write(lines));
         if (is_failing && !was_failing)
@@ -144,7 +144,7 @@ void AuditLog::run() {
                        {{"file", path_.string()}, {"why", std::strerror(errno)}});
         if (!is_failing)
             lines.clear();
-        if (is_last || (stopping_ && is_failing))
+        if (is_last || (stops && is_failing))
             return;
     }
 }

@@ -246,6 +246,10 @@ std::string Host::link(wire::Role role) const {
     return net::format_link(link);
 }
 
+void Host::set_closed_tokens(std::vector<std::string> tokens) {
+    impl_->port->set_closed(std::move(tokens));
+}
+
 std::uint16_t Host::port() const {
     return impl_->port->number();
 }

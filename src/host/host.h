@@ -34,6 +34,9 @@ public:
     Host(const SessionOptions& options, const Host& first, const capture::Progress& progress);
     ~Host();
 
+    // The tokens of other sessions on this port that are not open now, instead of those before.
+    void set_closed_tokens(std::vector<std::string> tokens);
+
     // The link of a role, which stays valid, except that it changes with the certificate.
     std::string link(wire::Role role = wire::Role::expert) const;
     std::uint16_t port() const;

@@ -25,11 +25,12 @@ std::vector<std::pair<const char*, std::uint64_t>> drops(const HostFigures::Came
     return result;
 }
 
-// Frames of depth and colour alike: the older one counts. Nothing for who receives no pictures.
+// Frames of depth and colour alike: the older one counts. Nothing for a participant without
+// pictures, and for a recorder, which decodes none.
 std::optional<double> age_ms(const HostFigures::Participant& participant) {
     std::optional<Duration> age;
     for (const wire::StreamReport& stream : participant.streams)
-        if (stream.frames > 0)
+        if (stream.frames > 0 && stream.age > Duration(0))
             age = std::max(age.value_or(stream.age), stream.age);
     return age ? std::optional(to_ms(*age)) : std::nullopt;
 }
@@ -424,7 +425,7 @@ std::string to_table(const nlohmann::json& figures) {
             std::snprintf(line, sizeof(line), "newest picture %.0f ms old", age->get<double>());
             table += line;
         } else
-            table += "receives no pictures";
+            table += "shows no pictures";
         if (!renderer.empty())
             table += ", drawn with " + renderer.substr(0, 40);
         if (const std::string role = text(participant, "role"); !role.empty())

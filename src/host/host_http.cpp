@@ -57,6 +57,8 @@ nlohmann::json status_of_host(const net::Link& link) {
 }
 
 void require_known_token(const net::HttpsAnswer& answer) {
+    if (answer.status == 503)
+        throw Error("This session is not open at the moment; try again soon.");
     if (answer.status == 410)
         throw Error("This link has expired; ask for a new one.");
     if (answer.status == 401)

@@ -14,7 +14,10 @@ namespace theatron::host {
 
 HostPort::HostPort(PortOptions options)
     : options_(std::move(options)),
-      sessions_([this](TimePoint when) { server_->set_alarm(when); }) {}
+      sessions_([this](TimePoint when) { server_->set_alarm(when); },
+                [this](net::PeerId peer) { server_->close(peer, "its session is not open yet"); }) {
+    sessions_.set_closed(options_.closed_tokens);
+}
 
 HostPort::~HostPort() = default;
 
@@ -75,6 +78,8 @@ net::Server::Handler HostPort::handler() {
 
 // On the door's thread.
 net::HttpAnswer HostPort::answer(const net::HttpRequest& request) const {
+    if (sessions_.is_closed(net::shown_token(request)))
+        return {.status = 503, .body = "This session is not open at the moment.\n"};
     return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
         return answer_page(request, *page_, sessions);
     });

@@ -28,7 +28,7 @@ nlohmann::json lobby_session(const HostFigures& figures, bool must_ask,
                            {"asks", must_ask},
                            {"ended", figures.has_ended},
                            {"people_count", figures.participants.size()}};
-    if (must_ask)
+    if (must_ask || figures.has_ended)
         return session;
     nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();
     for (const auto& person : figures.participants)
@@ -82,7 +82,8 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
         const bool is_own = number == own->first;
         const bool is_meant =
             asked.empty() ? is_own : asked == std::to_string(std::uint32_t(number));
-        if (is_meant && (is_own ? !must_ask : sees_all))
+        // The operating room goes on without the people of an ended session.
+        if (is_meant && (is_own ? !must_ask : sees_all) && !session.figures().has_ended)
             picture = session.picture();
     }
     if (picture.empty())

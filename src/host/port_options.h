@@ -25,6 +25,8 @@ struct PortOptions {
     std::vector<std::string> proxies;         // trusted ones (net::Proxies)
     std::filesystem::path proxy_certificate;  // that they show, for links; needed with `proxies`
     std::filesystem::path page;               // the browser client (host/page.h); empty: none
+    // The tokens of further sessions that will be open: until then their people are turned back.
+    std::vector<std::string> closed_tokens;
 };
 
 }  // namespace theatron::host

@@ -11,6 +11,7 @@
 #include "files/json_text.h"
 #include "files/private_file.h"
 #include "host/host_identity.h"
+#include "host/link_book.h"
 
 namespace theatron::host {
 namespace {
@@ -156,6 +157,23 @@ void forget_session(const fs::path& state, const std::string& session) {
     if (problem)
         throw Error("Cannot remove '" + folder.string() + "': " + problem.message() +
                     "; remove it by hand.");
+}
+
+std::vector<std::string> valid_tokens(const fs::path& state,
+                                      const std::vector<std::string>& sessions) {
+    std::vector<std::string> tokens;
+    for (const std::string& session : sessions) {
+        const fs::path folder = session_folder(state, session);
+        if (!fs::exists(folder))
+            continue;
+        try {
+            for (const KnownLink& link : load_links(folder).links)
+                if (!link.has_expired(files::utc_now()))
+                    tokens.push_back(link.token);
+        } catch (const Error&) {
+        }
+    }
+    return tokens;
 }
 
 void tell_sessions(const fs::path& state, const std::vector<ToldSession>& sessions) {

@@ -4,9 +4,20 @@
 #include <algorithm>
 
 #include "base/fault.h"
+#include "net/certificate.h"
 #include "wire/control.h"
 
 namespace theatron::host {
+namespace {
+
+// Empty for another message than Join.
+std::string token_of(ByteView first) {
+    const auto message = wire::decode_to_host(first);
+    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
+    return join ? join->token : std::string();
+}
+
+}  // namespace
 
 SessionNumber SessionSwitch::add(PortSession session) {
     const std::lock_guard lock(mutex_);
@@ -39,19 +50,31 @@ const PortSession* SessionSwitch::find(net::PeerId peer) const {
 }
 
 // Asks every session, so that the time tells nothing about tokens.
-std::optional<SessionNumber> SessionSwitch::session_of(ByteView first) const {
+std::optional<SessionNumber> SessionSwitch::session_of(const std::string& secret) const {
     std::optional<SessionNumber> found;
-    const auto message = wire::decode_to_host(first);
-    if (const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr)
-        for (const auto& [number, session] : sessions_)
-            if (session.find_token(join->token) && !found)
-                found = number;
+    for (const auto& [number, session] : sessions_)
+        if (session.find_token(secret) && !found)
+            found = number;
+    return found;
+}
+
+void SessionSwitch::set_closed(std::vector<std::string> tokens) {
+    const std::lock_guard lock(closed_mutex_);
+    closed_ = std::move(tokens);
+}
+
+bool SessionSwitch::is_closed(const std::string& secret) const {
+    const std::lock_guard lock(closed_mutex_);
+    bool found = false;
+    for (const std::string& token : closed_)
+        found = net::equal_secrets(secret, token) || found;
     return found;
 }
 
 bool SessionSwitch::is_invited(ByteView first) const {
+    const std::string secret = token_of(first);
     const std::lock_guard lock(mutex_);
-    return session_of(first).has_value();
+    return session_of(secret).has_value() || is_closed(secret);
 }
 
 void SessionSwitch::connected(net::PeerId peer, const std::string& address, bool invited) {
@@ -62,7 +85,11 @@ void SessionSwitch::control(net::PeerId peer, ByteView message) {
     if (const auto entering = entering_.extract(peer)) {
         if (sessions_.empty())
             return;
-        const SessionNumber number = session_of(message).value_or(sessions_.front().first);
+        const std::string secret = token_of(message);
+        const auto own = session_of(secret);
+        if (!own && is_closed(secret))
+            return turn_back_(peer);
+        const SessionNumber number = own.value_or(sessions_.front().first);
         peers_[peer] = number;
         find(number)->events.connected(peer, entering.mapped().address, entering.mapped().invited);
     }

@@ -23,8 +23,10 @@ enum class SessionNumber : std::uint32_t {};
 class SessionSwitch {
 public:
     // `set_alarm`: asks for a call of alarm() at this time instead of the time before.
-    explicit SessionSwitch(std::function<void(TimePoint)> set_alarm)
-        : set_server_alarm_(std::move(set_alarm)) {}
+    // `turn_back`: closes a connection without a word, so that its program tries again.
+    SessionSwitch(std::function<void(TimePoint)> set_alarm,
+                  std::function<void(net::PeerId)> turn_back)
+        : set_server_alarm_(std::move(set_alarm)), turn_back_(std::move(turn_back)) {}
 
     SessionNumber add(PortSession session);
     // Returns its connections. Their events, and calls of the session, go nowhere from now on.
@@ -47,7 +49,13 @@ public:
     void set_alarm(SessionNumber number, TimePoint when);
     void alarm(TimePoint now);
 
-    // From any thread: true if a connection's first message shows a token of any session.
+    // From any thread: the tokens of sessions that are not open now, but will be. Those who show
+    // one are turned back.
+    void set_closed(std::vector<std::string> tokens);
+    bool is_closed(const std::string& secret) const;
+
+    // From any thread: true if a connection's first message shows a token of any session, open or
+    // not.
     bool is_invited(ByteView first) const;
     // From any thread: calls `look` with all sessions, the oldest first, which stay until it
     // returns.
@@ -65,13 +73,16 @@ private:
     };
     const PortSession* find(net::PeerId peer) const;
     const PortSession* find(SessionNumber number) const;
-    std::optional<SessionNumber> session_of(ByteView first) const;
+    std::optional<SessionNumber> session_of(const std::string& secret) const;
     void arm();
 
     const std::function<void(TimePoint)> set_server_alarm_;
+    const std::function<void(net::PeerId)> turn_back_;
     // Changed on the server's thread; other threads read it, with the mutex.
     mutable std::mutex mutex_;
     Sessions sessions_;
+    mutable std::mutex closed_mutex_;
+    std::vector<std::string> closed_;  // guarded by closed_mutex_
     std::uint32_t next_ = 1;
     std::map<net::PeerId, Entering> entering_;  // whose first message is still to come
     std::map<net::PeerId, SessionNumber> peers_;

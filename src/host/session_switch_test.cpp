@@ -65,7 +65,9 @@ protected:
     std::vector<std::string> calls;
     std::vector<TimePoint> alarms;
     std::string throws;  // the session whose calls throw
-    SessionSwitch sessions{[this](TimePoint when) { alarms.push_back(when); }};
+    std::vector<net::PeerId> turned_back;
+    SessionSwitch sessions{[this](TimePoint when) { alarms.push_back(when); },
+                           [this](net::PeerId peer) { turned_back.push_back(peer); }};
     const SessionNumber first = sessions.add(session("first", "token-1")),
                         second = sessions.add(session("second", "token-2"));
 };
@@ -104,6 +106,19 @@ TEST_F(SwitchOfTwo, LeadsOthersToTheOldestSessionWhichRefusesThem) {
     EXPECT_FALSE(sessions.is_invited({}));
     enter(PeerId{7}, "token-3");
     EXPECT_THAT(take(), ElementsAre("first connected 7", "first control 7"));
+}
+
+// A camera may take long to open after the host has begun.
+TEST_F(SwitchOfTwo, TurnsBackThoseWhoseSessionIsNotOpenYet) {
+    sessions.set_closed({"token-3", "token-2"});
+    EXPECT_TRUE(sessions.is_invited(join_with("token-3")));
+    enter(PeerId{7}, "token-3");
+    EXPECT_THAT(take(), IsEmpty());
+    EXPECT_THAT(turned_back, ElementsAre(PeerId{7}));
+    enter(PeerId{8}, "token-2");
+    EXPECT_THAT(take(), ElementsAre("second connected 8", "second control 8")) << "it is open";
+    sessions.set_closed({});
+    EXPECT_FALSE(sessions.is_invited(join_with("token-3")));
 }
 
 TEST_F(SwitchOfTwo, CallsNothingOfASessionThatHasLeft) {

@@ -201,6 +201,25 @@ class Sessions(unittest.TestCase):
         self.assertEqual(self.command("session", "list"), [])
         self.assertFalse((self.state / "sessions" / "OR%204").exists())
 
+    def test_people_wait_for_a_session_whose_camera_is_not_there_when_the_host_begins(self):
+        with self.start("--session", "OR 3") as h:
+            address = h.greeting["link"].split("/")[2]
+            made = self.command("session", "create", "OR 4", "--camera", self.lamp)
+            link = made["links"]["expert"]
+            ada = self.member(link, "Ada")
+            self.addCleanup(ada.__exit__, None, None, None)
+            ada.wait_for(lambda f: f["phase"] == "joined", 20)
+            h.process.kill()
+        lamp, away = self.folder / "lamp", self.folder / "away"
+        lamp.rename(away)
+        # Another session of the folder cannot take its links and its room.
+        self.assertIn("cannot be the first", self.refusal("host", "--state", self.state, "--listen", "127.0.0.1:0", "--session", "OR 4"))
+        with host(self.state, listen=address, options=("--session", "OR 3")):
+            wait_until(lambda: "not open at the moment" in self.refusal("lobby", link), 10)
+            ada.wait_for(lambda f: f["phase"] == "lost" and f["cameras"][0]["state"] == "lost", 10)
+            away.rename(lamp)
+            ada.wait_for(lambda f: f["phase"] == "joined" and cameras(f) == ["lamp"], 30)
+
 
 if __name__ == "__main__":
     unittest.main()
