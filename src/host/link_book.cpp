@@ -103,6 +103,11 @@ KnownLinks load_links(const fs::path& folder) {
     return {std::move(links), std::move(made.problems)};
 }
 
+bool has_links(const fs::path& folder) {
+    return std::all_of(std::begin(wire::roles), std::end(wire::roles),
+                       [&](wire::Role role) { return fs::exists(folder / token_file(role)); });
+}
+
 KnownLink make_link(const fs::path& folder, wire::Role role,
                     std::optional<files::UtcSeconds> expires, const std::string& label) {
     files::open_private_folder(made_links(folder));

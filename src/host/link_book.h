@@ -37,6 +37,9 @@ struct KnownLinks {
 // All links. The one of each role is made where there is none yet.
 KnownLinks load_links(const std::filesystem::path& folder);
 
+// True if there is a link of each role, so that load_links() only reads.
+bool has_links(const std::filesystem::path& folder);
+
 // Makes a link. Deletes expired ones first where there are too many.
 KnownLink make_link(const std::filesystem::path& folder, wire::Role role,
                     std::optional<files::UtcSeconds> expires, const std::string& label);

@@ -164,7 +164,8 @@ std::vector<std::string> valid_tokens(const fs::path& state,
     std::vector<std::string> tokens;
     for (const std::string& session : sessions) {
         const fs::path folder = session_folder(state, session);
-        if (!fs::exists(folder))
+        // Their files may be made at this moment, when the session is opened.
+        if (!has_links(folder))
             continue;
         try {
             for (const KnownLink& link : load_links(folder).links)
