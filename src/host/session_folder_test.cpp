@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "host/host_identity.h"
+#include "host/link_book.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::host {
@@ -45,6 +46,18 @@ TEST_F(SessionFolder, ANameIsTextOnOneLine) {
           std::string(" a"), std::string("a "), std::string("\xff")})
         EXPECT_THROW(check_session_name(name), Error) << name;
     EXPECT_THROW((void)session_folder(state, ""), Error);
+}
+
+// Another thread may just be making them.
+TEST_F(SessionFolder, LinksAreReadButNotMade) {
+    keep_session(state, "OR 4", {});
+    EXPECT_THAT(valid_tokens(state, {"OR 4", "OR 5"}), IsEmpty());
+    EXPECT_FALSE(has_links(session_folder(state, "OR 4")));
+    const KnownLinks made = load_links(session_folder(state, "OR 4"));
+    EXPECT_TRUE(has_links(session_folder(state, "OR 4")));
+    const auto tokens = valid_tokens(state, {"OR 4", "OR 5"});
+    ASSERT_THAT(tokens, SizeIs(made.links.size()));
+    EXPECT_EQ(tokens.front(), made.links.front().token);
 }
 
 TEST_F(SessionFolder, AKeptSessionHasItsWordsUntilItIsForgotten) {
