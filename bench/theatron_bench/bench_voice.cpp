@@ -150,7 +150,7 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
                                          "--voice-frame",
                                          std::to_string(bench.frame_ms)};
     if (!bench.own_camera.empty())
-        speaking.insert(speaking.end(), {"--camera", bench.own_camera});
+        speaking.insert(speaking.end(), {"--publish", bench.own_camera});
     ChildProcess speaker(speaking);
     std::unique_ptr<Participant> opener;  // opens the case, so that everybody fetches it
     if (!bench.cases.empty()) {
@@ -166,7 +166,7 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     const TimePoint begin = steady_now();
     const auto length = seconds_to_duration(bench.seconds + settling_seconds);
     nlohmann::json said, heard;
-    std::thread other([&] { said = follow(speaker, begin + length); });
+    std::jthread other([&] { said = follow(speaker, begin + length); });
     heard = follow(listener, begin + length);
     other.join();
     listener.interrupt();
