@@ -310,10 +310,20 @@ class RawPeer(WebSocket):
         self.send(bytes([ACKNOWLEDGEMENT]) + struct.pack("<QI", taken, 0))
 
 
+def _connect_patiently(link, **options):
+    """The same where connections come faster than a host takes them from one address."""
+    for pause in (0.2, 0.5, 1):
+        try:
+            return connect_tls(link, **options)
+        except (ssl.SSLEOFError, ConnectionResetError):
+            time.sleep(pause)
+    return connect_tls(link, **options)
+
+
 def https_request(link, method, target, *, headers=(), name=None, body=b"", **options):
     """One plain request: the status, the headers with names in lower case, the body."""
     link = Link.parse(link) if isinstance(link, str) else link
-    with connect_tls(link, **options) as stream:
+    with _connect_patiently(link, **options) as stream:
         lines = [f"{method} {target} HTTP/1.1", f"Host: {name or link.host}", "Connection: close", *headers]
         stream.sendall("".join(line + "\r\n" for line in lines).encode() + b"\r\n" + body)
         answer, body = _read_head(stream)
