@@ -24,14 +24,6 @@ struct Flags {
     bool list = false, qr = false, json = false;
 };
 
-std::string text_of(const host::KnownLink& link, const net::Link& address) {
-    net::Link text = address;
-    text.token = link.token;
-    text.role = wire::text_of(link.role);
-    text.until = link.expires ? files::utc_text(*link.expires) : "";
-    return net::format_link(text);
-}
-
 // 'theatron link' with these options, for the same folder and session.
 std::string command_of(const Flags& flags, const std::string& options) {
     return "theatron link " + options +
@@ -48,7 +40,7 @@ nlohmann::json facts_of(const host::KnownLink& link) {
 }
 
 void print(const host::KnownLink& link, const net::Link& address, const Flags& flags) {
-    const std::string text = text_of(link, address);
+    const std::string text = host::link_text(link, address);
     if (flags.json) {
         nlohmann::json json = facts_of(link);
         json["link"] = text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron session
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -68,13 +69,10 @@ void print_created(const Flags& flags, const fs::path& state, bool is_open) {
         return;
     }
     nlohmann::json links;
-    net::Link address = host::read_address(state);
+    const net::Link address = host::read_address(state);
     for (const host::KnownLink& known : host::load_links(folder).links)
-        if (wire::parse_role(known.name)) {
-            address.token = known.token;
-            address.role = wire::text_of(known.role);
-            links[known.name] = net::format_link(address);
-        }
+        if (wire::parse_role(known.name))
+            links[known.name] = host::link_text(known, address);
     if (flags.json) {
         std::cout << files::json_text({{"name", flags.name}, {"state", "open"}, {"links", links}})
                   << "\n";
@@ -132,21 +130,16 @@ void end(const Flags& flags) {
 }
 
 void list(const Flags& flags) {
-    constexpr const char* texts[] = {"opening", "open", "failed"};
     const fs::path state = state_of(flags);
     std::vector<ToldSession> running = host::told_sessions(state);
     nlohmann::json all = nlohmann::json::array();
     for (const ToldSession& session : running)
         all.push_back({{"name", session.name},
-                       {"state", texts[std::size_t(session.state)]},
+                       {"state", text_of(session.state)},
                        {"problem", session.problem}});
-    for (const host::KeptSession& kept : host::kept_sessions(state)) {
-        bool is_told = false;
-        for (const ToldSession& session : running)
-            is_told = is_told || session.name == kept.name;
-        if (!is_told)
+    for (const host::KeptSession& kept : host::kept_sessions(state))
+        if (std::ranges::find(running, kept.name, &ToldSession::name) == running.end())
             all.push_back({{"name", kept.name}, {"state", "closed"}, {"problem", kept.problem}});
-    }
     if (flags.json) {
         std::cout << files::json_text(all) << "\n";
         return;

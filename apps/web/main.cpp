@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/hex_text.h"
 #include "base/steady_clock.h"
 #include "client/decoder_pool_web.h"
 #include "client/decoder_worker_web.h"
@@ -149,14 +150,6 @@ void open_context() {
     page().context = context;
 }
 
-// The digits are not checked: the page made them itself.
-Bytes bytes_of_hex(const std::string& digits) {
-    Bytes bytes;
-    for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
-        bytes.push_back(std::byte(std::strtoul(digits.substr(i, 2).c_str(), nullptr, 16)));
-    return bytes;
-}
-
 // Gives a packet of another's voice to the page. The program is one module of JavaScript.
 EM_JS(void, give_voice, (unsigned speaker, const void* packet, int size),
       { Module.on_voice(speaker, HEAPU8.slice(packet, packet + size)); });
@@ -168,7 +161,8 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.name = name;
     options.color_codec = color.codec();
     options.keeps_room = options.keeps_cases = options.shows_patient = true;
-    options.person = bytes_of_hex(person);
+    // The page made the digits itself.
+    options.person = bytes_of_hex(person).value_or(Bytes());
     options.voice = [](ParticipantId speaker, ByteView packet) {
         give_voice(unsigned(speaker), packet.data(), int(packet.size()));
     };

@@ -78,7 +78,7 @@ bool PageColor::observe(const client::ParticipantFigures& figures, TimePoint now
     failures_before_ = std::min(failures_before_.value_or(measure.failures), measure.failures);
     if (measure.failures - *failures_before_ < client::ColorPreference::too_many_failures)
         return false;
-    choose("jpeg:quality=85");
+    choose(video::ColorSetting().text);
     reason_ = "JPEG: the browser's decoder failed with H.264";
     return true;
 }

@@ -9,8 +9,6 @@
 namespace theatron::client {
 namespace {
 
-constexpr const char* jpeg = "jpeg:quality=85";
-
 std::string whole(double value) {
     return std::to_string(std::lround(value));
 }
@@ -19,7 +17,7 @@ std::string whole(double value) {
 
 ColorPreference::ColorPreference(bool can_h264)
     : can_h264_(can_h264),
-      codec_(jpeg),
+      codec_(video::ColorSetting().text),
       reason_(can_h264 ? "JPEG: all pictures come in time"
                        : "JPEG: this browser does not decode H.264") {}
 
@@ -83,7 +81,7 @@ void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
 
 void ColorPreference::end(const std::string& why, TimePoint now) {
     asks_h264_ = false;
-    codec_ = jpeg;
+    codec_ = video::ColorSetting().text;
     not_before_ = now + pause_;
     last_whole_ = now;
     reason_ = "JPEG: " + why + "; H.264 is tried again after " + whole(to_seconds(pause_)) + " s";

@@ -22,8 +22,8 @@ namespace {
 
 // A publisher that obeys flow control never reaches this.
 constexpr std::size_t max_bytes_waiting = std::size_t(64) << 20;
-// So many frames are acknowledged before they are decoded: on their way between threads, they are
-// no reason for the publisher to wait.
+// A frame is acknowledged on arrival while fewer frames than this wait to be decoded: those are on
+// their way between threads, and the publisher need not wait for them.
 constexpr std::size_t frames_on_the_way = 4;
 
 }  // namespace

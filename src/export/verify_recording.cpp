@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/frame_order.h"
 #include "capture/recording_camera.h"
 #include "video/color_codec.h"
 #include "video/jpeg_native.h"
@@ -127,7 +128,7 @@ void decode_color(const record::RecordingFile& recording, const record::CameraCo
 
 std::uint64_t frames_between(const record::RecordedFrame& before,
                              const record::RecordedFrame& frame) {
-    const auto step = std::int32_t(frame.number - before.number);
+    const auto step = frames_after(frame.number, before.number);
     return frame.segment == before.segment && step > 1 ? std::uint64_t(step - 1) : 0;
 }
 

@@ -206,7 +206,7 @@ nlohmann::json to_json(const std::vector<HostFigures>& all) {
     nlohmann::json json = to_json(all.front());
     for (std::size_t i = 1; i < all.size(); ++i) {
         nlohmann::json session = to_json(all[i]);
-        for (const char* of_host : {"turned_away", "faults", "certificates"})
+        for (const char* of_host : {"turned_away", "faults", "page_problem", "certificates"})
             session.erase(of_host);
         json["sessions"].push_back(std::move(session));
     }

@@ -103,6 +103,13 @@ KnownLinks load_links(const fs::path& folder) {
     return {std::move(links), std::move(made.problems)};
 }
 
+std::string link_text(const KnownLink& link, net::Link address) {
+    address.token = link.token;
+    address.role = wire::text_of(link.role);
+    address.until = link.expires ? files::utc_text(*link.expires) : "";
+    return net::format_link(address);
+}
+
 bool has_links(const fs::path& folder) {
     return std::all_of(std::begin(wire::roles), std::end(wire::roles),
                        [&](wire::Role role) { return fs::exists(folder / token_file(role)); });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "files/utc_text.h"
+#include "net/link.h"
 #include "wire/role.h"
 
 namespace theatron::host {
@@ -39,6 +40,9 @@ KnownLinks load_links(const std::filesystem::path& folder);
 
 // True if there is a link of each role, so that load_links() only reads.
 bool has_links(const std::filesystem::path& folder);
+
+// The link as people get it. `address`: of the host, without a token.
+std::string link_text(const KnownLink& link, net::Link address);
 
 // Makes a link. Deletes expired ones first where there are too many.
 KnownLink make_link(const std::filesystem::path& folder, wire::Role role,

@@ -177,11 +177,15 @@ std::vector<std::string> valid_tokens(const fs::path& state,
     return tokens;
 }
 
+const char* text_of(ToldSession::State state) {
+    return state_texts[std::size_t(state)];
+}
+
 void tell_sessions(const fs::path& state, const std::vector<ToldSession>& sessions) {
     nlohmann::json list = nlohmann::json::array();
     for (const ToldSession& session : sessions)
         list.push_back({{"name", session.name},
-                        {"state", state_texts[std::size_t(session.state)]},
+                        {"state", text_of(session.state)},
                         {"problem", session.problem}});
     files::write_private_file(state / told_file, files::json_text({{"sessions", list}}) + "\n");
 }

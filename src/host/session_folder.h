@@ -67,6 +67,7 @@ struct ToldSession {
     std::string problem;  // a sentence; of one that failed
     bool operator==(const ToldSession&) const = default;
 };
+const char* text_of(ToldSession::State state);  // "opening", "open", "failed"
 void tell_sessions(const std::filesystem::path& state, const std::vector<ToldSession>& sessions);
 // Empty if none were told, or no host runs with this state folder.
 std::vector<ToldSession> told_sessions(const std::filesystem::path& state);

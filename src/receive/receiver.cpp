@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/frame_order.h"
 #include "codec/strata.h"
 #include "geometry/calibration.h"
 #include "video/depth_codecs.h"
@@ -13,11 +14,6 @@ namespace {
 
 // A request for a key frame is repeated after this time without one.
 constexpr Duration key_patience = std::chrono::milliseconds(700);
-
-// Frame numbers wrap; a difference of half the range or more means "older".
-std::int32_t frames_after(FrameNumber a, FrameNumber b) {
-    return std::int32_t(a - b);
-}
 
 // The place of a camera does not concern its decoders.
 bool has_equal_pictures(const Bytes& a, const Bytes& b) {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/frame_order.h"
 #include "base/outside_text.h"
 #include "record/recording_layout.h"
 #include "record/segment_files.h"
@@ -303,7 +304,7 @@ void RecordingFile::leave_out_repeated(std::size_t segment, std::size_t first_ro
     const auto leave_out = [&](StreamContent& stream, std::size_t begin, bool is_pictures) {
         auto& frames = stream.frames;
         const auto is_behind = [](const RecordedFrame& a, const RecordedFrame& b) {
-            return std::int32_t(b.number - a.number) <= 0;
+            return frames_after(b.number, a.number) <= 0;
         };
         const auto first = frames.begin() + std::ptrdiff_t(begin);
         if (std::adjacent_find(first, frames.end(), is_behind) == frames.end())

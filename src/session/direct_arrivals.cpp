@@ -3,15 +3,9 @@
 
 #include <algorithm>
 
+#include "base/frame_order.h"
+
 namespace theatron::session {
-namespace {
-
-// Frame numbers wrap.
-bool is_newer(FrameNumber frame, FrameNumber than) {
-    return std::int32_t(frame - than) > 0;
-}
-
-}  // namespace
 
 bool DirectArrivals::take(const wire::MediaHeader& header, Way way, TimePoint now) {
     const auto known = streams_.find(header.stream);
@@ -23,7 +17,7 @@ bool DirectArrivals::take(const wire::MediaHeader& header, Way way, TimePoint no
         stream.came_directly = now;
     }
     const bool is_first = stream.setting != header.setting || now - stream.taken > memory;
-    if (!is_first && !is_newer(header.frame, stream.newest))
+    if (!is_first && frames_after(header.frame, stream.newest) <= 0)
         return false;
     stream.setting = header.setting;
     stream.newest = header.frame;
