@@ -55,8 +55,8 @@ void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
                    Pose{Quat{0, 1, 0, 0}, {}});
         stands_ = true;
     }
-    if (const auto word = participant.take_renderer_word())
-        if (const std::string problem = viewer::follow_host(renderer_, *word); !problem.empty())
+    if (const auto command = participant.take_renderer_command())
+        if (const std::string problem = viewer::follow_host(renderer_, *command); !problem.empty())
             std::fprintf(stderr, "%s\n", problem.c_str());
     participant.tell_renderer(drawn_with());
 }

@@ -262,7 +262,7 @@ ViewBenchPlace make_place(const OperatingRoom& room, const synthetic::RoomMoment
 
 ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
                                      const capture::Progress& progress) {
-    if (options.cameras < 1 || options.cameras > synthetic::max_cameras)
+    if (options.cameras < 1 || options.cameras > synthetic::max_viewpoints)
         throw Error("The view benchmark has 1 to 12 cameras.");
     synthetic::SceneOptions scene_options;
     scene_options.detail = options.detail;

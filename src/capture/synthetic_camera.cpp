@@ -61,7 +61,7 @@ synthetic::LoopOptions take_loop_options(Options& options) {
     if (!variant.empty() && variant != "room" && variant != "surgeon")
         throw Error("There is no synthetic scene '" + variant + "'; there are room and surgeon.");
     loop.variant = variant == "surgeon" ? synthetic::Variant::surgeon : synthetic::Variant::room;
-    loop.cameras = options.take_int("cameras", 2, 1, synthetic::max_cameras);
+    loop.cameras = options.take_int("cameras", 2, 1, synthetic::max_viewpoints);
     loop.camera = options.take_int("camera", 0, 0, loop.cameras - 1);
     loop.scene.seed = std::uint32_t(options.take_int("seed", 1, 0, 1'000'000));
     loop.scene.loop = seconds_to_duration(options.take_number("seconds", 20, 2, 120));

@@ -308,13 +308,13 @@ void Participant::on_control(ByteView message) {
             break;
         }
         case Change::renderer: {
-            wire::SetRenderer command = session_.renderer_word();
+            wire::SetRenderer command = session_.renderer_command();
             {
                 const std::lock_guard lock(shared_->mutex);
                 // A command that frees the choice keeps the renderer of the command before it.
-                if (command.renderer.empty() && shared_->renderer_word)
-                    command.renderer = shared_->renderer_word->renderer;
-                shared_->renderer_word = std::move(command);
+                if (command.renderer.empty() && shared_->renderer_command)
+                    command.renderer = shared_->renderer_command->renderer;
+                shared_->renderer_command = std::move(command);
             }
             announce();
             break;

@@ -178,7 +178,7 @@ public:
 
     // The host's newest renderer command since the last call, if any. Each join also gives one,
     // with an empty renderer: commands of an earlier connection no longer apply.
-    std::optional<wire::SetRenderer> take_renderer_word();
+    std::optional<wire::SetRenderer> take_renderer_command();
     // Reports this participant's renderer to the host.
     void tell_renderer(const std::string& renderer);
 

@@ -81,9 +81,9 @@ void Participant::choose_delivery(const wire::ChooseDelivery& goal) {
     shared_->status.goal = goal;
 }
 
-std::optional<wire::SetRenderer> Participant::take_renderer_word() {
+std::optional<wire::SetRenderer> Participant::take_renderer_command() {
     const std::lock_guard lock(shared_->mutex);
-    return std::exchange(shared_->renderer_word, std::nullopt);
+    return std::exchange(shared_->renderer_command, std::nullopt);
 }
 
 void Participant::tell_renderer(const std::string& renderer) {

@@ -48,7 +48,7 @@ void Participant::on_welcome() {
     shared_->status.has_room = session_.has(wire::Feature::room);
     shared_->playback.reset();
     shared_->patient = {};
-    shared_->renderer_word = wire::SetRenderer{};
+    shared_->renderer_command = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;
     const bool again = is_new && shared_->status.joins > 1;

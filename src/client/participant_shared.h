@@ -45,7 +45,7 @@ struct Participant::Shared {
     bool stopping = false;
     std::string depth_wish, color_wish;  // codecs to ask for
     std::optional<wire::ChooseDelivery> delivery_wish;
-    std::optional<wire::SetRenderer> renderer_word;  // not yet taken
+    std::optional<wire::SetRenderer> renderer_command;  // not yet taken
     std::string renderer;
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent

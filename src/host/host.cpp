@@ -196,7 +196,7 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         send::CameraLane::Events events;
         events.media = [this](send::EncodedMedia encoded) { take_media(std::move(encoded)); };
-        events.state = [this](wire::CameraState state) { take_state(std::move(state)); };
+        events.state = [this](wire::CameraState state) { take_camera_state(std::move(state)); };
         events.keeps_up = [this, camera = CameraId(i)](SettingId setting, bool keeps_up,
                                                        Duration cpu) {
             server->post([this, camera, setting, keeps_up, cpu] {

@@ -257,7 +257,7 @@ void Host::Impl::take_media(send::EncodedMedia encoded) {
         server->post([this] { distribute_media(); });
 }
 
-void Host::Impl::take_state(wire::CameraState state) {
+void Host::Impl::take_camera_state(wire::CameraState state) {
     bool first;
     {
         const std::lock_guard lock(states_mutex);

@@ -191,7 +191,7 @@ struct Host::Impl {
 
     // From any thread.
     void take_media(send::EncodedMedia encoded);
-    void take_state(wire::CameraState state);
+    void take_camera_state(wire::CameraState state);
     void take_place(CameraId camera, const wire::Text& problem);
     bool pass_on(wire::CameraState state);
     std::vector<std::string> http_tokens() const;

@@ -135,8 +135,9 @@ void CloudSet::set_camera(CameraId id, const Calibration& calibration) {
     Parts& p = *parts_;
     const auto known = p.cameras.find(id);
     if (known == p.cameras.end()) {
-        if (p.cameras.size() == std::size_t(max_cameras))
-            throw Error("A set of clouds has at most " + std::to_string(max_cameras) + " cameras.");
+        if (p.cameras.size() == std::size_t(max_set_cameras))
+            throw Error("A set of clouds has at most " + std::to_string(max_set_cameras) +
+                        " cameras.");
         p.cameras.emplace(id, Parts::Camera{calibration, p.make_camera(calibration)});
         return;
     }

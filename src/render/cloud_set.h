@@ -30,7 +30,7 @@
 namespace theatron::render {
 
 // Largest number of cameras in a set.
-inline constexpr int max_cameras = 16;
+inline constexpr int max_set_cameras = 16;
 
 // A picture read back. `depth_mm` is the distance along the view's axis in
 // millimetres, 0 where no cloud was drawn and beyond 65 m.
@@ -77,7 +77,7 @@ public:
 
     // Adds a camera or changes its calibration. A change of its place alone is cheap and keeps its
     // images. A new depth lens takes some tens of milliseconds and drops the camera's images. No
-    // other camera's picture changes. Throws Error beyond max_cameras.
+    // other camera's picture changes. Throws Error beyond max_set_cameras.
     void set_camera(CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
     // Sets a camera's opacity, from 0 to 1, so that new ones fade in and stale ones fade out. In

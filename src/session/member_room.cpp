@@ -33,7 +33,7 @@ void MemberRoom::on_message(const wire::ToParticipant& message) {
     else if (const auto* decision = std::get_if<wire::RoomDecision>(&message))
         on(*decision);
     for (const ObjectPose& pose : replica_.take_poses_again())
-        send_pose(pose);
+        send_object_pose(pose);
 }
 
 void MemberRoom::on(const wire::RoomSnapshot& part) {
@@ -102,12 +102,12 @@ bool MemberRoom::move(ObjectId object, const Pose& room_from_object, double scal
     const auto pose = replica_.move(object, room_from_object, scale, now);
     if (!pose)
         return false;
-    send_pose(*pose);
+    send_object_pose(*pose);
     ++version_;
     return true;
 }
 
-void MemberRoom::send_pose(const ObjectPose& pose) {
+void MemberRoom::send_object_pose(const ObjectPose& pose) {
     poses_[pose.object] = encode_object_pose(pose);
 }
 

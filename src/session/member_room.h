@@ -48,7 +48,7 @@ private:
     void on(const wire::RoomSnapshot& part);
     void on(const wire::RoomChange& change);
     void on(const wire::RoomDecision& decision);
-    void send_pose(const ObjectPose& pose);
+    void send_object_pose(const ObjectPose& pose);
 
     ParticipantId self_{};
     bool known_ = false;

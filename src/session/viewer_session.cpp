@@ -30,7 +30,7 @@ Bytes ViewerSession::begin() {
     settings_.clear();
     camera_states_.clear();
     delivery_ = {};
-    renderer_word_ = {};
+    renderer_command_ = {};
     goodbye_ = {};
     standing_ = {};
     playback_.reset();
@@ -122,7 +122,7 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
         return Change::delivery;
     }
     if (auto* command = std::get_if<wire::SetRenderer>(&*message)) {
-        renderer_word_ = std::move(*command);
+        renderer_command_ = std::move(*command);
         return Change::renderer;
     }
     if (auto* goodbye = std::get_if<wire::Goodbye>(&*message)) {

@@ -42,7 +42,7 @@ public:
         camera,      // camera_states()
         pong,        // pong() answers a ping
         delivery,    // delivery(): the host sends more or less
-        renderer,    // renderer_word(): how the host wants this participant to draw
+        renderer,    // renderer_command(): how the host wants this participant to draw
         published,   // published(): the answer to an offer
         unshared,    // share_ended(): others have ended screens of this participant
         encode,      // encode(): how to encode the cameras that this participant publishes
@@ -91,7 +91,7 @@ public:
     const wire::Pong& pong() const { return pong_; }
     const wire::Delivery& delivery() const { return delivery_; }
     // The newest command of this connection's host; empty before the first.
-    const wire::SetRenderer& renderer_word() const { return renderer_word_; }
+    const wire::SetRenderer& renderer_command() const { return renderer_command_; }
     // Empty as long as the session goes on.
     const wire::Text& goodbye() const { return goodbye_; }
     const wire::Published& published() const { return published_; }
@@ -133,7 +133,7 @@ private:
     wire::Text refusal_;
     wire::Pong pong_;
     wire::Delivery delivery_;
-    wire::SetRenderer renderer_word_;
+    wire::SetRenderer renderer_command_;
     wire::Text goodbye_;
     wire::Published published_;
     wire::ShareEnded share_ended_;

@@ -37,7 +37,7 @@ void check(const session::ViewerSession& viewer) {
             std::abort();
     for (const std::string& text : {wire::english(viewer.note()), wire::english(viewer.refusal()),
                                     wire::sent_part(viewer.delivery()),
-                                    viewer.renderer_word().renderer, viewer.welcome().host_name})
+                                    viewer.renderer_command().renderer, viewer.welcome().host_name})
         if (!is_shown_as_it_is(text))
             std::abort();
     if (viewer.cameras().size() > wire::max_cameras || viewer.settings().size() > wire::max_streams)

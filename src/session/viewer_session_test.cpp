@@ -37,9 +37,9 @@ TEST_F(Host, AViewerJoinsAndChangesItsCodec) {
     session.set_renderer({"mesh", true});
     deliver();
     EXPECT_EQ(changes, std::vector{Change::renderer});
-    EXPECT_EQ(viewer.renderer_word(), (wire::SetRenderer{"mesh", true}));
+    EXPECT_EQ(viewer.renderer_command(), (wire::SetRenderer{"mesh", true}));
     (void)viewer.begin();
-    EXPECT_EQ(viewer.renderer_word(), wire::SetRenderer{}) << "another host may think otherwise";
+    EXPECT_EQ(viewer.renderer_command(), wire::SetRenderer{}) << "another host may think otherwise";
 }
 
 TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {

@@ -147,7 +147,7 @@ private:
 // Pose, lenses and offsets of camera `index` of `count`: an Azure Kinect in its narrow field
 // of view, 640x576, masked by inside_hexagon(), with a colour camera of size `color`,
 // {0, 0} for none. Registered.
-inline constexpr int max_cameras = 12;
+inline constexpr int max_viewpoints = 12;
 Calibration synthetic_camera(Variant variant, int index, int count, Size color);
 
 // A pinhole camera without distortion, depth and colour at the same place, at `eye` facing

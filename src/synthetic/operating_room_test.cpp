@@ -164,8 +164,8 @@ TEST(OperatingRoom, ShowsPeopleSitusAndTools) {
 }
 
 TEST(SyntheticCamera, LooksAtTheSitusFromAllSides) {
-    for (int i = 0; i < max_cameras; ++i) {
-        const Calibration c = synthetic_camera(Variant::room, i, max_cameras, {1280, 720});
+    for (int i = 0; i < max_viewpoints; ++i) {
+        const Calibration c = synthetic_camera(Variant::room, i, max_viewpoints, {1280, 720});
         const auto pixel = project(c.depth, inverse(c.room_from_camera) * Vec3{0, 1.05, 0});
         ASSERT_TRUE(pixel);
         EXPECT_NEAR(pixel->x, 320, 60);

@@ -47,19 +47,19 @@ Calibration synthetic_camera(Variant variant, int index, int count, Size color) 
     struct Place {
         double degrees, radius, height;
     };
-    static constexpr std::array<Place, max_cameras> places{{{-42, 1.62, 2.16},
-                                                            {46, 1.64, 2.2},
-                                                            {137, 1.62, 2.25},
-                                                            {-132, 1.75, 2.3},
-                                                            {2, 2.1, 2.0},
-                                                            {182, 2.1, 2.05},
-                                                            {-88, 1.9, 2.45},
-                                                            {92, 1.9, 2.45},
-                                                            {-20, 2.2, 1.8},
-                                                            {158, 2.2, 1.8},
-                                                            {25, 2.3, 1.9},
-                                                            {-155, 2.3, 1.9}}};
-    const Place place = places[std::size_t(std::clamp(index, 0, max_cameras - 1))];
+    static constexpr std::array<Place, max_viewpoints> places{{{-42, 1.62, 2.16},
+                                                               {46, 1.64, 2.2},
+                                                               {137, 1.62, 2.25},
+                                                               {-132, 1.75, 2.3},
+                                                               {2, 2.1, 2.0},
+                                                               {182, 2.1, 2.05},
+                                                               {-88, 1.9, 2.45},
+                                                               {92, 1.9, 2.45},
+                                                               {-20, 2.2, 1.8},
+                                                               {158, 2.2, 1.8},
+                                                               {25, 2.3, 1.9},
+                                                               {-155, 2.3, 1.9}}};
+    const Place place = places[std::size_t(std::clamp(index, 0, max_viewpoints - 1))];
     const double a = radians_of(place.degrees);
     Vec3 eye{place.radius * std::cos(a), place.height, place.radius * std::sin(a)};
     Vec3 target{0.0, 1.12, 0.02};

@@ -157,7 +157,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         const auto known = calibrations_.find(id);
         const bool is_new = known == calibrations_.end();
         // No more can be drawn; the first ones stay.
-        if (is_new && calibrations_.size() == std::size_t(render::max_cameras))
+        if (is_new && calibrations_.size() == std::size_t(render::max_set_cameras))
             continue;
         if (!is_new && known->second == camera.calibration)
             continue;

@@ -45,8 +45,8 @@ public:
     LiveScene& operator=(const LiveScene&) = delete;
 
     // Takes over new cameras and frames. Returns the cameras with a new picture. A camera that
-    // joins or leaves changes no other camera's picture; beyond render::max_cameras none is added.
-    // Throws Error if a person's place names a camera that the host never had.
+    // joins or leaves changes no other camera's picture; beyond render::max_set_cameras none is
+    // added. Throws Error if a person's place names a camera that the host never had.
     std::vector<CameraId> take(client::Participant& participant);
 
     // Takes over people and shared objects that have changed. True if the picture changes.

@@ -36,7 +36,7 @@ void PersonClouds::set_camera(ParticipantId id, CameraId number, const Calibrati
         person->clouds.set_depth_step(depth_step_);
     }
     if (!person->cameras.contains(number) &&
-        person->cameras.size() == std::size_t(render::max_cameras))
+        person->cameras.size() == std::size_t(render::max_set_cameras))
         return;
     Camera& camera = person->cameras[number];
     if (camera.person_from_camera == calibration)

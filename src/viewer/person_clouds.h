@@ -24,7 +24,7 @@ Pose room_from_person(const Pose& room_from_head);
 class PersonClouds {
 public:
     // `calibration` is in the person's frame. Adds the camera or changes it; a person's cameras
-    // beyond render::max_cameras are left out.
+    // beyond render::max_set_cameras are left out.
     void set_camera(ParticipantId person, CameraId camera, const Calibration& calibration);
     void remove_camera(CameraId camera);
     bool has(CameraId camera) const { return person_of(camera) != nullptr; }

@@ -324,7 +324,7 @@ void Viewer::choose_next_renderer(TimePoint now) {
 }
 
 void Viewer::follow_host(TimePoint now) {
-    const auto command = participant_.take_renderer_word();
+    const auto command = participant_.take_renderer_command();
     if (!command)
         return;
     const session::RendererChoice before = choice_;
@@ -375,7 +375,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     eye_.set_space(scene_.free_space());
     look_through_followed(now);
     moving_ = scene_.meeting().is_moving(participant_.session_time(now));
-    send_pose(picture, now);
+    send_own_pose(picture, now);
     if (first_picture_at_ == TimePoint{} && eye_.is_placed())
         first_picture_at_ = now;
     participant_.tell_renderer(way().renderer);
@@ -396,7 +396,7 @@ std::optional<Pose> Viewer::meeting_place() const {
 }
 
 // Sends the pose of the eye as this person's head, again before an unchanged pose is stale.
-void Viewer::send_pose(Size picture, TimePoint now) {
+void Viewer::send_own_pose(Size picture, TimePoint now) {
     if (!eye_.is_placed())
         return;
     const Pose eye = headset_ ? headset_->head().room_from_eye : eye_.view(picture).room_from_eye;

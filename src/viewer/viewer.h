@@ -152,7 +152,7 @@ private:
     void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
     void choose_pace();
-    void send_pose(Size picture, TimePoint now);
+    void send_own_pose(Size picture, TimePoint now);
     void follow_wish(const MenuRow& wish, TimePoint now);
     void draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
                    TimePoint now);

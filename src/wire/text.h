@@ -38,7 +38,7 @@ enum class TextCode : std::uint16_t {
     all_places_taken = 120,  // {0}: how many there can be
     link_full = 121,         // {0}: how many can be in by one link
 
-    // Cameras. With a name in {0}: the camera is left out.
+    // Cameras. With a name in {0}: the camera cannot be shown, and an offer of it is refused whole.
     camera_silent = 200,
     camera_repeating = 201,
     camera_time_jump = 202,

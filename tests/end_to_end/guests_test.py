@@ -175,8 +175,8 @@ class HostileHosts(unittest.TestCase):
             guest.welcome([camera(0), camera(0, name="twin"), camera(1, name="huge", calibration_bytes=huge)])
 
         errors, _ = self.join(script)
-        self.assertIn("camera huge has a calibration that is too large; it is left out", errors)
-        self.assertIn("camera twin has a number that another one has; it is left out", errors)
+        self.assertIn("camera huge has a calibration that is too large; it cannot be shown", errors)
+        self.assertIn("camera twin has a number that another one has; it cannot be shown", errors)
 
     def test_a_status_of_any_depth_and_with_any_text_is_only_shown(self):
         with AnsweringHost('{"a":' * 400_000 + "1" + "}" * 400_000) as fake:
