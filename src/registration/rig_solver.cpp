@@ -8,10 +8,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace theatron::registration {
 namespace {
+
+// Standard deviations of depth errors that are tried, relative to RigOptions.
+constexpr double error_scales[] = {1, 0.3, 0.1};
 
 // A pose as the solver has it: quaternion w x y z, then translation.
 using Block = std::array<double, 7>;
@@ -192,6 +196,24 @@ public:
         add_views(options);
     }
 
+    // The logarithm of the probability of all measurements under these options, up to a constant
+    // that does not depend on them; after solve(). Laplace's approximation (MacKay, Neural
+    // Computation 1992, "Bayesian interpolation", section 3).
+    double log_evidence() {
+        ceres::CRSMatrix sparse;
+        double cost = 0;
+        problem_.Evaluate({}, &cost, nullptr, nullptr, &sparse);
+        Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+        for (int row = 0; row < sparse.num_rows; ++row)
+            for (int i = sparse.rows[std::size_t(row)]; i < sparse.rows[std::size_t(row) + 1]; ++i)
+                jacobian(row, sparse.cols[std::size_t(i)]) = sparse.values[std::size_t(i)];
+        Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+        // Directions that nothing determines, as of a board that no camera sees, do not count.
+        information.diagonal().array() += 1e-6;
+        const Eigen::MatrixXd root = information.llt().matrixL();
+        return log_roots_ - cost - root.diagonal().array().log().sum();
+    }
+
     RigSolution solve() {
         ceres::Solver::Options options;
         options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -233,20 +255,25 @@ private:
 
     void add_views(const RigOptions& options) {
         const Bias sigma{options.offset_m, options.slope_m, options.slope_m, options.per_m};
-        for (Bias& bias : biases_)
+        for (Bias& bias : biases_) {
+            for (const double one : sigma)
+                log_roots_ -= std::log(one);
             problem_.AddResidualBlock(
                 new ceres::AutoDiffCostFunction<BiasPrior, 4, 4>(new BiasPrior{sigma}), nullptr,
                 bias.data());
+        }
         for (const BoardView& view : views_) {
+            auto* const depth = new DepthError(depth_error(view, target_, options));
+            log_roots_ += depth->root_information.diagonal().array().log().sum();
             double* const camera = cameras_[std::size_t(view.camera)].data();
             double* const board = boards_[std::size_t(view.place)].data();
             problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeError, 6, 7, 7>(
                                           new EdgeError(edge_error(view, target_))),
                                       new ceres::HuberLoss(options.outlier_sigmas), camera, board);
-            problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DepthError, 3, 7, 7, 4>(
-                                          new DepthError(depth_error(view, target_, options))),
-                                      new ceres::HuberLoss(options.outlier_sigmas), camera, board,
-                                      biases_[std::size_t(view.camera)].data());
+            problem_.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<DepthError, 3, 7, 7, 4>(depth),
+                new ceres::HuberLoss(options.outlier_sigmas), camera, board,
+                biases_[std::size_t(view.camera)].data());
         }
     }
 
@@ -292,6 +319,7 @@ private:
     std::vector<Block> cameras_, boards_;
     std::vector<Bias> biases_;
     ceres::Problem problem_;
+    double log_roots_ = 0;  // of the determinants of all information that depends on the options
 };
 
 }  // namespace
@@ -319,7 +347,26 @@ RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& vie
             solution.separate.push_back(c);
     if (!solution.separate.empty())
         return solution;
-    return Rig(start, views, target, options).solve();
+    // How large the errors of depth are is taken from how well depth and edges of all views agree
+    // (type II maximum likelihood): a camera without fixed errors is not treated as if it had some.
+    double best = -std::numeric_limits<double>::infinity();
+    for (const double fixed : error_scales)
+        for (const double of_view : error_scales) {
+            RigOptions scaled = options;
+            scaled.offset_m *= fixed;
+            scaled.slope_m *= fixed;
+            scaled.per_m *= fixed;
+            scaled.view_common_m *= of_view;
+            scaled.view_slow_m *= of_view;
+            Rig rig(start, views, target, scaled);
+            RigSolution found = rig.solve();
+            const double evidence = rig.log_evidence();
+            if (evidence > best) {
+                best = evidence;
+                solution = std::move(found);
+            }
+        }
+    return solution;
 }
 
 }  // namespace theatron::registration

@@ -95,6 +95,27 @@ TEST(RigSolver, OneWrongViewDoesNotMoveTheCameras) {
     EXPECT_LT(solution.view_error_m[7], 0.001);
 }
 
+// A difference that the edges' own errors explain is no error of depth.
+TEST(RigSolver, FindsNoErrorOfDepthWhereTheEdgesAreUncertain) {
+    constexpr double edge_sigma_m = 0.003;
+    // One millimetre remains in the mean.
+    constexpr double wrong_m[] = {0.004, 0.002, -0.002, 0.004, -0.002, 0.002, -0.001, 0.001};
+    std::vector<BoardView> views;
+    for (int place = 0; place < 8; ++place) {
+        BoardView view =
+            seen(0, place, {}, {Quat{0, 1, 0, 0}, {0.1 * place, 0, 1.5 + 0.1 * place}});
+        LatticeFit& fit = view.detection.fit;
+        fit.edge_covariance(5, 5) = edge_sigma_m * edge_sigma_m;
+        fit.camera_from_face_by_edges =
+            fit.camera_from_face_by_edges * Pose{{}, {0, 0, wrong_m[place]}};
+        views.push_back(view);
+    }
+    const auto solution = solve_rig(1, 8, views, target);
+    ASSERT_TRUE(solution.converged);
+    EXPECT_NEAR(solution.cameras[0].bias.offset_m, 0, 0.0002);
+    EXPECT_LT(solution.cameras[0].bias_sigma.offset_m, 0.0005);
+}
+
 // Two cameras a quarter circle apart see the board at two metres through the modelled sensor.
 TEST(RigSolver, TwoModelledCamerasAgreeOnTheWorkingVolume) {
     const CameraModel camera = azure_camera();

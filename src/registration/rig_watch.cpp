@@ -14,6 +14,7 @@ constexpr Duration least_period = std::chrono::milliseconds(500),
 constexpr int reference_images = 16, least_reference_images = 11;
 constexpr std::size_t window_images = 4;
 constexpr double static_spread_m = 0.004;  // deviation of a surface that stands still
+constexpr double static_spread_px = 1.5;   // an edge that stands still, from lowest to highest
 constexpr double farthest_change_m = 0.1;
 constexpr double on_plane_m = 0.004;
 constexpr std::size_t least_points = 150;
@@ -33,30 +34,20 @@ double angle_deg(const Pose& pose) {
            radians_of(1);
 }
 
-// The mean surface of some images, where it was there in all of them and stood still.
-std::vector<PointOnPlane> changes(const std::vector<SurfacePoint>& reference,
-                                  const std::deque<std::vector<SurfacePoint>>& recent) {
-    std::vector<PointOnPlane> points;
-    for (std::size_t i = 0; i < reference.size(); ++i) {
-        if (!reference[i].is_valid())
-            continue;
-        Vec3 mean{};
-        double lowest = 1e9, highest = 0;
-        bool all = true;
-        for (const auto& grid : recent) {
-            all = all && grid[i].is_valid();
-            mean = mean + grid[i].at * (1.0 / double(recent.size()));
-            lowest = std::min(lowest, grid[i].at.z);
-            highest = std::max(highest, grid[i].at.z);
-        }
-        if (!all || highest - lowest > 3 * static_spread_m)
-            continue;
-        const double apart = dot(reference[i].normal, mean - reference[i].at);
-        if (std::abs(apart) < farthest_change_m)
-            points.push_back({mean, reference[i].normal, apart});
+// The lowest, highest and mean value of something over some images.
+struct Spread {
+    double lowest = 1e9, highest = -1e9, sum = 0;
+    int count = 0;
+
+    void add(double value) {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+        sum += value;
+        ++count;
     }
-    return points;
-}
+    double size() const { return highest - lowest; }
+    double mean() const { return sum / count; }
+};
 
 // Root mean square of the lengths by which `motion` moves the points.
 double size_m(const Pose& motion, const std::vector<PointOnPlane>& points) {
@@ -69,6 +60,44 @@ double size_m(const Pose& motion, const std::vector<PointOnPlane>& points) {
 }
 
 }  // namespace
+
+// The mean surfaces of the recent images, where they were there in all of them and stood still.
+void RigWatch::add_surface_changes(const State& state, std::vector<PointOnPlane>& points) {
+    const std::vector<SurfacePoint>& reference = state.reference.points;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        if (!reference[i].is_valid())
+            continue;
+        Vec3 mean{};
+        Spread z;
+        bool all = true;
+        for (const Observation& seen : state.recent) {
+            all = all && seen.surface[i].is_valid();
+            mean = mean + seen.surface[i].at * (1.0 / double(state.recent.size()));
+            z.add(seen.surface[i].at.z);
+        }
+        if (!all || z.size() > 3 * static_spread_m)
+            continue;
+        const double apart = dot(reference[i].normal, mean - reference[i].at);
+        if (std::abs(apart) < farthest_change_m)
+            points.push_back({mean, reference[i].normal, apart});
+    }
+}
+
+// The same for the edges.
+void RigWatch::add_edge_changes(const State& state, std::vector<PointOnPlane>& points) {
+    for (std::size_t i = 0; i < state.reference.edges.size(); ++i) {
+        const DepthEdge& edge = state.reference.edges[i];
+        Spread position;
+        for (const Observation& seen : state.recent)
+            if (!std::isnan(seen.edges[i]))
+                position.add(seen.edges[i]);
+        Vec3 mean;
+        if (position.count < int(state.recent.size()) || position.size() > static_spread_px ||
+            !edge_point(edge, float(position.mean()), state.surface, mean))
+            continue;
+        points.push_back({mean, edge.normal, dot(edge.normal, mean - edge.at)});
+    }
+}
 
 RigWatch::RigWatch(const std::vector<Camera>& cameras)
     : period_(std::max(least_period, time_for_each * long(cameras.size()))) {
@@ -100,6 +129,7 @@ void RigWatch::begin_reference(State& state) {
     state.reference.points.resize(cells);
     state.reference.squares.resize(cells);
     state.reference.counts.resize(cells);
+    state.reference.edge_sums.emplace(state.about.depth.size);
     state.base.clear();
     state.recent.clear();
     state.newest_motion = {};
@@ -125,15 +155,16 @@ void RigWatch::add(std::size_t camera, DepthView depth, TimePoint captured) {
     if (state.about.room_from_camera)
         compare_with_other(camera, grid);
     if (state.reference.images < reference_images)
-        return add_to_reference(camera, grid);
-    state.recent.push_back(std::move(grid));
+        return add_to_reference(camera, grid, depth);
+    state.recent.push_back({std::move(grid), edge_positions(state.reference.edges, depth)});
     if (state.recent.size() > window_images)
         state.recent.pop_front();
     if (state.recent.size() == window_images)
         compare_with_reference(camera);
 }
 
-void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid) {
+void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid,
+                                DepthView depth) {
     State& state = states_[camera];
     Reference& reference = state.reference;
     for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -145,8 +176,11 @@ void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoi
         reference.squares[i] += grid[i].at.z * grid[i].at.z;
         ++reference.counts[i];
     }
+    reference.edge_sums->add(depth);
     if (++reference.images < reference_images)
         return;
+    reference.edges = reference.edge_sums->edges(state.surface, static_spread_m);
+    reference.edge_sums.reset();
     for (std::size_t i = 0; i < grid.size(); ++i) {
         SurfacePoint& point = reference.points[i];
         const double n = std::max(1, reference.counts[i]);
@@ -198,7 +232,9 @@ Pose RigWatch::between(std::size_t to, std::size_t from) const {
 void RigWatch::compare_with_reference(std::size_t camera) {
     State& state = states_[camera];
     Motion& motion = state.motion;
-    const std::vector<PointOnPlane> points = changes(state.reference.points, state.recent);
+    std::vector<PointOnPlane> points;
+    add_surface_changes(state, points);
+    add_edge_changes(state, points);
     const SmallMotion found = fit_small_motion(points, on_plane_m);
     motion.is_known = found.points >= least_points && found.share >= least_share;
     if (!motion.is_known) {
@@ -260,7 +296,7 @@ bool RigWatch::overlaps_deny(std::size_t camera, const Pose& reference_from_now)
         if (base.points.size() < least_overlap)
             continue;
         const State& other = states_[base.other];
-        const auto now = overlap(state.recent.back(), other.surface, other.newest.view(),
+        const auto now = overlap(state.recent.back().surface, other.surface, other.newest.view(),
                                  between(base.other, camera), base_reach_m);
         if (now.size() < least_overlap)
             continue;

@@ -3,18 +3,21 @@
 //
 // A camera's own picture tells a motion best: the errors of a depth sensor are the same before and
 // after, so the static part of the picture is compared with what it was when the watch began, and
-// the rigid motion between them is fitted. A part of the scene that moves as one (a table that is
-// raised) may fit as well. The overlaps with other cameras decide then: they change if the camera
-// was moved, and stay as they are if the scene was. The overlaps also give the figure by which the
-// cameras' places differ now, for each pair.
+// the rigid motion between them is fitted. Surfaces show a motion along their normals, and their
+// ends before something farther away show the others. A part of the scene that moves as one (a
+// table that is raised) may fit as well. The overlaps with other cameras decide then: they change
+// if the camera was moved, and stay as they are if the scene was. The overlaps also give the figure
+// by which the cameras' places differ now, for each pair.
 //
 // Pure and without threads. About 2 ms of work for each image.
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "base/time.h"
+#include "registration/depth_edges.h"
 #include "registration/small_motion.h"
 #include "registration/surface_grid.h"
 
@@ -72,7 +75,14 @@ private:
         std::vector<SurfacePoint> points;
         std::vector<double> squares;  // of z
         std::vector<int> counts;
+        std::optional<EdgeReference> edge_sums;  // until it is complete
+        std::vector<DepthEdge> edges;
         int images = 0;
+    };
+    // The surfaces and edges of one image behind the reference.
+    struct Observation {
+        std::vector<SurfacePoint> surface;
+        std::vector<float> edges;  // positions
     };
     // Overlap with another camera when the reference was complete.
     struct BaseOverlap {
@@ -86,7 +96,7 @@ private:
         TimePoint captured{};
         Reference reference;
         std::vector<BaseOverlap> base;
-        std::deque<std::vector<SurfacePoint>> recent;
+        std::deque<Observation> recent;
         Pose carried;        // from the reference's camera frame to that of the watch's begin
         Pose newest_motion;  // from the camera's frame to the reference's
         int above = 0, below = 0, unclear = 0, denied = 0;  // evaluations in a row
@@ -96,7 +106,10 @@ private:
 
     static void begin_reference(State& state);
     static void renew_reference(State& state);
-    void add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid);
+    void add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid,
+                          DepthView depth);
+    static void add_surface_changes(const State& state, std::vector<PointOnPlane>& points);
+    static void add_edge_changes(const State& state, std::vector<PointOnPlane>& points);
     void note_base(std::size_t camera);
     void compare_with_reference(std::size_t camera);
     bool overlaps_deny(std::size_t camera, const Pose& reference_from_now) const;

@@ -33,6 +33,7 @@ protected:
                 const DepthImage depth = cameras_[c]->image(now_.time_since_epoch());
                 watch_->add(c, depth.view(), now_);
                 worst_m_ = std::max(worst_m_, watch_->motion(c).moved_m);
+                worst_deg_ = std::max(worst_deg_, watch_->motion(c).turned_deg);
                 alarms_ += has_alarm(c);
             }
     }
@@ -44,7 +45,7 @@ protected:
     std::vector<std::unique_ptr<RoomCamera>> cameras_;
     std::unique_ptr<RigWatch> watch_;
     TimePoint now_{std::chrono::seconds(1)};
-    double worst_m_ = 0;
+    double worst_m_ = 0, worst_deg_ = 0;
     int alarms_ = 0;
 };
 
@@ -58,8 +59,8 @@ TEST_F(Watching, NoAlarmWhileASurgeonMovesBeforeFixedCameras) {
     ASSERT_EQ(watch_->pairs().size(), 1u);
     EXPECT_GT(watch_->pairs()[0].points, 100u);
     EXPECT_LT(watch_->pairs()[0].apart_m, 0.008);
-    std::printf("largest motion seen: %.2f mm; surfaces apart: %.1f mm\n", worst_m_ * 1000,
-                watch_->pairs()[0].apart_m * 1000);
+    std::printf("largest motion seen: %.2f mm, %.2f degrees; surfaces apart: %.1f mm\n",
+                worst_m_ * 1000, worst_deg_, watch_->pairs()[0].apart_m * 1000);
 }
 
 TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAlarm) {
@@ -70,7 +71,11 @@ TEST_F(Watching, ACameraMovedByFiveMillimetresOrThreeTenthsOfADegreeRaisesTheAla
     };
     const double turn = radians_of(0.3);
     const Case cases[] = {{"along", {{}, {0, 0, 0.005}}, 4, 6},
-                          {"yaw", {rotation_about({0, 1, 0}, turn), {}}, 7, 16}};
+                          {"across", {{}, {0.005, 0, 0}}, 4, 6},
+                          {"up", {{}, {0, 0.005, 0}}, 4, 6},
+                          {"yaw", {rotation_about({0, 1, 0}, turn), {}}, 7, 16},
+                          {"pitch", {rotation_about({1, 0, 0}, turn), {}}, 7, 16},
+                          {"roll", {rotation_about({0, 0, 1}, turn), {}}, 2, 8}};
     for (const Case& c : cases) {
         SCOPED_TRACE(c.name);
         cameras_[1]->place_at({});
