@@ -192,7 +192,8 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
                     " labels; save those that matter as a label map of their own.");
     std::vector<ImportedPart> parts;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        progress("Making surfaces", double(i) / double(labels.size()));
+        const auto tell = [&] { progress("Making surfaces", double(i) / double(labels.size())); };
+        tell();
         const int value = labels[i].value;
         found.insert(value);
         Part part = usual_part("label " + std::to_string(value));
@@ -206,7 +207,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
                 part.color = medical::usual_color(choice.role);
                 part.opacity = medical::usual_opacity(choice.role);
             }
-        Mesh mesh = surface_of_label(map, value, options.max_triangles);
+        Mesh mesh = surface_of_label(map, value, options.max_triangles, tell);
         if (mesh.triangles.empty())
             remarks.push_back("The label " + std::to_string(value) +
                               " has a surface of too many triangles and is left out.");
