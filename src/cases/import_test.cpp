@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -19,6 +20,7 @@
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "medical/mesh_measures.h"
+#include "medical/window.h"
 #include "sandbox/filter.h"
 #include "testing/temporary_folder.h"
 
@@ -203,6 +205,34 @@ TEST_F(Import, Monochrome1IsShownTheOtherWayRound) {
     const LoadedCase loaded = read_case(target());
     EXPECT_TRUE(loaded.volumes.at(0).inverted);
     EXPECT_EQ(loaded.volumes[0].samples[5], image(0).samples[5]);
+}
+
+// Compares with the pictures that dcmj2pnm (of DCMTK) makes of the same files in the same window.
+TEST_F(Import, GreysOfBothPhotometricInterpretationsAreThoseOfDcmtk) {
+    if (std::system("command -v dcmj2pnm >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "no dcmj2pnm: install dcmtk";
+    const fs::path picture = folder_.path() / "slice.png";
+    for (const bool inverted : {false, true}) {
+        fs::remove_all(source());
+        fs::remove_all(target());
+        fs::create_directories(source());
+        for (int i = 0; i < 3; ++i) {
+            DicomSlice slice = image(i);
+            slice.inverted = inverted;
+            write_image(source() / (std::to_string(i) + ".dcm"), slice, i);
+        }
+        import();
+        const medical::Volume volume = read_case(target()).volumes.at(0);
+        const medical::GreyTable greys({60, 350}, volume);
+        const std::string draw = "dcmj2pnm +Ww 60 350 +on '" + (source() / "1.dcm").string() +
+                                 "' '" + picture.string() + "'";
+        ASSERT_EQ(std::system(draw.c_str()), 0);
+        const ColorImage expected = files::read_color_png(picture);
+        ASSERT_EQ(expected.size, (Size{40, 30}));
+        for (std::size_t i = 0; i < 1200; ++i)
+            ASSERT_NEAR(int(greys[volume.samples[1200 + i]]), int(expected.pixels[i].r), 1)
+                << (inverted ? "MONOCHROME1" : "MONOCHROME2");
+    }
 }
 
 TEST_F(Import, MissingSlicesAreReported) {
