@@ -14,6 +14,7 @@
 #include "cases/new_folder.h"
 #include "cases/synth_case.h"
 #include "cli/progress.h"
+#include "cli/stop_signal.h"
 #include "commands.h"
 #include "files/png_file.h"
 #include "medical/mesh_measures.h"
@@ -71,6 +72,19 @@ struct ImportArguments {
     bool deidentified = false;
 };
 
+cases::ImportReport import_until_stopped(const ImportArguments& arguments) {
+    try {
+        return cases::import_case(arguments.source, arguments.folder, arguments.options,
+                                  cli::show_progress());
+    } catch (const Error&) {
+        // Ctrl-C in a terminal also ends the process that reads a file, which is not the file's
+        // fault.
+        if (cli::stop_requested())
+            throw Error("Stopped before the case was complete; nothing of it was kept.");
+        throw;
+    }
+}
+
 void import(ImportArguments& arguments) {
     cases::ImportOptions& options = arguments.options;
     if (!arguments.unit.empty())
@@ -85,8 +99,9 @@ void import(ImportArguments& arguments) {
         options.labels.push_back(label_choice(label));
     if (arguments.deidentified)
         options.deidentified = true;
-    const cases::ImportReport report =
-        cases::import_case(arguments.source, arguments.folder, options, cli::show_progress());
+    // A signal that ended the program at once would leave a part of the patient's data behind.
+    cli::catch_stop_signals();
+    const cases::ImportReport report = import_until_stopped(arguments);
     for (const std::string& remark : report.remarks)
         std::printf("remark: %s\n", remark.c_str());
     std::printf("name: %s\n", report.manifest.name.c_str());
@@ -257,6 +272,7 @@ void synth(const SynthArguments& arguments) {
         if (!in_case.empty() && *in_case.begin() != "..")
             throw Error("--dicom names a folder in the case; name one beside it.");
     }
+    cli::catch_stop_signals();
     const cases::Progress progress = cli::show_progress();
     const cases::SynthCase made = cases::make_synth_case(arguments.options, progress);
     cases::write_synth_case(made, arguments.folder, arguments.dicom, progress);

@@ -241,6 +241,13 @@ Answer read_samples(gdcm::Image& image, DicomSlice& slice) {
     return Answer::content;
 }
 
+// False only where the file names a transfer syntax that the library does not know.
+bool is_known_compression(const gdcm::FileMetaInformation& header) {
+    const std::string syntax = Tags(header).text(0x0002, 0x0010);
+    return syntax.empty() ||
+           gdcm::TransferSyntax::GetTSType(syntax.c_str()) != gdcm::TransferSyntax::TS_END;
+}
+
 Answer read(int descriptor, DicomSlice& slice) {
     DescriptorBuffer buffer(descriptor);
     std::istream stream(&buffer);
@@ -252,6 +259,8 @@ Answer read(int descriptor, DicomSlice& slice) {
         return Answer::cut_off;
     const gdcm::DataSet& data = reader.GetFile().GetDataSet();
     const Tags tags(data);
+    if (!good && !is_known_compression(reader.GetFile().GetHeader()))
+        return Answer::compression;
     if (!good) {
         if (data.IsEmpty() || tags.has(0x7fe0, 0x0010))
             return Answer::unreadable;

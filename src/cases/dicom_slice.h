@@ -16,9 +16,9 @@
 
 namespace theatron::cases {
 
-inline constexpr std::size_t max_dicom_text = 64;    // bytes of a text
-inline constexpr std::size_t max_identifiers = 32;   // texts that identify
-inline constexpr std::size_t max_slice_head = 8192;  // bytes of an encoded slice but its samples
+inline constexpr std::size_t max_dicom_text = 250;    // bytes of a text; a name has three spellings
+inline constexpr std::size_t max_identifiers = 32;    // texts that identify
+inline constexpr std::size_t max_slice_head = 16384;  // bytes of an encoded slice but its samples
 
 // A text that may identify the patient, under DICOM's name for it ("PatientName").
 struct Identifier {

@@ -104,8 +104,8 @@ const char* reason_of(Answer what) {
         case Answer::cut_off:
             return "is cut off before its pixels end; copy it again";
         case Answer::color:
-            return "is a picture in colour, not a grey image of a series; take it out of the "
-                   "folder";
+            return "is a picture in colour, not a grey image of a series; save it as PNG or JPEG "
+                   "to show it";
         case Answer::many_frames:
             return "holds several images in one file, which is not supported; export one file per "
                    "image";
@@ -185,6 +185,8 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         const Reply reply = reply_of(*child_);
         if (reply.what == Answer::no_image)
             return std::nullopt;
+        if (reply.what == Answer::color || reply.what == Answer::many_frames)
+            throw NoSlice(quoted_path(file) + " " + reason_of(reply.what) + ".");
         if (reply.what != Answer::content)
             throw Error(quoted_path(file) + " " + reason_of(reply.what) + ".");
         const Bytes copy(reply.content.begin(), reply.content.end());

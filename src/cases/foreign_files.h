@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "cases/dicom_slice.h"
 #include "image/image.h"
 #include "medical/mesh.h"
@@ -27,13 +28,21 @@ inline constexpr std::size_t max_picture_file_bytes = std::size_t(128) << 20;
 inline constexpr std::size_t max_reader_memory_bytes = std::size_t(2) << 30;
 inline constexpr std::size_t max_meshes_in_file = 1024;
 
+// A DICOM image that is whole but no slice of a series: a picture in colour, or several images in
+// one file. Scanners put such pictures, of doses for example, beside the series.
+class NoSlice : public Error {
+public:
+    using Error::Error;
+};
+
 // Reads DICOM files, one after another, in one process.
 class DicomFiles {
 public:
     DicomFiles();
     ~DicomFiles();
 
-    // Nothing where the file is DICOM but holds no image: a directory, a report, a plan.
+    // Nothing where the file is DICOM but holds no image: a directory, a report, a plan. Throws
+    // NoSlice, or Error where the file is damaged.
     std::optional<DicomSlice> read(const std::filesystem::path& file);
 
 private:

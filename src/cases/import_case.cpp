@@ -96,6 +96,28 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
     return parts;
 }
 
+// "Segment 4", "gastric impression of liver".
+bool is_region(const medical::Part& part) {
+    const std::string name = " " + part.name + " ";
+    if (part.role != medical::Role::other)
+        return false;
+    for (const char* region : {"egment", "impression", "surface", " lobe ", " area "})
+        if (name.find(region) != std::string::npos)
+            return true;
+    return false;
+}
+
+// Regions of an organ lie on its shell or fill it: opaque ones would hide all that is in it.
+void make_regions_translucent(std::vector<ImportedPart>& parts) {
+    constexpr double region_opacity = 0.15;
+    const bool has_shell = std::any_of(parts.begin(), parts.end(), [](const ImportedPart& one) {
+        return one.part.role == medical::Role::shell;
+    });
+    for (ImportedPart& one : parts)
+        if (has_shell && is_region(one.part))
+            one.part.opacity = std::min(one.part.opacity, region_opacity);
+}
+
 // Throws Error if a text that was given for everybody to see has the patient's name in it.
 void require_silent(const ImportOptions& options, const PatientWords& words) {
     const auto require = [&](const std::string& text, const char* option) {
@@ -120,14 +142,20 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
         files.pictures.clear();
     NewFolder target(folder);
     ImportReport report;
+    if (files.links > 0)
+        report.remarks.push_back("Links in the source are not followed, so what they lead to (" +
+                                 std::to_string(files.links) + ") is left out.");
     const std::optional<Case> manifest = manifest_of(files);
     std::vector<ImportedPart> parts = parts_of(files, manifest, options, report.remarks, progress);
+    if (!manifest)
+        make_regions_translucent(parts);
     std::vector<ImportedSeries> all_series = import_series(files.images, report.remarks, progress);
     std::vector<ImportedPicture> pictures =
         import_pictures(files.pictures, manifest, report.remarks, progress);
     if (parts.empty() && all_series.empty() && pictures.empty())
         throw Error(quoted_path(source) +
-                    " holds neither images nor surfaces nor pictures that could be shown.");
+                    " holds neither images nor surfaces nor pictures that could be shown." +
+                    (report.remarks.empty() ? "" : " " + report.remarks.back()));
 
     Case& result = report.manifest;
     PatientWords words;

@@ -149,6 +149,10 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
                                         const ImportOptions& options,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress) {
+    if (files.size() > max_parts)
+        throw Error("The source holds " + std::to_string(files.size()) +
+                    " files with surfaces, and a case has at most " + std::to_string(max_parts) +
+                    " parts; take the others out of the folder.");
     std::vector<ImportedPart> parts;
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading surfaces", double(i) / double(files.size()));
@@ -184,10 +188,12 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     const std::vector<LabelCount> labels = labels_in(map);
     if (labels.size() > max_parts)
         throw Error("The label map " + quoted_path(file) + " has more than " +
-                    std::to_string(max_parts) + " labels.");
+                    std::to_string(max_parts) +
+                    " labels; save those that matter as a label map of their own.");
     std::vector<ImportedPart> parts;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        progress("Making surfaces", double(i) / double(labels.size()));
+        const auto tell = [&] { progress("Making surfaces", double(i) / double(labels.size())); };
+        tell();
         const int value = labels[i].value;
         found.insert(value);
         Part part = usual_part("label " + std::to_string(value));
@@ -201,7 +207,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
                 part.color = medical::usual_color(choice.role);
                 part.opacity = medical::usual_opacity(choice.role);
             }
-        Mesh mesh = surface_of_label(map, value, options.max_triangles);
+        Mesh mesh = surface_of_label(map, value, options.max_triangles, tell);
         if (mesh.triangles.empty())
             remarks.push_back("The label " + std::to_string(value) +
                               " has a surface of too many triangles and is left out.");

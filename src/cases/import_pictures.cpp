@@ -29,9 +29,10 @@ std::vector<ImportedPicture> import_pictures(const std::vector<fs::path>& files,
                                              std::vector<std::string>& remarks,
                                              const Progress& progress) {
     if (files.size() > max_pictures)
-        throw Error("The source holds " + std::to_string(files.size()) +
-                    " pictures (PNG, JPEG), and a case has at most " +
-                    std::to_string(max_pictures) + "; take the others out of the folder.");
+        throw Error(
+            "The source holds " + std::to_string(files.size()) +
+            " pictures (PNG, JPEG), and a case has at most " + std::to_string(max_pictures) +
+            "; take the others out of the folder, or leave all out with --without-pictures.");
     std::vector<ImportedPicture> pictures;
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading pictures", double(i) / double(files.size()));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cases/folded_text.h"
 #include "cases/foreign_files.h"
 #include "cases/import_parts.h"
 #include "cases/manifest.h"
@@ -30,30 +31,45 @@ std::string value_of(const DicomSlice& slice, const char* name) {
     return "";
 }
 
-// Programs write the same name with other capitals and blanks.
-std::string letters_of(const std::string& name) {
-    std::string letters;
+// The spellings of a name: in letters, in ideographs, by sound (DICOM PS3.5, 6.2.1).
+std::vector<std::string> spellings_of(const std::string& name) {
+    std::vector<std::string> spellings(1);
     for (const char c : name)
-        if (c != ' ' && c != '^' && c != ',')
-            letters += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return letters;
+        if (c == '=')
+            spellings.emplace_back();
+        else
+            spellings.back() += c;
+    return spellings;
+}
+
+bool may_be_one_name(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty())
+        return true;
+    for (const std::string& one : spellings_of(a))
+        for (const std::string& other : spellings_of(b))
+            if (!one.empty() && !other.empty() && is_same_name(one, other))
+                return true;
+    return false;
+}
+
+// The parts of a number stay apart: 1-11 is not 11-1.
+std::vector<std::string> words_of_number(const std::string& number) {
+    return folded_words(number, Umlaut::as_one_letter, Split::at_separators);
 }
 
 // False only if it is certain: both have a number that differs, or none has one and names or dates
 // of birth differ.
 bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
-    const auto differ = [](const std::string& x, const std::string& y) {
-        return !x.empty() && !y.empty() && x != y;
-    };
     const auto of_both = [&](const char* name) {
-        return std::pair(letters_of(value_of(a, name)), letters_of(value_of(b, name)));
+        return std::pair(value_of(a, name), value_of(b, name));
     };
     const auto [number_a, number_b] = of_both("PatientID");
     if (!number_a.empty() && !number_b.empty())
-        return number_a == number_b;
+        return words_of_number(number_a) == words_of_number(number_b);
     const auto [name_a, name_b] = of_both("PatientName");
     const auto [born_a, born_b] = of_both("PatientBirthDate");
-    return !differ(name_a, name_b) && !differ(born_a, born_b);
+    return may_be_one_name(name_a, name_b) &&
+           (born_a.empty() || born_b.empty() || born_a == born_b);
 }
 
 struct Slices {
@@ -62,16 +78,29 @@ struct Slices {
 };
 using SlicesOfSeries = std::map<std::string, Slices>;
 
+std::string files_that(std::size_t count, const char* one_does, const char* several_do) {
+    return std::to_string(count) + (count == 1 ? " DICOM file " : " DICOM files ") +
+           (count == 1 ? one_does : several_do);
+}
+
 SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::string>& remarks,
                            const Progress& progress) {
     SlicesOfSeries series;
     std::optional<DicomSlice> first;  // without its samples
     fs::path first_file;
     DicomFiles reader;
-    std::size_t samples = 0, without_image = 0;
+    std::size_t samples = 0, without_image = 0, no_slices = 0;
+    std::string no_slice;  // the first sentence on one
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading images", double(i) / double(files.size()));
-        std::optional<DicomSlice> slice = reader.read(files[i]);
+        std::optional<DicomSlice> slice;
+        try {
+            slice = reader.read(files[i]);
+        } catch (const NoSlice& error) {
+            if (no_slices++ == 0)
+                no_slice = error.what();
+            continue;
+        }
         if (!slice) {
             ++without_image;
             continue;
@@ -95,10 +124,14 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
         same.slices.push_back(std::move(*slice));
     }
     progress("Reading images", 1);
+    if (no_slices > 0)
+        remarks.push_back(
+            files_that(no_slices, "is no slice of a series and is", "are no slices and are") +
+            " left out: " + no_slice);
     if (without_image > 0)
-        remarks.push_back(std::to_string(without_image) +
-                          (without_image == 1 ? " DICOM file holds" : " DICOM files hold") +
-                          " no image and are left out.");
+        remarks.push_back(
+            files_that(without_image, "holds no image and is", "hold no image and are") +
+            " left out.");
     return series;
 }
 
@@ -127,6 +160,10 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
             remarks.push_back("The series lacks " + std::to_string(built.missing_slices.size()) +
                               " of " + std::to_string(built.volume.grid.slices) +
                               " slices, which stay empty." + begins);
+        if (built.repeated > 0)
+            remarks.push_back(std::to_string(built.repeated) +
+                              (built.repeated == 1 ? " image is" : " images are") +
+                              " in the series twice and taken once." + begins);
         const int number = ++count[one.series.modality];
         one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
         one.series.missing_slices = std::move(built.missing_slices);

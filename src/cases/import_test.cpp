@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -18,6 +20,7 @@
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "medical/mesh_measures.h"
+#include "medical/window.h"
 #include "sandbox/filter.h"
 #include "testing/temporary_folder.h"
 
@@ -204,6 +207,34 @@ TEST_F(Import, Monochrome1IsShownTheOtherWayRound) {
     EXPECT_EQ(loaded.volumes[0].samples[5], image(0).samples[5]);
 }
 
+// Compares with the pictures that dcmj2pnm (of DCMTK) makes of the same files in the same window.
+TEST_F(Import, GreysOfBothPhotometricInterpretationsAreThoseOfDcmtk) {
+    if (std::system("command -v dcmj2pnm >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "no dcmj2pnm: install dcmtk";
+    const fs::path picture = folder_.path() / "slice.png";
+    for (const bool inverted : {false, true}) {
+        fs::remove_all(source());
+        fs::remove_all(target());
+        fs::create_directories(source());
+        for (int i = 0; i < 3; ++i) {
+            DicomSlice slice = image(i);
+            slice.inverted = inverted;
+            write_image(source() / (std::to_string(i) + ".dcm"), slice, i);
+        }
+        import();
+        const medical::Volume volume = read_case(target()).volumes.at(0);
+        const medical::GreyTable greys({60, 350}, volume);
+        const std::string draw = "dcmj2pnm +Ww 60 350 +on '" + (source() / "1.dcm").string() +
+                                 "' '" + picture.string() + "'";
+        ASSERT_EQ(std::system(draw.c_str()), 0);
+        const ColorImage expected = files::read_color_png(picture);
+        ASSERT_EQ(expected.size, (Size{40, 30}));
+        for (std::size_t i = 0; i < 1200; ++i)
+            ASSERT_NEAR(int(greys[volume.samples[1200 + i]]), int(expected.pixels[i].r), 1)
+                << (inverted ? "MONOCHROME1" : "MONOCHROME2");
+    }
+}
+
 TEST_F(Import, MissingSlicesAreReported) {
     write_series(source(), 8);
     fs::remove(source() / "image3.dcm");
@@ -236,9 +267,93 @@ TEST_F(Import, ImagesOfTwoPatientsAreRefused) {
     write_image(source() / "image2.dcm", image(2), 2);
     write_image(source() / "z.dcm", other, 9, "Beispiel^Max", "");
     EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
-    // The same person, as another program writes it.
     write_image(source() / "z.dcm", other, 9, "MUSTERMANN^ERIKA", "");
-    EXPECT_EQ(import().manifest.series.size(), 2u);
+    EXPECT_EQ(import().manifest.series.size(), 2u) << "the same, as another program writes it";
+}
+
+TEST_F(Import, APatientIsOneHoweverProgramsWriteTheName) {
+    DicomSlice other = image(0);
+    other.series_uid = "1.2.3.9";
+    const auto series_of = [&](const std::string& name, const std::string& as) {
+        fs::remove_all(folder_.path());
+        fs::create_directories(source());
+        write_image(source() / "a.dcm", image(0), 0, name, "");
+        write_image(source() / "z.dcm", other, 9, as, "");
+        return import().manifest.series.size();
+    };
+    for (const char* as : {"M\xdcLLER^ANNA", "MUELLER^ANNA", "Muller Anna", "Mueller, Anna^^^",
+                           "M\xfcller^Anna=\xa4^\xa4", ""})
+        EXPECT_EQ(series_of("M\xfcller^Anna", as), 2u) << as;
+    for (const char* as : {"M\xfcller^Hanna", "Miller^Anna", "Moeller^Anna"})
+        EXPECT_THAT(sentence([&] { series_of("M\xfcller^Anna", as); }),
+                    HasSubstr("more than one patient"))
+            << as;
+}
+
+// The bytes of a picture of a dose report, as scanners put it beside the series.
+Bytes picture_in_colour() {
+    DicomSlice slice = image(0);
+    slice.series_uid = "1.2.3.9";
+    slice.rows = 3;
+    slice.columns = 20;
+    slice.samples.resize(60);
+    DicomTexts texts;
+    texts.instance_uid = "1.2.3.4.5.9";
+    Bytes bytes = write_dicom(slice, texts);
+    // 2 rows of 20 pixels, each 3 bytes.
+    const auto set = [&](std::uint16_t element, std::uint16_t value) {
+        std::byte tag[] = {std::byte(0x28), std::byte(0),   std::byte(0),
+                           std::byte(0),    std::byte('U'), std::byte('S')};
+        store_le(tag + 2, element);
+        const auto at = std::search(bytes.begin(), bytes.end(), std::begin(tag), std::end(tag));
+        store_le(&*at + 8, value);
+    };
+    set(0x02, 3);
+    set(0x10, 2);
+    set(0x100, 8);
+    set(0x101, 8);
+    set(0x102, 7);
+    set(0x103, 0);
+    constexpr std::string_view grey = "MONOCHROME2 ", color = "RGB         ";
+    const auto at =
+        std::search(bytes.begin(), bytes.end(), as_bytes(grey).begin(), as_bytes(grey).end());
+    std::copy(as_bytes(color).begin(), as_bytes(color).end(), at);
+    return bytes;
+}
+
+TEST_F(Import, PicturesInColourBesideASeriesAreLeftOut) {
+    write_series(source());
+    files::write_file(source() / "dose.dcm", picture_in_colour());
+    const ImportReport report = import();
+    EXPECT_EQ(report.manifest.series.size(), 1u);
+    EXPECT_THAT(report.remarks, ElementsAre(AllOf(HasSubstr("1 DICOM file is no slice"),
+                                                  HasSubstr("dose.dcm' is a picture in colour"))));
+    fs::remove_all(target());
+    fs::remove_all(source());
+    fs::create_directories(source());
+    files::write_file(source() / "dose.dcm", picture_in_colour());
+    EXPECT_THAT(refusal(), HasSubstr("dose.dcm' is a picture in colour"));
+}
+
+TEST_F(Import, ImagesThatAreThereTwiceAreTakenOnce) {
+    write_series(source());
+    fs::copy(source(), source() / "copy");
+    fs::remove(source() / "copy" / "image1.dcm");
+    const ImportReport report = import();
+    EXPECT_THAT(report.remarks, ElementsAre(HasSubstr("4 images are in the series twice")));
+    EXPECT_EQ(read_case(target()).volumes.at(0).grid.slices, 5);
+}
+
+TEST_F(Import, LinksAreFollowedWhereTheyAreTheSourceOnly) {
+    write_cube_stl(folder_.path() / "cube.stl", 0);
+    fs::create_directories(source());
+    fs::create_symlink(folder_.path() / "cube.stl", source() / "linked.stl");
+    EXPECT_THAT(refusal(), HasSubstr("links in it are not followed"));
+    write_series(source());
+    EXPECT_THAT(import().remarks, ElementsAre(HasSubstr("Links in the source are not followed")));
+    fs::remove_all(target());
+    EXPECT_EQ(import_case(source() / "linked.stl", target(), {}, no_progress).manifest.parts.size(),
+              1u);
 }
 
 TEST_F(Import, SeriesOfTwoFramesOfReferenceAreRemarkedOn) {
@@ -354,6 +469,20 @@ TEST_F(Import, ASourcesManifestNamesPartsUnitsAndAxes) {
     EXPECT_EQ(loaded.manifest.parts.at(0).role, medical::Role::tumour);
     EXPECT_EQ(loaded.manifest.parts[0].color, (Rgb{0x11, 0x22, 0x33}));
     EXPECT_NEAR(medical::box_of(loaded.meshes.at(0)).low_mm.x, -410, 1e-3);
+}
+
+TEST_F(Import, RegionsOfAnOrganWithAShellDoNotHideWhatIsInIt) {
+    fs::create_directories(source());
+    write_cube_stl(source() / "liver_segment_4.stl", 0);
+    write_cube_stl(source() / "spleen.stl", 50);
+    EXPECT_EQ(import().manifest.parts.at(0).opacity, 1);
+    fs::remove_all(target());
+    write_cube_stl(source() / "liver.stl", 0);
+    for (const medical::Part& part : import().manifest.parts)
+        EXPECT_EQ(part.opacity, part.name == "liver"    ? 0.35
+                                : part.name == "spleen" ? 1
+                                                        : 0.15)
+            << part.name;
 }
 
 TEST_F(Import, ASizeThatNoOrganHasIsRemarkedOn) {

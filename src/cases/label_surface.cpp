@@ -94,12 +94,14 @@ double sample_volume_mm3(const VolumeGrid& grid) {
     return std::abs(dot(grid.column_step_mm, cross(grid.row_step_mm, grid.slice_step_mm)));
 }
 
-Mesh surface_of_label(const LabelMap& map, int value, std::size_t max_triangles) {
+Mesh surface_of_label(const LabelMap& map, int value, std::size_t max_triangles,
+                      const std::function<void()>& between_steps) {
     const Block block = block_of(map, value);
     if (block.samples == 0)
         return {};
     const VolumeGrid grid = grid_of(map.grid, block);
     const auto field = [&](int slice, std::span<float> out) {
+        between_steps();
         for (int j = 0; j < grid.rows; ++j)
             for (int c = 0; c < grid.columns; ++c)
                 out[std::size_t(j) * std::size_t(grid.columns) + std::size_t(c)] =
@@ -110,8 +112,10 @@ Mesh surface_of_label(const LabelMap& map, int value, std::size_t max_triangles)
     if (mesh.triangles.empty())
         return mesh;
     const double volume = double(block.samples) * sample_volume_mm3(map.grid);
+    between_steps();
     medical::smooth(mesh, smoothing_rounds);
     medical::restore_volume(mesh, volume);
+    between_steps();
     medical::simplify(mesh, max_triangles);
     medical::restore_volume(mesh, volume);
     medical::compute_normals(mesh);

@@ -2,6 +2,7 @@
 // Smooth closed surfaces around the labels of a label map. Pure functions.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cases/label_map.h"
@@ -21,7 +22,10 @@ double sample_volume_mm3(const medical::VolumeGrid& grid);
 
 // The surface around all samples of one label: closed, manifold, smoothed (steps of thick slices
 // stay visible), as large as the samples together, of about `max_triangles`. Empty where the label
-// does not occur or its surface has too many triangles. Also holds normals.
-medical::Mesh surface_of_label(const LabelMap& map, int value, std::size_t max_triangles);
+// does not occur or its surface has too many triangles. Also holds normals. `between_steps` is
+// called often, and may throw to stop this.
+medical::Mesh surface_of_label(
+    const LabelMap& map, int value, std::size_t max_triangles,
+    const std::function<void()>& between_steps = [] {});
 
 }  // namespace theatron::cases

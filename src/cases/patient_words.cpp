@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "cases/folded_text.h"
+
 namespace theatron::cases {
 namespace {
 
@@ -64,119 +66,6 @@ constexpr MonthName month_names[] = {
 template <typename Words>
 bool is_one_of(const Words& words, std::string_view word) {
     return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
-
-// Basic letters of U+00C0 to U+017F; blank: none.
-constexpr std::string_view basic_letters =
-    "aaaaaaaceeeeiiiidnooooo ouuuuyts"
-    "aaaaaaaceeeeiiiidnooooo ouuuuyty"
-    "aaaaaaccccccccddddeeeeeeeeeegggg"
-    "gggghhhhiiiiiiiiiiiijjkkklllllll"
-    "lllnnnnnnnnnoooooooorrrrrrssssss"
-    "ssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
-static_assert(basic_letters.size() == 0x180 - 0xc0);
-
-// How umlauts and their like become ASCII: "Müller" is "muller" or "mueller".
-enum class Umlaut { as_one_letter, as_two_letters };
-
-// One code point of UTF-8; a byte that is none counts as itself.
-std::uint32_t next_code_point(std::string_view text, std::size_t& at) {
-    const auto byte = [&](std::size_t i) { return std::uint8_t(text[i]); };
-    const std::uint8_t first = byte(at++);
-    const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-    if (first < 0x80 || more == 0 || at + std::size_t(more) > text.size())
-        return first;
-    std::uint32_t point = first & (0x3fu >> more);
-    for (int i = 0; i < more; ++i)
-        point = point << 6 | (byte(at++) & 0x3f);
-    return point;
-}
-
-bool has_two_letters(std::uint32_t point) {
-    constexpr std::uint32_t umlauts[] = {0xc4, 0xd6, 0xdc, 0xe4, 0xf6, 0xfc,
-                                         0xc5, 0xe5, 0xc6, 0xe6, 0xd8, 0xf8};
-    return std::find(std::begin(umlauts), std::end(umlauts), point) != std::end(umlauts);
-}
-
-// Where words end: at separators only, or also between a small letter and a capital, and between
-// letters and digits.
-enum class Split { at_separators, at_changes };
-
-enum class Kind { other, digit, small, capital };
-
-Kind kind_of(std::uint32_t point) {
-    if (point >= '0' && point <= '9')
-        return Kind::digit;
-    if ((point >= 'A' && point <= 'Z') || (point >= 0xc0 && point <= 0xde))
-        return Kind::capital;
-    return (point >= 'a' && point <= 'z') || (point >= 0xdf && point <= 0xff) ? Kind::small
-                                                                              : Kind::other;
-}
-
-bool is_change(Kind before, Kind next) {
-    return (before == Kind::digit) != (next == Kind::digit) ||
-           (before == Kind::small && next == Kind::capital);
-}
-
-bool is_accent(std::uint32_t point) {
-    return point >= 0x300 && point < 0x370;
-}
-
-// A letter or digit in small basic letters; letters of other scripts stay. Empty: a separator.
-std::string folded(std::uint32_t point, std::string_view bytes, Umlaut umlaut) {
-    if (point < 0x80) {
-        const bool is_capital = point >= 'A' && point <= 'Z';
-        const bool is_kept =
-            is_capital || (point >= '0' && point <= '9') || (point >= 'a' && point <= 'z');
-        return is_kept ? std::string(1, char(is_capital ? point - 'A' + 'a' : point)) : "";
-    }
-    if (point >= 0xc0 && point < 0x180) {
-        const char basic = basic_letters[point - 0xc0];
-        if (basic == ' ')
-            return "";
-        std::string letters(1, basic);
-        if (point == 0xdf)
-            letters += 's';
-        else if (umlaut == Umlaut::as_two_letters && has_two_letters(point))
-            letters += point == 0xc5 || point == 0xe5 ? 'a' : 'e';
-        return letters;
-    }
-    const bool is_letter = point >= 0x180 && point != 0x2013 && point != 0x2014 && point != 0x3000;
-    return is_letter ? std::string(bytes) : "";
-}
-
-// The words of a text, folded.
-std::vector<std::string> folded_words(std::string_view text, Umlaut umlaut, Split split) {
-    std::vector<std::string> words(1);
-    Kind before = Kind::other;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t begin = at;
-        const std::uint32_t point = next_code_point(text, at);
-        // An accent that follows its letter, as some systems write file names.
-        if (is_accent(point)) {
-            if (point == 0x308 && umlaut == Umlaut::as_two_letters)
-                words.back() += 'e';
-            continue;
-        }
-        const std::string letters = folded(point, text.substr(begin, at - begin), umlaut);
-        const Kind kind = kind_of(point);
-        const bool ends =
-            letters.empty() || (split == Split::at_changes && is_change(before, kind));
-        if (ends && !words.back().empty())
-            words.emplace_back();
-        words.back() += letters;
-        before = kind;
-    }
-    if (words.back().empty())
-        words.pop_back();
-    return words;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words)
-        all += word;
-    return all;
 }
 
 bool is_number(std::string_view word) {

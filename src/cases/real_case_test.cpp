@@ -173,6 +173,10 @@ TEST(RealCase, AnAtlasInGlbBecomesNamedPartsInPatientCoordinates) {
     import_case(shared_case("hra-liver-vhf"), target, {}, no_progress);
     const LoadedCase loaded = read_case(target);
     EXPECT_EQ(loaded.meshes.size(), 37u);
+    for (const medical::Part& part : loaded.manifest.parts) {
+        const bool is_region = part.name.find("impression") != std::string::npos;
+        EXPECT_TRUE(!is_region || part.opacity < 0.3) << part.name << " would hide the vessels";
+    }
     for (std::size_t i = 0; i < loaded.meshes.size(); ++i)
         if (loaded.manifest.parts[i].role == medical::Role::shell) {
             const medical::Box box = medical::box_of(loaded.meshes[i]);

@@ -53,6 +53,25 @@ std::string difference(const DicomSlice& a, const DicomSlice& b) {
     return "";
 }
 
+BuiltSeries problem_of(std::string sentence) {
+    BuiltSeries built;
+    built.problem = std::move(sentence);
+    return built;
+}
+
+// People copy folders into one another. Returns the number of images that are left out because
+// another one has the same place and values.
+std::size_t remove_repeated(std::vector<Sorted>& order, const std::vector<DicomSlice>& slices) {
+    const auto is_same = [&](const Sorted& a, const Sorted& b) {
+        return b.along_mm - a.along_mm < same_place_mm &&
+               slices[a.index].samples == slices[b.index].samples;
+    };
+    const auto end = std::unique(order.begin(), order.end(), is_same);
+    const auto count = std::size_t(order.end() - end);
+    order.erase(end, order.end());
+    return count;
+}
+
 // The distance of neighbours: that which most are apart, so that a few missing do not matter.
 double usual_distance(const std::vector<Sorted>& order) {
     std::vector<double> distances;
@@ -112,11 +131,11 @@ void bring_to_one_scale(std::vector<DicomSlice>& slices, Volume& volume) {
 
 BuiltSeries build_series(std::vector<DicomSlice>& slices) {
     if (slices.empty())
-        return {{}, {}, "The series holds no images."};
+        return problem_of("The series holds no images.");
     const DicomSlice& first = slices.front();
     for (const DicomSlice& slice : slices)
         if (std::string problem = difference(first, slice); !problem.empty())
-            return {{}, {}, std::move(problem)};
+            return problem_of(std::move(problem));
 
     const Vec3 normal = cross(first.right, first.down);
     std::vector<Sorted> order;
@@ -124,14 +143,16 @@ BuiltSeries build_series(std::vector<DicomSlice>& slices) {
         order.push_back({dot(slices[i].position_mm, normal), i});
     std::sort(order.begin(), order.end(),
               [](const Sorted& a, const Sorted& b) { return a.along_mm < b.along_mm; });
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (order[i].along_mm - order[i - 1].along_mm < same_place_mm)
-            return {{},
-                    {},
-                    "Two images of the series lie at the same place; export each phase or "
-                    "reconstruction as a series of its own."};
-
     BuiltSeries built;
+    built.repeated = remove_repeated(order, slices);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (order[i].along_mm - order[i - 1].along_mm < same_place_mm) {
+            built.problem =
+                "Two images of the series lie at the same place; export each phase or "
+                "reconstruction as a series of its own.";
+            return built;
+        }
+
     double step_mm = order.size() > 1 ? usual_distance(order) : 1;
     const std::vector<int> numbers = number_slices(order, step_mm, built.problem);
     if (!built.problem.empty())

@@ -35,6 +35,31 @@ void sort_in(const fs::path& file, SourceFiles& files) {
         files.others.push_back(file);
 }
 
+// Sorted by name. An error in the middle would leave files out without a word.
+std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
+    const std::string name = quoted_path(folder);
+    std::vector<fs::path> found;
+    std::error_code failed, ignored;
+    for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        if (at->is_symlink(ignored)) {
+            ++links;
+            continue;
+        }
+        if (at.depth() >= deepest_folder)
+            at.disable_recursion_pending();
+        if (at->is_regular_file(ignored))
+            found.push_back(at->path());
+        if (found.size() > max_source_files)
+            throw Error(name + " holds more than " + std::to_string(max_source_files) +
+                        " files; name the folder of one patient.");
+    }
+    if (failed)
+        throw Error(name + " cannot be read to its end: " + failed.message() + ".");
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 }  // namespace
 
 bool is_nifti_file(const fs::path& file) {
@@ -50,36 +75,21 @@ SourceFiles find_source_files(const fs::path& source) {
     SourceFiles files;
     std::error_code failed;
     if (fs::is_regular_file(source, failed)) {
-        sort_in(source, files);
+        // Readers follow no links.
+        sort_in(fs::is_symlink(source, failed) ? fs::canonical(source) : source, files);
     } else {
         if (!fs::is_directory(source, failed))
             throw Error(fs::exists(source, failed) ? name + " is neither a file nor a folder."
                                                    : "There is no file or folder " + name + ".");
-        std::vector<fs::path> found;
-        const auto options = fs::directory_options::skip_permission_denied;
-        for (fs::recursive_directory_iterator at(source, options, failed), end; at != end;
-             at.increment(failed)) {
-            if (failed)
-                break;
-            if (at->is_symlink(failed))
-                continue;
-            if (at.depth() >= deepest_folder)
-                at.disable_recursion_pending();
-            if (at->is_regular_file(failed))
-                found.push_back(at->path());
-            if (found.size() > max_source_files)
-                throw Error(name + " holds more than " + std::to_string(max_source_files) +
-                            " files; name the folder of one patient.");
-        }
-        std::sort(found.begin(), found.end());
-        for (const fs::path& file : found)
+        for (const fs::path& file : files_below(source, files.links))
             sort_in(file, files);
     }
     if (files.images.empty() && files.meshes.empty() && files.label_maps.empty() &&
         files.pictures.empty())
         throw Error(name +
                     " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
-                    "maps (NIfTI, NRRD) nor pictures (PNG, JPEG).");
+                    "maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
+                    (files.links > 0 ? "; links in it are not followed." : "."));
     return files;
 }
 

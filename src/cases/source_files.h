@@ -13,10 +13,12 @@ struct SourceFiles {
     std::vector<std::filesystem::path> label_maps;
     std::vector<std::filesystem::path> pictures;  // PNG, JPEG
     std::vector<std::filesystem::path> others;
+    std::size_t links = 0;  // that were not followed
 };
 
 // All regular files in the folder and those below it, or `source` itself, in the order of their
-// names. Links are not followed. Throws Error where there is nothing, or far too much.
+// names. A link is followed if it is `source`, not in the folder. Throws Error where there is
+// nothing, or far too much, or a folder cannot be read to its end.
 SourceFiles find_source_files(const std::filesystem::path& source);
 
 bool is_nifti_file(const std::filesystem::path& file);

@@ -21,6 +21,11 @@ struct SynthTumour {
 };
 double distance(Vec3 p, const SynthTumour& tumour);
 
+// Three of different sizes, inside the liver, apart from each other and, where there is room, off
+// the large vessels.
+std::vector<SynthTumour> place_tumours(const SynthLiver& liver, const SynthVessels& vessels,
+                                       std::uint64_t seed);
+
 // The least distance to any of the pieces at each sample of a layer; `far` where none is nearer.
 // Takes the pieces near the layer only.
 void vessel_layer(const medical::VolumeGrid& grid, int slice,

@@ -97,40 +97,6 @@ medical::Box box_of(const SynthTumour& tumour) {
     return {tumour.center_mm - room, tumour.center_mm + room};
 }
 
-// Three of different sizes, inside the liver, apart from each other and off the large vessels.
-std::vector<SynthTumour> place_tumours(const SynthLiver& liver, const SynthVessels& vessels,
-                                       std::uint64_t seed) {
-    SynthRandom random(mixed(seed + 3));
-    const medical::Box box = liver.box();
-    std::vector<SynthTumour> tumours;
-    for (const double size : {19.0, 13.0, 9.0}) {
-        SynthTumour best;
-        double best_room = -1e9;
-        for (int candidate = 0; candidate < 400; ++candidate) {
-            const Vec3 p{random.between(box.low_mm.x, box.high_mm.x),
-                         random.between(box.low_mm.y, box.high_mm.y),
-                         random.between(box.low_mm.z, box.high_mm.z)};
-            double room = -liver.distance(p) - 1.4 * size - 3;
-            for (const SynthTumour& other : tumours)
-                room = std::min(room, length(p - other.center_mm) - 1.2 * size - 40);
-            for (const auto* tree : {&vessels.portal_vein, &vessels.hepatic_veins})
-                for (const VesselPiece& piece : *tree)
-                    if (piece.radius_b_mm > 1.6)
-                        room = std::min(room, distance(p, piece) - 1.1 * size);
-            if (room > best_room) {
-                best_room = room;
-                best.center_mm = p;
-            }
-        }
-        best.radius_mm = size;
-        for (SynthTumour::Bump& bump : best.bumps)
-            bump = {random.direction() * (size * random.between(0.55, 0.75)),
-                    size * random.between(0.5, 0.62)};
-        tumours.push_back(best);
-    }
-    return tumours;
-}
-
 Part part(std::string name, Role role) {
     Part p;
     p.name = std::move(name);

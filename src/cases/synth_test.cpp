@@ -136,6 +136,23 @@ TEST(Synth, ThreeTumoursLieApartInTheLiver) {
     }
 }
 
+// Seed 99 leaves little room between the vessels.
+TEST(Synth, TumoursNeverLeaveTheLiver) {
+    for (const std::uint64_t seed : {0, 1, 99}) {
+        const SynthLiver liver(seed);
+        for (const SynthTumour& tumour : place_tumours(liver, vessels_of(seed), seed)) {
+            const double reach = 1.6 * tumour.radius_mm, step = reach / 20;
+            for (double z = -reach; z <= reach; z += step)
+                for (double y = -reach; y <= reach; y += step)
+                    for (double x = -reach; x <= reach; x += step) {
+                        const Vec3 p = tumour.center_mm + Vec3{x, y, z};
+                        ASSERT_TRUE(distance(p, tumour) > 0 || liver.distance(p) < 0)
+                            << "seed " << seed;
+                    }
+        }
+    }
+}
+
 TEST(Synth, EverySurfaceIsClosedAndManifold) {
     for (std::size_t i = 0; i < coarse().meshes.size(); ++i) {
         const medical::MeshShape shape = medical::shape_of(coarse().meshes[i]);

@@ -35,10 +35,12 @@ constexpr Hint hints[] = {
     {" hcc ", Role::tumour},
     {"porta hepatis", Role::other},
     {"portal", Role::portal_vein},
+    {"pfortader", Role::portal_vein},
     {"splenic vein", Role::portal_vein},
     {"mesenteric vein", Role::portal_vein},
     {" pv ", Role::portal_vein},
     {"hepatic vein", Role::hepatic_vein},
+    {"lebervene", Role::hepatic_vein},
     {"vena cava", Role::hepatic_vein},
     {" ivc ", Role::hepatic_vein},
     {" hv ", Role::hepatic_vein},
@@ -56,6 +58,7 @@ constexpr Hint hints[] = {
     {" lobe ", Role::other},
     {" area ", Role::other},
     {" liver ", Role::shell},
+    {" leber ", Role::shell},
     {"parenchyma", Role::shell},
 };
 

@@ -200,6 +200,9 @@ TEST(Case, NamesTellRoles) {
     EXPECT_EQ(role_of_name("liver"), Role::shell);
     EXPECT_EQ(role_of_name("VH_F_liver_capsule"), Role::shell);
     EXPECT_EQ(role_of_name("portal_vein"), Role::portal_vein);
+    EXPECT_EQ(role_of_name("Leber"), Role::shell);
+    EXPECT_EQ(role_of_name("Lebervenen"), Role::hepatic_vein);
+    EXPECT_EQ(role_of_name("Lebersegment 4"), Role::other);
     EXPECT_EQ(role_of_name("Hepatic artery proper"), Role::artery);
     EXPECT_EQ(role_of_name("InferiorVenaCava"), Role::hepatic_vein);
     EXPECT_EQ(role_of_name("lesion_candidate"), Role::tumour);

@@ -134,8 +134,9 @@ void Monitor::Face::show(ColorView picture) {
         return;
     size_m = size;
     panel.emplace(render::make_panel_mesh(size.x, size.y));
-    render::MeshData mesh = render::make_box_mesh({-size.x / 2, size.y / 2, -0.01},
-                                                  {size.x / 2, size.y / 2 + bar_m, 0.01});
+    // The bar's front is that of the picture: the facts stand before it.
+    render::MeshData mesh =
+        render::make_box_mesh({-size.x / 2, size.y / 2, 0}, {size.x / 2, size.y / 2 + bar_m, 0.01});
     room::append(
         mesh,
         render::make_box_mesh({-size.x / 2, -size.y / 2, 0.002}, {size.x / 2, size.y / 2, 0.01}),

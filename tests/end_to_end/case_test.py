@@ -279,20 +279,29 @@ class Case(unittest.TestCase):
             for person in (anna, ben):
                 person.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] == 1, 20)
 
-            def count(name, is_it):
+            def count(name, *tests):
                 with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240", "--quality", "low",
                              "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
                     self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
                 width, height, channels, rows = read_png(self.folder / name)
-                return sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
+                return [sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
+                        for is_it in tests]
 
-            self.assertGreater(count("red.png", lambda r, g, b: r > 150 and g < 60 and b < 60), 500)
+            self.assertGreater(count("red.png", lambda r, g, b: r > 150 and g < 60 and b < 60)[0], 500)
             for line, problem in (("case picture 3", "The number is a number from 1 to 2"), ("case series 1", "no images")):
                 ben.say(line)
                 self.wait_for_error(ben, problem)
             ben.say("case picture 2")
             anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 2, 10)
-            self.assertGreater(count("green.png", lambda r, g, b: g > 140 and r < 60 and b < 70), 500)
+            # Near enough to read its name and number below it.
+            screen = anna.newest_json()["cases"]["open"]["screen"]["object"]
+            for line in (f"grab {screen}", "move 0 1.3 0.5", "release"):
+                ben.say(line)
+            anna.wait_for(lambda f: self.position(f, screen) == [0, 1.3, 0.5], 10)
+            green, ink = count("green.png", lambda r, g, b: g > 140 and r < 60 and b < 70,
+                               lambda r, g, b: r > 150 and g > 110 and r > b + 60)
+            self.assertGreater(green, 500)
+            self.assertGreater(ink, 30)
             # A case with both: slices first, pictures by a line, slices again.
             write_case(self.cases / "liver", pictures=[(200, 100, 90)])
             anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"], 10)

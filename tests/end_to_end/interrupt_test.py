@@ -69,6 +69,21 @@ class Interrupt(unittest.TestCase):
         bench.wait(60)
         self.assertTrue(wait_for(lambda: not any(map(runs, children))))
 
+    def test_while_a_case_is_imported(self):
+        source, made = self.folder / "source", self.folder / "cases"
+        source.mkdir()
+        made.mkdir()
+        triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 40 0 0\nvertex 0 40 0\nendloop\nendfacet\n"
+        for i in range(200):
+            (source / f"part_{i}.stl").write_text(f"solid a\n{triangle}endsolid\n")
+        importing = self.start("case", "import", source, made / "liver")
+        self.assertTrue(wait_for(lambda: any(made.iterdir())))
+        importing.send_signal(signal.SIGINT)
+        _, errors = importing.communicate(timeout=60)
+        self.assertEqual(importing.returncode, 1, errors)
+        self.assertIn("Stopped before the case was complete; nothing of it was kept.", errors)
+        self.assertEqual(list(made.iterdir()), [])
+
 
 if __name__ == "__main__":
     unittest.main()
