@@ -26,9 +26,10 @@ nlohmann::json lobby_session(const HostFigures& figures, const LobbyGuest& guest
                              const std::string& thumbnail) {
     nlohmann::json session{{"name", figures.name},
                            {"asks", guest.must_ask},
-                           {"held_back", guest.is_held_back},
                            {"ended", figures.has_ended},
                            {"people_count", figures.participants.size()}};
+    if (guest.is_held_back)
+        session["held_back"] = true;
     if (!guest.sees_inside() || figures.has_ended)
         return session;
     nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();

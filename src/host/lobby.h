@@ -30,7 +30,7 @@ struct LobbyGuest {
 
 // {"role","sessions":[{"name","asks","held_back","ended","people_count",
 // "people":[{"name","role","muted"}],"cameras":[{"name","state"}],"thumbnail"}]}. For a guest who
-// does not see inside: without names, cameras and picture.
+// does not see inside: without names, cameras and picture; "held_back" is missing for others.
 nlohmann::json lobby_json(const HostFigures& figures, const LobbyGuest& guest);
 // A further element of its "sessions", whose picture has this address.
 nlohmann::json lobby_session(const HostFigures& figures, const LobbyGuest& guest,
