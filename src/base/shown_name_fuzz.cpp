@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes: the name is unchanged by a second pass, has no more characters than allowed, looks like
-// itself, and is told apart from itself.
+// Any bytes: the name is unchanged by a second pass, has no more characters than allowed, looks
+// like itself, and is told apart from itself.
 #include <cstdint>
 #include <cstdlib>
 
