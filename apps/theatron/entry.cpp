@@ -62,20 +62,31 @@ xr::EntryFacts facts_without_answer(const ReadLink& read) {
     return facts;
 }
 
-// "Also here: OR 4 (2 people), OR 5 (nobody)", of the other sessions that the link's bearer may
-// see.
+std::vector<xr::EntryRecent> shown(const client::RecentLinks& recents) {
+    std::vector<xr::EntryRecent> shown;
+    for (const client::RecentLink& recent : recents)
+        shown.push_back({recent.session, client::recent_link_text(recent)});
+    return shown;
+}
+
+std::string presence_text(const nlohmann::json& session) {
+    if (is_set(session, "closed"))
+        return "not open";
+    const bool has_count =
+        session.contains("people_count") && session["people_count"].is_number_integer();
+    const auto people = has_count ? session["people_count"].get<std::int64_t>() : 0;
+    return people <= 0 ? "nobody" : people == 1 ? "1 person" : std::to_string(people) + " people";
+}
+
+// "Also here: OR 4 (2 people), OR 5 (nobody), OR 6 (not open)", of the other sessions that the
+// link's bearer may see.
 std::string others_text(const nlohmann::json& sessions) {
     constexpr std::size_t named = 6;
     std::string line;
     for (std::size_t i = 1; i < sessions.size() && i <= named; ++i) {
         const nlohmann::json& session = sessions[i];
-        const bool has_count =
-            session.contains("people_count") && session["people_count"].is_number_integer();
-        const auto people = has_count ? session["people_count"].get<std::int64_t>() : 0;
         line += (line.empty() ? "Also here: " : ", ") + text(session, "name") + " (" +
-                (people <= 0 ? "nobody"
-                             : std::to_string(people) + (people == 1 ? " person" : " people")) +
-                ")";
+                presence_text(session) + ")";
     }
     return sessions.size() > named + 1
                ? line + ", and " + std::to_string(sessions.size() - named - 1) + " more"
@@ -107,6 +118,8 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (const std::string cameras = list_text(session, "cameras", "state", "camera", "cameras");
         !cameras.empty())
         facts.lines.push_back(cameras);
+    if (is_set(session, "held_back"))
+        facts.lines.push_back(held_back);
     if (const std::string others = others_text(lobby["sessions"]); !others.empty())
         facts.lines.push_back(others);
     facts.hint = is_set(session, "asks") ? "An operator lets you in after you have knocked."
@@ -115,10 +128,12 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
 }
 
 std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
-                                 const std::string& problem) {
+                                 const std::string& problem, client::RecentLinks recents,
+                                 const std::function<void(const std::string& link)>& forget) {
     window.set_title("Enter a session - Theatron");
     xr::EntryForm form(fields, {[&] { return window.clipboard(); },
                                 [&](const std::string& text) { window.set_clipboard(text); }});
+    form.set_recents(shown(recents));
     LobbyWatch watch([&] { window.wake(); });
     ReadLink read = read_link(fields.link);
     watch.set_link(read.link);
@@ -143,6 +158,17 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
         must_draw = false;
         if (pressed == xr::EntryAnswer::leave)
             break;
+        if (const auto recent = form.take_recent()) {
+            const std::string link = recents.at(recent->index).link;
+            if (recent->forgets) {
+                recents.erase(recents.begin() + std::ptrdiff_t(recent->index));
+                form.set_recents(shown(recents));
+                forget(link);
+            } else {
+                form.set_hidden_link(link);
+            }
+            must_draw = true;
+        }
         if (form.fields().link != fields.link) {
             read = read_link(form.fields().link);
             watch.set_link(read.link);

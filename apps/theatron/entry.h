@@ -2,10 +2,12 @@
 // The form before a session, for a person who has no link on the command line, or no name yet.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
+#include "client/recent_links.h"
 #include "net/link.h"
 #include "xr/desktop_window_native.h"
 #include "xr/entry_form_native.h"
@@ -19,9 +21,11 @@ struct Entered {
 };
 
 // Shows the form until the person enters or leaves (nullopt). `problem`: why the last session
-// ended, shown until the link changes; may be empty.
+// ended, shown until the link changes; may be empty. `forget` is called with a link of `recents`
+// that is to be offered no more.
 std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
-                                 const std::string& problem);
+                                 const std::string& problem, client::RecentLinks recents,
+                                 const std::function<void(const std::string& link)>& forget);
 
 // Turns the answer of a host's lobby into the texts of the form.
 xr::EntryFacts entry_facts(const nlohmann::json& lobby);

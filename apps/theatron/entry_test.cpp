@@ -38,9 +38,12 @@ TEST(EntryFacts, NameTheOtherSessionsThatTheLinkShows) {
     several["sessions"].push_back({{"name", "Ward 4"}, {"people_count", 0}});
     several["sessions"].push_back({{"name", "Ward 5"}, {"people_count", 1}});
     several["sessions"].push_back({{"name", "Ward 6"}, {"people_count", "many"}});
+    several["sessions"].push_back(
+        {{"name", "Ward 7"}, {"closed", true}, {"problem", "No camera."}});
     const xr::EntryFacts facts = entry_facts(several);
     EXPECT_EQ(facts.title, "Ward 3");
-    EXPECT_EQ(facts.lines.back(), "Also here: Ward 4 (nobody), Ward 5 (1 person), Ward 6 (nobody)");
+    EXPECT_EQ(facts.lines.back(),
+              "Also here: Ward 4 (nobody), Ward 5 (1 person), Ward 6 (nobody), Ward 7 (not open)");
 }
 
 TEST(EntryFacts, AnObserverLearnsThatNobodyHearsThem) {
@@ -54,6 +57,15 @@ TEST(EntryFacts, APersonWhoMustKnockSeesTheNameAlone) {
                      {"sessions", {{{"name", "Ward 3"}, {"asks", true}, {"people_count", 4}}}}});
     EXPECT_THAT(facts.lines, ElementsAre("You come as an expert."));
     EXPECT_EQ(facts.hint, "An operator lets you in after you have knocked.");
+    EXPECT_TRUE(facts.can_enter);
+}
+
+TEST(EntryFacts, OfALinkThatIsHeldBackSayWhyNobodyIsNamed) {
+    const xr::EntryFacts facts =
+        entry_facts({{"role", "expert"},
+                     {"sessions", {{{"name", "Ward 3"}, {"asks", false}, {"held_back", true}}}}});
+    EXPECT_EQ(facts.lines.back(),
+              "Somebody who came by this link was removed, so it does not show who is there.");
     EXPECT_TRUE(facts.can_enter);
 }
 

@@ -66,14 +66,15 @@ HostSessions::HostSessions(const host::HostOptions& options, const SessionFlags&
                     state_.string() +
                     "', so it cannot be the first: name the session first that was first, or use "
                     "another folder with --state.");
-    std::vector<std::string> others;
+    host::HostOptions with_others = options;
+    const auto comes = [&](const std::string& name) {
+        with_others.closed.push_back({name, "", host::valid_tokens(state_, name)});
+    };
     for (const SessionFlags& flags : further)
-        others.push_back(flags.options.name);
+        comes(flags.options.name);
     for (const host::KeptSession& kept : host::kept_sessions(state_))
         if (kept.words && !kept.ends)
-            others.push_back(kept.name);
-    host::HostOptions with_others = options;
-    with_others.closed_tokens = host::valid_tokens(state_, others);
+            comes(kept.name);
     const capture::Progress progress = cli::show_progress();
     first_ = std::make_unique<host::Host>(with_others, progress);
     draw_regions(*first_, first.regions);
@@ -136,25 +137,28 @@ void HostSessions::follow_folders() {
         if (session->is_kept && std::ranges::find(kept, session->flags.options.name,
                                                   &host::KeptSession::name) == kept.end())
             gone.push_back(session->flags.options.name);
-    for (const std::string& name : gone)
+    for (const std::string& name : gone) {
         end(name);
+        first_->note_deleted(name);
+    }
     open_next();
-    tell_closed();
+    first_->set_closed(closed());
     tell();
 }
 
-void HostSessions::tell_closed() {
-    std::vector<std::string> closed;
+std::vector<host::ClosedSession> HostSessions::closed() const {
+    std::vector<host::ClosedSession> closed;
     for (const auto& session : further_)
-        if (!session->opened.host)
-            closed.push_back(session->flags.options.name);
-    first_->set_closed_tokens(host::valid_tokens(state_, closed));
+        if (const std::string& name = session->flags.options.name; !session->opened.host)
+            closed.push_back({name, session->opened.problem, host::valid_tokens(state_, name)});
+    return closed;
 }
 
 void HostSessions::take_kept(const host::KeptSession& kept) {
     if (kept.ends && kept.name != opening_name_) {
         end(kept.name);
         host::forget_session(state_, kept.name);
+        first_->note_deleted(kept.name);
         return;
     }
     if (find(kept.name) || kept.ends || (!kept.words && kept.problem.empty()))
@@ -234,6 +238,8 @@ void HostSessions::end(const std::string& name) {
         std::ranges::find(further_, name, [](const auto& s) { return s->flags.options.name; });
     if (found == further_.end() || name == opening_name_)
         return;
+    if (host::Host* open = (*found)->opened.host.get())
+        open->end_by_host();
     further_.erase(found);
     log::info("host", "session has ended", {{"session", name}});
 }
@@ -259,10 +265,10 @@ void HostSessions::tell() {
     told_ = std::move(now);
 }
 
-std::vector<host::HostFigures> HostSessions::figures() const {
-    std::vector<host::HostFigures> figures;
+host::PortFigures HostSessions::figures() const {
+    host::PortFigures figures{{}, closed()};
     for (const auto& [name, host] : open())
-        figures.push_back(host->figures());
+        figures.sessions.push_back(host->figures());
     return figures;
 }
 

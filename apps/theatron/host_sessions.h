@@ -41,7 +41,7 @@ public:
     void follow();
 
     // As host::to_json().
-    std::vector<host::HostFigures> figures() const;
+    host::PortFigures figures() const;
     // A sentence about rooms that could not be saved; empty if all were.
     std::string room_problem() const;
 
@@ -58,11 +58,12 @@ private:
     };
 
     void follow_folders();
-    void tell_closed();
     void take_kept(const host::KeptSession& kept);
     void open_next();
     void take_opened();
+    // For good.
     void end(const std::string& name);
+    std::vector<host::ClosedSession> closed() const;
     void tell();
     Further* find(const std::string& name);
     static Opened open(const host::Host& first, const std::filesystem::path& state,

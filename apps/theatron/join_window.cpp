@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "cli/stop_signal.h"
+#include "client/recent_links.h"
 #include "entry.h"
+#include "files/state_folder.h"
 #include "link_argument.h"
 #include "viewer/head_text.h"
 #include "viewer_window.h"
@@ -28,6 +30,27 @@ std::string usable(const std::string& kept, const char* kind,
     log::say("The " + std::string(kind) + " '" + kept +
              "' is not plugged in: the usual one is used (choose another one with P).");
     return "default";
+}
+
+// Those that the last windows have entered. A problem is said.
+client::RecentLinks recent_links() {
+    std::string problem;
+    client::RecentLinks links = client::load_recent_links(files::state_folder(), problem);
+    if (!problem.empty())
+        log::say(problem);
+    return links;
+}
+
+void keep(const client::RecentLinks& links) {
+    if (const std::string problem = client::save_recent_links(files::state_folder(), links);
+        !problem.empty())
+        log::say(problem);
+}
+
+void forget_link(const std::string& link) {
+    client::RecentLinks links = recent_links();
+    std::erase_if(links, [&](const client::RecentLink& recent) { return recent.link == link; });
+    keep(links);
 }
 
 }  // namespace
@@ -56,7 +79,7 @@ void join_in_window(const JoinFlags& flags) {
     xr::DesktopWindow window("Theatron", parse_size(flags.size));
     for (std::string problem;;) {
         if (asks) {
-            const auto entered = ask_entry(window, fields, problem);
+            const auto entered = ask_entry(window, fields, problem, recent_links(), forget_link);
             if (!entered)
                 return;
             fields = entered->fields;
@@ -81,6 +104,9 @@ void join_in_window(const JoinFlags& flags) {
         now.join.voice_may_record = flags.voice_may_record || shown.settings.voice_may_record;
         now.keep = [&shown](const client::Settings& settings) {
             shown.keep(shown.settings = settings);
+        };
+        now.entered = [link = net::format_link(shown.join.link)](const std::string& session) {
+            keep(client::with_newest(recent_links(), {link, session}));
         };
         voice.hear_by(now.join);
         now.voice = &voice;

@@ -32,6 +32,12 @@ void print(const nlohmann::json& lobby) {
     if (!lobby.contains("sessions") || !lobby["sessions"].is_array())
         return;
     for (const auto& session : lobby["sessions"]) {
+        if (is_set(session, "closed")) {
+            const std::string problem = text(session, "problem");
+            std::printf("%s: %s\n", text(session, "name").c_str(),
+                        problem.empty() ? "is being opened" : ("not open. " + problem).c_str());
+            continue;
+        }
         const double people =
             session.contains("people_count") && session["people_count"].is_number()
                 ? session["people_count"].get<double>()
@@ -39,6 +45,8 @@ void print(const nlohmann::json& lobby) {
         std::printf("%s: %.0f participant(s)%s%s\n", text(session, "name").c_str(), people,
                     is_set(session, "asks") ? ", an operator lets people in" : "",
                     is_set(session, "ended") ? ", ended" : "");
+        if (is_set(session, "held_back"))
+            std::printf("  %s\n", held_back);
         if (const std::string in = names(session, "people", "role"); !in.empty())
             std::printf("  people: %s\n", in.c_str());
         if (const std::string seen = names(session, "cameras", "state"); !seen.empty())

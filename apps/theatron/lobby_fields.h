@@ -16,4 +16,8 @@ inline bool is_set(const nlohmann::json& from, const char* field) {
     return from.contains(field) && from[field].is_boolean() && from[field].get<bool>();
 }
 
+// The reason why a lobby with "held_back" names nobody.
+inline constexpr const char* held_back =
+    "Somebody who came by this link was removed, so it does not show who is there.";
+
 }  // namespace theatron::app

@@ -15,6 +15,7 @@
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/json_text.h"
+#include "host/audit_log.h"
 #include "host/host_identity.h"
 #include "host/link_book.h"
 #include "host/session_folder.h"
@@ -110,6 +111,13 @@ void create(const Flags& flags) {
                 (is_answered ? now->problem : "The host did not open it in time."));
 }
 
+// Without a host, which would write the audit log.
+void delete_session(const fs::path& state, const std::string& name) {
+    host::forget_session(state, name);
+    if (fs::exists(host::usual_audit_log(state)))
+        host::AuditLog(host::usual_audit_log(state)).add(host::deletion_of(name), "", name);
+}
+
 void end(const Flags& flags) {
     const fs::path state = state_of(flags);
     const fs::path folder = host::find_session_folder(state, flags.name);
@@ -119,7 +127,7 @@ void end(const Flags& flags) {
                     "at the host sends everybody away.");
     host::ask_for_end(state, flags.name);
     if (!host::is_host_running(state))
-        host::forget_session(state, flags.name);
+        delete_session(state, flags.name);
     else if (!wait_for(ending_patience, [&] { return !fs::exists(folder); }))
         throw Error("The host has not ended the session in time; it does so when it can.");
     if (flags.json)

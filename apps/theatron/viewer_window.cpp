@@ -300,8 +300,12 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         if (options.face)
             follow_face(*options.face, participant, viewer, now);
         if (const auto status = participant.status();
-            options.voice && status.phase == client::Participant::Phase::joined)
-            options.voice->note(status.standing);
+            status.phase == client::Participant::Phase::joined) {
+            if (options.voice)
+                options.voice->note(status.standing);
+            if (options.entered)
+                std::exchange(options.entered, nullptr)(status.host_name);
+        }
         if (options.voice)
             options.voice->hold(input.talks, now);
         if (options.voice && now >= next_voices) {

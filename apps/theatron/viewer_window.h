@@ -24,6 +24,8 @@ struct ViewerWindow {
     // Called with the person's settings whenever they have changed from `settings`.
     client::Settings settings;
     std::function<void(const client::Settings&)> keep;
+    // Called once the host has let the person in, with the session's name.
+    std::function<void(const std::string& session)> entered;
     std::string greeting;                 // shown for some seconds after the first picture
     std::filesystem::path save_to = ".";  // the folder of saved pictures and points
     double seconds = 0;                   // end this long after the first picture; 0: never

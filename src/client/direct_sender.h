@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A publisher's own listener: it sends frames of its cameras to the receivers that the host names,
-// and to nobody else (docs/decisions/direct-sending.md). From a receiver it reads a greeting and
+// and to nobody else (docs/decisions/direct-sending.md). Receivers that its link or theirs does not
+// carry are left to the host (session/direct_load.h). From a receiver it reads a greeting and
 // acknowledgements; another message of control or of media ends the connection.
 #pragma once
 
@@ -26,9 +27,6 @@ public:
 
     // Frames that wait for the listener's thread; one more is dropped.
     static constexpr std::size_t max_frames_waiting = 64;
-    // A receiver that loses frames again and again is left to the host, which adapts what it sends:
-    // losses count and fade by this factor ten times a second.
-    static constexpr double max_losses = 5, losses_kept = 0.98;
 
     // Listens on a free port of all IPv4 addresses of this machine; null in a browser. Throws Error
     // with one sentence if that is not possible.

@@ -16,6 +16,7 @@
 #include "net/certificate.h"
 #include "net/own_addresses.h"
 #include "net/server.h"
+#include "session/direct_load.h"
 #include "session/key_gate.h"
 #include "wire/direct_greeting.h"
 
@@ -65,7 +66,6 @@ struct DirectSender::Impl {
         Bytes secret;
         std::set<SettingId> settings;
         session::KeyGate gate;
-        double losses = 0;
     };
 
     net::Server::Handler handler() {
@@ -98,9 +98,12 @@ struct DirectSender::Impl {
             greeted.secret = receiver->first;
             greeted.settings = receiver->second;
         }
+        if (!load.may_come(greeted.secret, events.now()))
+            return server.close(peer, "its link was too slow for direct pictures");
         // The receiver has come again, before its last connection was seen to be gone.
         close_if([&](const Peer& other) { return other.secret == greeted.secret; },
                  "the receiver has connected again");
+        load.on_come(greeted.secret, events.now());
         peers[peer] = std::move(greeted);
         connected = peers.size();
         log::info("direct", "receiver connected", {{"receivers", peers.size()}});
@@ -118,6 +121,8 @@ struct DirectSender::Impl {
     }
 
     void forget(net::PeerId peer) {
+        if (const auto found = peers.find(peer); found != peers.end())
+            load.on_left(found->second.secret);
         peers.erase(peer);
         connected = peers.size();
     }
@@ -126,19 +131,28 @@ struct DirectSender::Impl {
         const std::lock_guard lock(mutex);
         close_if([&](const Peer& peer) { return !allowed.contains(peer.secret); },
                  "it is no longer granted");
+        std::vector<Bytes> granted;
+        for (const auto& [secret, settings] : allowed)
+            granted.push_back(secret);
+        load.keep_only(granted);
         for (auto& [peer, state] : peers)
             state.settings = allowed.at(state.secret);
     }
 
     // A late frame counts as a loss, too: the host would send fewer, but new ones.
     void look_for_losses() {
-        for (auto& [peer, state] : peers) {
+        std::vector<Bytes> behind;
+        for (const auto& [peer, state] : peers) {
             const net::SendingFigures figures = server.take_figures(peer);
-            state.losses *= losses_kept;
-            state.losses += figures.delay > figures.round_trip + late;
+            if (figures.delay > figures.round_trip + late)
+                behind.push_back(state.secret);
         }
-        close_if([](const Peer& peer) { return peer.losses > max_losses; },
-                 "its link is too slow for direct pictures");
+        for (const Bytes& secret : load.on_tick(behind, events.now())) {
+            close_if([&](const Peer& peer) { return peer.secret == secret; },
+                     "its link is too slow for direct pictures");
+            log::info("direct", "receiver is left to the host, frames came too late",
+                      {{"receivers", peers.size()}});
+        }
     }
 
     void push(const wire::MediaHeader& header, const net::Media& media) {
@@ -153,7 +167,8 @@ struct DirectSender::Impl {
                 continue;
             }
             const auto pushed = server.send_media(peer, media);
-            state.losses += pushed.dropped > 0;
+            if (pushed.dropped > 0)
+                load.on_loss(state.secret);
             if (pushed.needs_key) {
                 state.gate.interrupt(header.setting);
                 events.needs_key(header.stream, header.setting);
@@ -167,7 +182,8 @@ struct DirectSender::Impl {
     Receivers allowed;  // guarded by mutex
     std::atomic<std::size_t> connected = 0, waiting = 0;
     std::atomic<bool> has_lost = false;  // frames, before the next one
-    std::map<net::PeerId, Peer> peers;   // the listener's thread
+    std::map<net::PeerId, Peer> peers;   // the listener's thread, as is the next
+    session::DirectLoad load;
     net::Server server;
     std::thread thread;
 };

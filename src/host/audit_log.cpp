@@ -65,6 +65,15 @@ std::string audit_line(const session::AuditEvent& event, const std::string& time
     return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::filesystem::path usual_audit_log(const std::filesystem::path& state_folder) {
+    return state_folder / "audit.jsonl";
+}
+
+session::AuditEvent deletion_of(const std::string& session) {
+    using session::AuditEvent;
+    return {AuditEvent::What::deleted, {}, "", {}, {}, "", session::at_the_host, session};
+}
+
 AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)
     : path_(std::move(path)), max_bytes_(max_bytes) {
     files::require_own_kind(path_, "{\"time\":", "an audit log");

@@ -21,6 +21,12 @@ namespace theatron::host {
 std::string audit_line(const session::AuditEvent& event, const std::string& time,
                        const std::string& address, const std::string& session = "");
 
+// The file in a host's state folder, where no other one is named.
+std::filesystem::path usual_audit_log(const std::filesystem::path& state_folder);
+
+// The event of a further session that was ended for good, by the person at the host's machine.
+session::AuditEvent deletion_of(const std::string& session);
+
 // An own thread writes each line to the disk before it takes the next ones. A slow or full disk
 // delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many
 // of each kind, at the latest after left_out_period and at the end.

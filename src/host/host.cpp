@@ -246,8 +246,17 @@ std::string Host::link(wire::Role role) const {
     return net::format_link(link);
 }
 
-void Host::set_closed_tokens(std::vector<std::string> tokens) {
-    impl_->port->set_closed(std::move(tokens));
+void Host::set_closed(std::vector<ClosedSession> closed) {
+    impl_->port->set_closed(std::move(closed));
+}
+
+void Host::end_by_host() {
+    impl_->ends_by_host = true;
+}
+
+void Host::note_deleted(const std::string& session) {
+    if (AuditLog* log = impl_->port->open_audit())
+        log->add(deletion_of(session), "", session);
 }
 
 std::uint16_t Host::port() const {

@@ -34,8 +34,12 @@ public:
     Host(const SessionOptions& options, const Host& first, const capture::Progress& progress);
     ~Host();
 
-    // The tokens of other sessions on this port that are not open now, instead of those before.
-    void set_closed_tokens(std::vector<std::string> tokens);
+    // Other sessions on this port that are not open now, instead of those before.
+    void set_closed(std::vector<ClosedSession> closed);
+    // When it ends, the audit log says that the person at this machine has ended it.
+    void end_by_host();
+    // The audit log says that this further session was deleted.
+    void note_deleted(const std::string& session);
 
     // The link of a role, which stays valid, except that it changes with the certificate.
     std::string link(wire::Role role = wire::Role::expert) const;

@@ -202,18 +202,21 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"certificates", certificates}};
 }
 
-nlohmann::json to_json(const std::vector<HostFigures>& all) {
-    nlohmann::json json = to_json(all.front());
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        nlohmann::json session = to_json(all[i]);
+nlohmann::json to_json(const PortFigures& all) {
+    nlohmann::json json = to_json(all.sessions.front());
+    for (std::size_t i = 1; i < all.sessions.size(); ++i) {
+        nlohmann::json session = to_json(all.sessions[i]);
         for (const char* of_host : {"turned_away", "faults", "page_problem", "certificates"})
             session.erase(of_host);
         json["sessions"].push_back(std::move(session));
     }
+    for (const ClosedSession& session : all.closed)
+        json["closed_sessions"].push_back({{"name", session.name}, {"problem", session.problem}});
     return json;
 }
 
-std::string to_prometheus(const std::vector<HostFigures>& all) {
+std::string to_prometheus(const PortFigures& figures_of_all) {
+    const std::vector<HostFigures>& all = figures_of_all.sessions;
     PrometheusText out;
     using Camera = HostFigures::Camera;
     using Place = PlaceWatch::Figures::Camera;
@@ -314,6 +317,11 @@ std::string to_prometheus(const std::vector<HostFigures>& all) {
     per_camera("reopens_total", "counter", "How often the camera was opened again.",
                [](const Camera& c) { return double(c.lane.camera.figures.reopens); });
 
+    per_session("session_open",
+                "1 while a session of the host is open, 0 while it cannot be opened.",
+                [](const HostFigures&) { return 1; });
+    for (const ClosedSession& session : figures_of_all.closed)
+        out.value("session=" + quoted(session.name), 0);
     per_session("participants", "Participants that have joined.",
                 [](const HostFigures& f) { return f.participants.size(); });
     per_participant("participant_age_seconds", "gauge",
@@ -448,6 +456,11 @@ std::string to_table(const nlohmann::json& figures) {
                  ", person " + text(visitor, "person") + ")\n";
     for (const auto& session : list(figures, "sessions"))
         table += "\n" + to_table(session);
+    for (const auto& session : list(figures, "closed_sessions")) {
+        const std::string problem = text(session, "problem");
+        table += "\n" + text(session, "name") + ": " +
+                 (problem.empty() ? "is being opened" : "not open. " + problem) + "\n";
+    }
     return table;
 }
 

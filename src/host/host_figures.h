@@ -12,6 +12,7 @@
 #include "base/time.h"
 #include "base/utc.h"
 #include "files/utc_text.h"
+#include "host/closed_session.h"
 #include "host/place_watch.h"
 #include "send/lane_figures.h"
 #include "wire/control.h"
@@ -77,6 +78,12 @@ struct HostFigures {
     }
 };
 
+// Those of all sessions of a host that a reader may see.
+struct PortFigures {
+    std::vector<HostFigures> sessions;  // that are open, the first one first; not empty
+    std::vector<ClosedSession> closed;
+};
+
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
@@ -84,13 +91,14 @@ struct HostFigures {
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
 // "page_problem","certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
-// The same of the first session of a host; those of its further ones are in "sessions", which is
-// missing where there are none. `all` is not empty.
-nlohmann::json to_json(const std::vector<HostFigures>& all);
+// The same of the first session of a host; those of its further ones are in "sessions", and those
+// that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are
+// none.
+nlohmann::json to_json(const PortFigures& all);
 
 // The text format of Prometheus, version 0.0.4. Lines about a session other than the first have its
-// name in the label `session`. `all` is not empty.
-std::string to_prometheus(const std::vector<HostFigures>& all);
+// name in the label `session`.
+std::string to_prometheus(const PortFigures& all);
 
 // A table of the output of to_json(), perhaps of another version; fields may be missing.
 std::string to_table(const nlohmann::json& figures);

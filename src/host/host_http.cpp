@@ -18,7 +18,7 @@ constexpr const char* plain_answer =
 }  // namespace
 
 net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
-                            const std::function<std::vector<HostFigures>()>& figures) {
+                            const std::function<PortFigures()>& figures) {
     const std::string_view path = net::path_of(request.target);
     if (path == "/")
         return {.body = plain_answer};
@@ -61,6 +61,10 @@ void require_known_token(const net::HttpsAnswer& answer) {
         throw Error("This session is not open at the moment; try again soon.");
     if (answer.status == 410)
         throw Error("This link has expired; ask for a new one.");
+    if (answer.status == 403)
+        throw Error(
+            "Somebody who came by this link was removed from the session, so it shows nothing of "
+            "it until the session ends; ask for another link.");
     if (answer.status == 401)
         throw Error("The host does not know the link's token; ask for its current link.");
 }

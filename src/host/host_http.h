@@ -15,9 +15,9 @@
 namespace theatron::host {
 
 // `may_read`: the request shows a token that opens the figures. `figures`: those of all sessions
-// that it opens.
+// that it opens, at least one.
 net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
-                            const std::function<std::vector<HostFigures>()>& figures);
+                            const std::function<PortFigures()>& figures);
 
 // Asks a host, perhaps on another machine, for /status: see to_json(). Its texts are clean
 // (base/outside_text.h). Throws Error, also for an answer that is nested more deeply than a host's
@@ -25,7 +25,8 @@ net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
 inline constexpr int max_status_depth = 16;
 inline constexpr std::size_t max_status_text = 1000;  // characters of one text in it
 nlohmann::json status_of_host(const net::Link& link);
-// Throws Error if a host's answer says that it does not know the token, or that it has expired.
+// Throws Error if a host's answer says that it does not know the token, that it has expired, or
+// that it shows nothing now.
 void require_known_token(const net::HttpsAnswer& answer);
 // The same for another page with JSON. `what` of Error's sentence: "status".
 nlohmann::json json_of_host(const net::Link& link, const std::string& target, const char* what,

@@ -91,6 +91,7 @@ PortSession Host::Impl::in_port() {
     given.events = handler();
     given.find_token = [this](const std::string& secret) { return find_token(secret); };
     given.must_ask = [this](wire::Role role) { return must_ask(role); };
+    given.is_held_back = [this](const std::string& secret) { return is_held_back(secret); };
     given.http_tokens = [this] { return http_tokens(); };
     given.metrics_token = metrics_token;
     given.figures = [this] { return figures(); };

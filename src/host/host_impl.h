@@ -42,7 +42,8 @@ struct Host::Impl {
     std::optional<TimePoint> roles_expire;  // the links of the roles
     std::string metrics_token;
     bool asks = false;
-    bool has_ended = false;  // the session, before the host did
+    bool has_ended = false;     // the session, before the host did
+    bool ends_by_host = false;  // as in Host
     mutable std::mutex tokens_mutex;
     std::string own_token;                          // guarded by tokens_mutex, as is the next
     std::vector<session::Admission::Token> tokens;  // those of the session
@@ -86,6 +87,7 @@ struct Host::Impl {
     std::vector<wire::Visitor> visitor_figures;
     bool ended_figure = false;
     std::size_t past_figure = 0;
+    std::vector<std::string> tokens_held_back;
     std::map<CameraId, std::uint64_t> dropped_slow_figures;
     std::string name;
     const TimePoint begun = steady_now();
@@ -120,7 +122,15 @@ struct Host::Impl {
         if (has_begun) {
             room_file->save(session->room(), session->streams().adjustments(), steady_now());
             if (audit && !has_ended)
-                audit->add({session::AuditEvent::What::ended, {}, "", {}, {}, "", "", name}, "");
+                audit->add({session::AuditEvent::What::ended,
+                            {},
+                            "",
+                            {},
+                            {},
+                            "",
+                            ends_by_host ? session::at_the_host : "",
+                            name},
+                           "");
         }
         lanes.clear();
         place_watch.reset();
@@ -199,6 +209,8 @@ struct Host::Impl {
     std::optional<session::Admission::Token> find_token(const std::string& secret) const;
     // True if a participant with this role waits for admission.
     bool must_ask(wire::Role role) const;
+    // True if somebody who came by the link of this token was removed and is kept out.
+    bool is_held_back(const std::string& secret) const;
     HostFigures figures() const;
 };
 

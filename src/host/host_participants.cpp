@@ -65,6 +65,7 @@ void Host::Impl::note_participants() {
     const std::lock_guard lock(figures_mutex);
     participant_figures = std::move(list);
     visitor_figures = session->visitors();
+    tokens_held_back = session->tokens_of_removed();
     ended_figure = session->has_ended();
     past_figure = session->past_bytes();
     published_figures = std::move(published);

@@ -45,6 +45,14 @@ bool Host::Impl::must_ask(wire::Role role) const {
     return asks && (role == wire::Role::expert || role == wire::Role::observer);
 }
 
+bool Host::Impl::is_held_back(const std::string& secret) const {
+    bool found = false;
+    const std::lock_guard lock(figures_mutex);
+    for (const std::string& token : tokens_held_back)
+        found = net::equal_secrets(secret, token) || found;
+    return found;
+}
+
 // On the door's thread. Those who must ask to come in see nothing before.
 std::vector<std::string> Host::Impl::http_tokens() const {
     std::vector<std::string> secrets{metrics_token};

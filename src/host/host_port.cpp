@@ -16,7 +16,7 @@ HostPort::HostPort(PortOptions options)
     : options_(std::move(options)),
       sessions_([this](TimePoint when) { server_->set_alarm(when); },
                 [this](net::PeerId peer) { server_->close(peer, "its session is not open yet"); }) {
-    sessions_.set_closed(options_.closed_tokens);
+    sessions_.set_closed(options_.closed);
 }
 
 HostPort::~HostPort() = default;
@@ -28,7 +28,7 @@ void HostPort::require_free() const {
 
 AuditLog* HostPort::open_audit() {
     if (options_.is_audited && !audit_)
-        audit_ = std::make_unique<AuditLog>(options_.audit.empty() ? state_folder_ / "audit.jsonl"
+        audit_ = std::make_unique<AuditLog>(options_.audit.empty() ? usual_audit_log(state_folder_)
                                                                    : options_.audit);
     return audit_.get();
 }
@@ -80,8 +80,9 @@ net::Server::Handler HostPort::handler() {
 net::HttpAnswer HostPort::answer(const net::HttpRequest& request) const {
     if (sessions_.is_closed(net::shown_token(request)))
         return {.status = 503, .body = "This session is not open at the moment.\n"};
+    const std::vector<ClosedSession> closed = sessions_.closed();
     return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
-        return answer_page(request, *page_, sessions);
+        return answer_page(request, *page_, sessions, closed);
     });
 }
 

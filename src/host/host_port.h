@@ -49,8 +49,8 @@ public:
     std::uint16_t number() const { return server_->port(); }
     std::vector<HostFigures::Certificate> certificates() const;
     const std::string& page_problem() const { return page_->problem(); }
-    // The tokens of sessions that are not open now, but will be.
-    void set_closed(std::vector<std::string> tokens) { sessions_.set_closed(std::move(tokens)); }
+    // The sessions that are not open now, but will be.
+    void set_closed(std::vector<ClosedSession> closed) { sessions_.set_closed(std::move(closed)); }
     std::uint64_t turned_away() const { return turned_away_; }
     // The threads of all lanes.
     send::Workers& workers() { return workers_; }

@@ -22,13 +22,15 @@ bool is_lobby(const net::HttpRequest& request) {
     return path == lobby_path || path == thumbnail_path;
 }
 
-nlohmann::json lobby_session(const HostFigures& figures, bool must_ask,
+nlohmann::json lobby_session(const HostFigures& figures, const LobbyGuest& guest,
                              const std::string& thumbnail) {
     nlohmann::json session{{"name", figures.name},
-                           {"asks", must_ask},
+                           {"asks", guest.must_ask},
                            {"ended", figures.has_ended},
                            {"people_count", figures.participants.size()}};
-    if (must_ask || figures.has_ended)
+    if (guest.is_held_back)
+        session["held_back"] = true;
+    if (!guest.sees_inside() || figures.has_ended)
         return session;
     nlohmann::json people = nlohmann::json::array(), cameras = nlohmann::json::array();
     for (const auto& person : figures.participants)
@@ -49,31 +51,40 @@ nlohmann::json lobby_session(const HostFigures& figures, bool must_ask,
     return session;
 }
 
-nlohmann::json lobby_json(const HostFigures& figures, wire::Role role, bool must_ask) {
-    return {{"role", wire::text_of(role)},
-            {"sessions", nlohmann::json::array(
-                             {lobby_session(figures, must_ask, std::string(thumbnail_path))})}};
+nlohmann::json lobby_session(const ClosedSession& session) {
+    return {{"name", session.name}, {"closed", true}, {"problem", session.problem}};
+}
+
+nlohmann::json lobby_json(const HostFigures& figures, const LobbyGuest& guest) {
+    return {{"role", wire::text_of(guest.role)},
+            {"sessions",
+             nlohmann::json::array({lobby_session(figures, guest, std::string(thumbnail_path))})}};
 }
 
 net::HttpAnswer answer_lobby(const net::HttpRequest& request,
-                             const SessionSwitch::Sessions& sessions) {
+                             const SessionSwitch::Sessions& sessions,
+                             const std::vector<ClosedSession>& closed) {
     const std::string secret = net::shown_token(request);
     const auto own = std::ranges::find_if(
         sessions, [&](const auto& entry) { return entry.second.find_token(secret).has_value(); });
     if (own == sessions.end())
         return {.status = 401, .body = "Show the token of a link: docs/room.md\n"};
     const wire::Role role = own->second.find_token(secret)->role;
-    const bool must_ask = own->second.must_ask(role);
-    const bool sees_all = own == sessions.begin() && role == wire::Role::operator_;
+    const LobbyGuest guest{role, own->second.must_ask(role), own->second.is_held_back(secret)};
+    const bool sees_all =
+        own == sessions.begin() && role == wire::Role::operator_ && !guest.is_held_back;
 
     if (net::path_of(request.target) == lobby_path) {
-        nlohmann::json lobby = lobby_json(own->second.figures(), role, must_ask);
+        nlohmann::json lobby = lobby_json(own->second.figures(), guest);
         for (const auto& [number, session] : sessions)
             if (sees_all && number != own->first)
                 lobby["sessions"].push_back(
-                    lobby_session(session.figures(), false,
+                    lobby_session(session.figures(), {role},
                                   std::string(thumbnail_path) +
                                       "?session=" + std::to_string(std::uint32_t(number))));
+        for (const ClosedSession& session : closed)
+            if (sees_all)
+                lobby["sessions"].push_back(lobby_session(session));
         return {.type = "application/json", .body = files::json_text(lobby) + "\n"};
     }
     const std::string asked = net::query_value(request.target, "session");
@@ -83,7 +94,7 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
         const bool is_meant =
             asked.empty() ? is_own : asked == std::to_string(std::uint32_t(number));
         // The operating room goes on without the people of an ended session.
-        if (is_meant && (is_own ? !must_ask : sees_all) && !session.figures().has_ended)
+        if (is_meant && (is_own ? guest.sees_inside() : sees_all) && !session.figures().has_ended)
             picture = session.picture();
     }
     if (picture.empty())

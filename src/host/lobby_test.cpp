@@ -26,7 +26,7 @@ HostFigures figures() {
 }
 
 TEST(Lobby, NamesPeopleAndCameras) {
-    const auto lobby = lobby_json(figures(), wire::Role::expert, false);
+    const auto lobby = lobby_json(figures(), {wire::Role::expert});
     EXPECT_EQ(lobby["role"], "expert");
     const auto& session = lobby["sessions"].at(0);
     EXPECT_EQ(session["name"], "OR 3");
@@ -37,7 +37,7 @@ TEST(Lobby, NamesPeopleAndCameras) {
 }
 
 TEST(Lobby, TellsSomeoneWhoMustAskOnlyTheNumberOfPeople) {
-    const auto lobby = lobby_json(figures(), wire::Role::observer, true);
+    const auto lobby = lobby_json(figures(), {wire::Role::observer, true});
     EXPECT_EQ(lobby["sessions"].at(0)["people_count"], 1);
     EXPECT_TRUE(lobby["sessions"].at(0)["asks"]);
     EXPECT_EQ(lobby.dump().find("Ada"), std::string::npos);
@@ -48,7 +48,7 @@ TEST(Lobby, TellsSomeoneWhoMustAskOnlyTheNumberOfPeople) {
 // Two sessions: "OR 3" with the links "operator-3" and "expert-3", "OR 4" with "operator-4".
 class LobbyOfTwo : public ::testing::Test {
 protected:
-    static PortSession session(const std::string& name, const std::string& number) {
+    PortSession session(const std::string& name, const std::string& number) {
         PortSession s;
         s.find_token = [number](const std::string& secret) {
             std::optional<session::Admission::Token> found;
@@ -58,6 +58,7 @@ protected:
             return found;
         };
         s.must_ask = [](wire::Role role) { return role == wire::Role::expert; };
+        s.is_held_back = [this](const std::string& secret) { return secret == held_back; };
         s.http_tokens = [number] { return std::vector<std::string>{"operator-" + number}; };
         s.metrics_token = "metrics-" + number;
         s.figures = [name] {
@@ -69,7 +70,7 @@ protected:
         return s;
     }
     net::HttpAnswer ask(const std::string& target, const std::string& token) const {
-        return answer_page({target, "Bearer " + token}, Page(), sessions);
+        return answer_page({target, "Bearer " + token}, Page(), sessions, closed);
     }
     std::vector<std::string> names(const std::string& token) const {
         std::vector<std::string> names;
@@ -78,6 +79,8 @@ protected:
             names.push_back(shown["name"]);
         return names;
     }
+    std::string held_back;  // the token of a link by which somebody came who was removed
+    std::vector<ClosedSession> closed;
     SessionSwitch::Sessions sessions{{SessionNumber{1}, session("OR 3", "3")},
                                      {SessionNumber{2}, session("OR 4", "4")}};
 };
@@ -116,6 +119,43 @@ TEST_F(LobbyOfTwo, MetricsNameFurtherSessionsInALabel) {
     EXPECT_NE(metrics.find("\ntheatron_participants{session=\"OR 4\"} 0\n"), std::string::npos);
     const std::string of_one = ask("/metrics", "operator-4").body;
     EXPECT_EQ(of_one.find("session="), std::string::npos);
+}
+
+TEST_F(LobbyOfTwo, ASessionThatCannotBeOpenedIsShownToTheHostsOperator) {
+    closed = {{"OR 5", "There is no camera 2.", {"observer-5"}}};
+    const auto lobby = nlohmann::json::parse(ask("/lobby", "operator-3").body);
+    ASSERT_EQ(lobby["sessions"].size(), 3u);
+    EXPECT_EQ(
+        lobby["sessions"][2],
+        (nlohmann::json{{"name", "OR 5"}, {"closed", true}, {"problem", "There is no camera 2."}}));
+    const auto status = nlohmann::json::parse(ask("/status", "operator-3").body);
+    EXPECT_EQ(status["closed_sessions"].at(0)["problem"], "There is no camera 2.");
+    EXPECT_NE(to_table(status).find("OR 5: not open. There is no camera 2."), std::string::npos);
+    const std::string metrics = ask("/metrics", "operator-3").body;
+    EXPECT_NE(metrics.find("\ntheatron_session_open{} 1\n"), std::string::npos);
+    EXPECT_NE(metrics.find("\ntheatron_session_open{session=\"OR 5\"} 0\n"), std::string::npos);
+    for (const char* other : {"observer-3", "operator-4"})
+        for (const char* page : {"/lobby", "/status", "/metrics"})
+            EXPECT_EQ(ask(page, other).body.find("OR 5"), std::string::npos) << other << page;
+}
+
+TEST_F(LobbyOfTwo, ALinkByWhichSomebodyCameWhoWasRemovedShowsNobody) {
+    const auto names_of = [&](const std::string& token) {
+        return nlohmann::json::parse(ask("/lobby", token).body)["sessions"];
+    };
+    EXPECT_TRUE(names_of("operator-3").at(0).contains("people"));
+    held_back = "operator-3";
+    const auto sessions_shown = names_of("operator-3");
+    ASSERT_EQ(sessions_shown.size(), 1u);
+    EXPECT_TRUE(sessions_shown[0]["held_back"]);
+    EXPECT_FALSE(sessions_shown[0].contains("people"));
+    EXPECT_FALSE(sessions_shown[0].contains("cameras"));
+    EXPECT_EQ(ask("/thumbnail", "operator-3").status, 404);
+    EXPECT_EQ(ask("/thumbnail?session=2", "operator-3").status, 404);
+    EXPECT_EQ(ask("/status", "operator-3").status, 403);
+    EXPECT_EQ(ask("/metrics", "operator-3").status, 403);
+    EXPECT_TRUE(names_of("observer-3").at(0).contains("people")) << "another link";
+    EXPECT_EQ(ask("/thumbnail", "observer-3").status, 200);
 }
 
 FramePtr frame_of(Size size, Rgb color) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/closed_session.h"
 #include "net/link.h"
 
 namespace theatron::host {
@@ -25,8 +26,8 @@ struct PortOptions {
     std::vector<std::string> proxies;         // trusted ones (net::Proxies)
     std::filesystem::path proxy_certificate;  // that they show, for links; needed with `proxies`
     std::filesystem::path page;               // the browser client (host/page.h); empty: none
-    // The tokens of further sessions that will be open: until then their people are turned back.
-    std::vector<std::string> closed_tokens;
+    // Further sessions that will be open: until then their people are turned back.
+    std::vector<ClosedSession> closed;
 };
 
 }  // namespace theatron::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/port_pages.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,10 +21,19 @@ bool has_expired(const std::string& secret, const SessionSwitch::Sessions& sessi
     return false;
 }
 
-// The sessions whose figures this token opens. That of the host's monitoring, and an operator of
-// its first session, read all.
-std::vector<const PortSession*> opened_by(const std::string& secret,
-                                          const SessionSwitch::Sessions& sessions) {
+bool is_held_back(const std::string& secret, const SessionSwitch::Sessions& sessions) {
+    return std::ranges::any_of(
+        sessions, [&](const auto& entry) { return entry.second.is_held_back(secret); });
+}
+
+// The sessions whose figures a token opens.
+struct Opened {
+    std::vector<const PortSession*> sessions;
+    bool is_all = false;  // also those that are not open
+};
+
+// The token of the host's monitoring, and an operator of its first session, read all.
+Opened opened_by(const std::string& secret, const SessionSwitch::Sessions& sessions) {
     std::vector<const PortSession*> opened;
     for (const auto& [number, session] : sessions) {
         bool known = false;
@@ -33,34 +43,40 @@ std::vector<const PortSession*> opened_by(const std::string& secret,
             opened.push_back(&session);
     }
     if (opened.empty() || opened.front() != &sessions.front().second)
-        return opened;
+        return {opened};
     const PortSession& first = *opened.front();
     const auto token = first.find_token(secret);
-    if (net::equal_secrets(secret, first.metrics_token) ||
-        (token && token->role == wire::Role::operator_)) {
-        opened.clear();
-        for (const auto& [number, session] : sessions)
-            opened.push_back(&session);
-    }
-    return opened;
+    if (!net::equal_secrets(secret, first.metrics_token) &&
+        !(token && token->role == wire::Role::operator_))
+        return {opened};
+    opened.clear();
+    for (const auto& [number, session] : sessions)
+        opened.push_back(&session);
+    return {opened, true};
 }
 
 }  // namespace
 
 net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
-                            const SessionSwitch::Sessions& sessions) {
+                            const SessionSwitch::Sessions& sessions,
+                            const std::vector<ClosedSession>& closed) {
     const std::string secret = net::shown_token(request);
     if (has_expired(secret, sessions))
         return {.status = 410, .body = "This link has expired; ask for a new one.\n"};
     if (is_lobby(request))
-        return answer_lobby(request, sessions);
+        return answer_lobby(request, sessions, closed);
     if (auto file = page.answer(request))
         return std::move(*file);
-    const std::vector<const PortSession*> opened = opened_by(secret, sessions);
-    return answer_http(request, !opened.empty(), [&] {
-        std::vector<HostFigures> figures;
-        for (const PortSession* session : opened)
-            figures.push_back(session->figures());
+    if (is_held_back(secret, sessions))
+        return {.status = 403,
+                .body = "Somebody who came by this link was removed: docs/room.md\n"};
+    const Opened opened = opened_by(secret, sessions);
+    return answer_http(request, !opened.sessions.empty(), [&] {
+        PortFigures figures;
+        for (const PortSession* session : opened.sessions)
+            figures.sessions.push_back(session->figures());
+        if (opened.is_all)
+            figures.closed = closed;
         return figures;
     });
 }

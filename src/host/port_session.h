@@ -26,6 +26,8 @@ struct PortSession {
     std::function<std::optional<session::Admission::Token>(const std::string& secret)> find_token;
     // True if a participant with this role waits for admission.
     std::function<bool(wire::Role)> must_ask;
+    // True if somebody who came by the link of this token was removed, and is kept out.
+    std::function<bool(const std::string& secret)> is_held_back;
     // Those that open the figures.
     std::function<std::vector<std::string>()> http_tokens;
     std::string metrics_token;  // one of them

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "base/shown_name.h"
 #include "files/json_text.h"
 #include "files/private_file.h"
 #include "host/host_identity.h"
@@ -67,8 +68,10 @@ void check_session_name(const std::string& name) {
     if (name.empty() || name.size() > max_session_name)
         throw Error("A session's name has 1 to " + std::to_string(max_session_name) +
                     " bytes; this one has " + std::to_string(name.size()) + ".");
-    if (name != clean_text(name, max_session_name) || name.front() == ' ' || name.back() == ' ')
-        throw Error("A session's name is text on one line, without spaces at its ends.");
+    if (name != clean_name(name, max_session_name))
+        throw Error(
+            "A session's name is text on one line, without spaces at its ends and without "
+            "characters that nobody sees.");
 }
 
 std::string folder_name(const std::string& session) {
@@ -159,20 +162,17 @@ void forget_session(const fs::path& state, const std::string& session) {
                     "; remove it by hand.");
 }
 
-std::vector<std::string> valid_tokens(const fs::path& state,
-                                      const std::vector<std::string>& sessions) {
+std::vector<std::string> valid_tokens(const fs::path& state, const std::string& session) {
     std::vector<std::string> tokens;
-    for (const std::string& session : sessions) {
-        const fs::path folder = session_folder(state, session);
-        // Their files may be made at this moment, when the session is opened.
-        if (!has_links(folder))
-            continue;
-        try {
-            for (const KnownLink& link : load_links(folder).links)
-                if (!link.has_expired(files::utc_now()))
-                    tokens.push_back(link.token);
-        } catch (const Error&) {
-        }
+    const fs::path folder = session_folder(state, session);
+    // Their files may be made at this moment, when the session is opened.
+    if (!has_links(folder))
+        return tokens;
+    try {
+        for (const KnownLink& link : load_links(folder).links)
+            if (!link.has_expired(files::utc_now()))
+                tokens.push_back(link.token);
+    } catch (const Error&) {
     }
     return tokens;
 }

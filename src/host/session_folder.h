@@ -54,10 +54,10 @@ void ask_for_end(const std::filesystem::path& state, const std::string& session)
 // Removes a session with its links and its room. No host uses it.
 void forget_session(const std::filesystem::path& state, const std::string& session);
 
-// The tokens of the links of these sessions that are valid now. Files that cannot be used are
-// passed over: whoever opens the session says so.
+// The tokens of the links of this session that are valid now. Files that cannot be used are passed
+// over: whoever opens the session says so.
 std::vector<std::string> valid_tokens(const std::filesystem::path& state,
-                                      const std::vector<std::string>& sessions);
+                                      const std::string& session);
 
 // The sessions of a running host, as it tells 'theatron session': the first one first.
 struct ToldSession {

@@ -43,7 +43,7 @@ TEST_F(SessionFolder, ANameIsTextOnOneLine) {
     EXPECT_NO_THROW(check_session_name(std::string(max_session_name, 'x')));
     for (const std::string& name :
          {std::string(), std::string(max_session_name + 1, 'x'), std::string("a\nb"),
-          std::string(" a"), std::string("a "), std::string("\xff")})
+          std::string(" a"), std::string("a "), std::string("\xff"), std::string("a\u200b")})
         EXPECT_THROW(check_session_name(name), Error) << name;
     EXPECT_THROW((void)session_folder(state, ""), Error);
 }
@@ -51,11 +51,12 @@ TEST_F(SessionFolder, ANameIsTextOnOneLine) {
 // Another thread may just be making them.
 TEST_F(SessionFolder, LinksAreReadButNotMade) {
     keep_session(state, "OR 4", {});
-    EXPECT_THAT(valid_tokens(state, {"OR 4", "OR 5"}), IsEmpty());
+    EXPECT_THAT(valid_tokens(state, "OR 4"), IsEmpty());
+    EXPECT_THAT(valid_tokens(state, "OR 5"), IsEmpty());
     EXPECT_FALSE(has_links(session_folder(state, "OR 4")));
     const KnownLinks made = load_links(session_folder(state, "OR 4"));
     EXPECT_TRUE(has_links(session_folder(state, "OR 4")));
-    const auto tokens = valid_tokens(state, {"OR 4", "OR 5"});
+    const auto tokens = valid_tokens(state, "OR 4");
     ASSERT_THAT(tokens, SizeIs(made.links.size()));
     EXPECT_EQ(tokens.front(), made.links.front().token);
 }

@@ -58,16 +58,22 @@ std::optional<SessionNumber> SessionSwitch::session_of(const std::string& secret
     return found;
 }
 
-void SessionSwitch::set_closed(std::vector<std::string> tokens) {
+void SessionSwitch::set_closed(std::vector<ClosedSession> closed) {
     const std::lock_guard lock(closed_mutex_);
-    closed_ = std::move(tokens);
+    closed_ = std::move(closed);
+}
+
+std::vector<ClosedSession> SessionSwitch::closed() const {
+    const std::lock_guard lock(closed_mutex_);
+    return closed_;
 }
 
 bool SessionSwitch::is_closed(const std::string& secret) const {
     const std::lock_guard lock(closed_mutex_);
     bool found = false;
-    for (const std::string& token : closed_)
-        found = net::equal_secrets(secret, token) || found;
+    for (const ClosedSession& session : closed_)
+        for (const std::string& token : session.tokens)
+            found = net::equal_secrets(secret, token) || found;
     return found;
 }
 

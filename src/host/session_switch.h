@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/closed_session.h"
 #include "host/port_session.h"
 
 namespace theatron::host {
@@ -49,9 +50,10 @@ public:
     void set_alarm(SessionNumber number, TimePoint when);
     void alarm(TimePoint now);
 
-    // From any thread: the tokens of sessions that are not open now, but will be. Those who show
+    // From any thread: the sessions that are not open now, but will be. Those who show a token of
     // one are turned back.
-    void set_closed(std::vector<std::string> tokens);
+    void set_closed(std::vector<ClosedSession> closed);
+    std::vector<ClosedSession> closed() const;
     bool is_closed(const std::string& secret) const;
 
     // From any thread: true if a connection's first message shows a token of any session, open or
@@ -82,7 +84,7 @@ private:
     mutable std::mutex mutex_;
     Sessions sessions_;
     mutable std::mutex closed_mutex_;
-    std::vector<std::string> closed_;  // guarded by closed_mutex_
+    std::vector<ClosedSession> closed_;  // guarded by closed_mutex_
     std::uint32_t next_ = 1;
     std::map<net::PeerId, Entering> entering_;  // whose first message is still to come
     std::map<net::PeerId, SessionNumber> peers_;

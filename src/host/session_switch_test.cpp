@@ -110,7 +110,7 @@ TEST_F(SwitchOfTwo, LeadsOthersToTheOldestSessionWhichRefusesThem) {
 
 // A camera may take long to open after the host has begun.
 TEST_F(SwitchOfTwo, TurnsBackThoseWhoseSessionIsNotOpenYet) {
-    sessions.set_closed({"token-3", "token-2"});
+    sessions.set_closed({{"third", "", {"token-3"}}, {"second", "", {"token-2"}}});
     EXPECT_TRUE(sessions.is_invited(join_with("token-3")));
     enter(PeerId{7}, "token-3");
     EXPECT_THAT(take(), IsEmpty());

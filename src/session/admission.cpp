@@ -3,20 +3,19 @@
 
 #include <algorithm>
 
+#include "base/shown_name.h"
+
 namespace theatron::session {
 namespace {
 
 using wire::TextCode;
 
-// Without spaces around it, and without the mark of people in a replay, who are not there.
-std::string shown_name(std::string name) {
+// Without the mark of people in a replay, who are not there.
+std::string name_of_guest(const std::string& given) {
     constexpr std::string_view replayed = "(recorded)";
-    const auto trim = [&] {
-        name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
-        name.erase(name.find_last_not_of(' ') + 1);
-    };
-    for (trim(); name.ends_with(replayed); trim())
-        name.resize(name.size() - replayed.size());
+    std::string name = clean_name(given, wire::max_name);
+    while (name.ends_with(replayed))
+        name = clean_name(name.substr(0, name.size() - replayed.size()), wire::max_name);
     return name.empty() ? "guest" : name;
 }
 
@@ -87,14 +86,29 @@ bool Admission::knows(const Participant& participant) const {
     });
 }
 
-void Admission::note(Participant& participant, const wire::Join& hello, const Verdict& verdict) {
+std::vector<std::string> Admission::names_beside(const Participant& participant) const {
+    std::vector<std::string> names;
+    for (const auto& [id, there] : participants_) {
+        const bool is_the_same_person =
+            &there == &participant ||
+            (!participant.person.empty() && there.person == participant.person);
+        if ((there.takes_part() || there.waits()) && !is_the_same_person)
+            names.push_back(there.name);
+    }
+    return names;
+}
+
+void Admission::note(Participant& participant, const wire::Join& hello,
+                     const Verdict& verdict) const {
     participant.protocol = std::min(hello.protocol_max, wire::protocol_max);
     participant.of_link = participant.role = verdict.role;
     participant.link = verdict.link;
     participant.token = hello.token;
     participant.person = hello.person;
     participant.records = hello.records;
-    participant.name = shown_name(hello.name);
+    participant.given_name = name_of_guest(hello.name);
+    participant.name =
+        told_apart(participant.given_name, names_beside(participant), wire::max_name);
     participant.asks_to_publish =
         std::count(hello.features.begin(), hello.features.end(), wire::Feature::publish) > 0;
 }

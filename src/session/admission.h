@@ -62,7 +62,8 @@ public:
         bool has(wire::Feature feature) const;
         TimePoint connected;
         std::uint16_t protocol = 0;
-        std::string name;
+        std::string name;                     // as shown, told apart from others
+        std::string given_name;               // as the person gave it
         Bytes person;                         // as in wire::Join
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
@@ -113,7 +114,7 @@ public:
     };
     Verdict judge(const wire::Join& hello, TimePoint now) const;
     // Notes what the participant says of itself.
-    static void note(Participant& participant, const wire::Join& hello, const Verdict& verdict);
+    void note(Participant& participant, const wire::Join& hello, const Verdict& verdict) const;
     // Marks the participant as joined, in its role.
     static void admit(Participant& participant, const wire::Join& hello);
     // The features of Join that hold for a role.
@@ -124,6 +125,9 @@ public:
     static void keep_for_later(Participant& participant, wire::ToHost message);
 
 private:
+    // The names of those whom the others see beside this participant: not of the same person, whose
+    // earlier connection may still be there.
+    std::vector<std::string> names_beside(const Participant& participant) const;
     // Why there is no place for the bearer of this token; empty if there is one.
     wire::Text full(const wire::Join& hello, Role role) const;
 

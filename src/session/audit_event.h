@@ -10,6 +10,9 @@
 
 namespace theatron::session {
 
+// Stands for the person at the host's machine, as the one who decided.
+inline constexpr const char* at_the_host = "host";
+
 struct AuditEvent {
     enum class What : std::uint8_t {
         began,  // the session
@@ -29,6 +32,7 @@ struct AuditEvent {
         voice_agreed,      // to the recording of its voice
         voice_not_agreed,  // no longer
         adjusted,          // a camera; `detail` says how
+        deleted,           // the session, with its links and its room
     };
     What what{};
     ParticipantId participant{};  // 0: none; the host itself
@@ -36,7 +40,7 @@ struct AuditEvent {
     Bytes person;  // as in wire::Join
     wire::Role role{};
     std::string link;    // the number of the link by which it came
-    std::string by;      // the name of the operator who decided; "host": at the host's machine
+    std::string by;      // the name of the operator who decided, or at_the_host
     std::string detail;  // a camera's name; "records" of one who joined to record
 };
 
@@ -44,7 +48,7 @@ constexpr const char* text_of(AuditEvent::What what) {
     constexpr const char* texts[] = {
         "began",  "ended",    "waits",        "admitted",         "turned_away",  "joined",
         "left",   "removed",  "muted",        "unmuted",          "role_changed", "link_revoked",
-        "shared", "unshared", "voice_agreed", "voice_not_agreed", "adjusted"};
+        "shared", "unshared", "voice_agreed", "voice_not_agreed", "adjusted",     "deleted"};
     return texts[std::size_t(what)];
 }
 

@@ -165,7 +165,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     if (has_ended_)
         begin_again();
     Participant& participant = *admission_.find(id);
-    Admission::note(participant, hello, verdict);
+    admission_.note(participant, hello, verdict);
     participant.role = judged.role;
     participant.muted = judged.muted;
     if (judged.entry == Membership::Entry::enters)
@@ -396,7 +396,7 @@ void HostSession::end(wire::TextCode reason) {
 
 // Sends this participant its renderer, if the host has ever set one.
 void HostSession::tell_renderer(ParticipantId id) {
-    if (const auto wish = renderers_.of(id, admission_.find(id)->name))
+    if (const auto wish = renderers_.of(id, admission_.find(id)->given_name))
         send(id, *wish);
 }
 
@@ -417,11 +417,16 @@ void HostSession::set_renderer(ParticipantId id, const wire::SetRenderer& wish) 
 
 void HostSession::set_renderer(const std::string& name, const wire::SetRenderer& wish) {
     renderers_.set(name, wish);
-    for (const auto& [id, participant] : admission_.participants())
-        if (participant.name == name && participant.takes_part()) {
+    for (const auto& [id, participant] : admission_.participants()) {
+        if (!participant.takes_part())
+            continue;
+        if (participant.given_name == name) {
             renderers_.forget(id);
             tell_renderer(id);
+        } else if (participant.name == name) {
+            set_renderer(id, wish);
         }
+    }
 }
 
 const std::vector<ActiveSetting>& HostSession::depth_settings(CameraId camera) const {

@@ -80,6 +80,8 @@ public:
     wire::ManageRefusal manage(const wire::Manage& decision);
     // Everyone who waits for admission.
     std::vector<wire::Visitor> visitors() const;
+    // The tokens of links by which those came who were removed and are kept out.
+    std::vector<std::string> tokens_of_removed() const { return membership_.tokens_of_removed(); }
 
     // A frame of a camera of the host was encoded, `size` bytes. Returns its receivers.
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,

@@ -35,7 +35,7 @@ TEST_F(Host, ANameHasNoMarkOfAReplayAndNoSpacesAroundIt) {
     EXPECT_EQ(shown(alice, "  Ben (recorded) "), "Ben");
     EXPECT_EQ(shown(bob, "(recorded)(recorded)"), "guest");
     EXPECT_EQ(shown(carol, "Dr. Ada  Bee"), "Dr. Ada  Bee");
-    EXPECT_EQ(shown(dave, "   "), "guest");
+    EXPECT_EQ(shown(dave, "   "), "guest (2)");
 }
 
 TEST_F(Host, OneLinkShutsOutNobodyWithAnotherOne) {

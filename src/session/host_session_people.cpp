@@ -16,7 +16,6 @@ using What = AuditEvent::What;
 // The bytes of a person's id that operators see: enough to tell people apart, too few to pass for
 // one of them.
 constexpr std::size_t shown_person_bytes = 4;
-constexpr const char* at_the_host = "host";
 constexpr ParticipantId the_host{};
 
 }  // namespace
@@ -106,7 +105,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             audit(What::role_changed, id, by_name);
             break;
         case ManageAction::remove:
-            membership_.remove(person.person);
+            membership_.remove(person.person, person.token);
             audit(What::removed, id, by_name);
             refuse(id, {TextCode::removed_by_operator});
             break;

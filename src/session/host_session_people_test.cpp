@@ -399,9 +399,30 @@ TEST_F(AskedPeople, AFloodAtTheDoorEndsOnlyItsOwnConnection) {
     EXPECT_TRUE(is_in(alice));
 }
 
+TEST_F(People, WhoseNamesLookEqualAreToldApartExceptForTheSameProgram) {
+    const auto name_of = [&](ParticipantId id, const std::string& name, std::uint8_t person) {
+        session_->on_connected(id, now);
+        wire::Join hello;
+        hello.token = "secret";
+        hello.name = name;
+        hello.depth_codec = "trvl";
+        hello.color_codec = "jpeg";
+        hello.person = Bytes(wire::person_id_size, std::byte(person));
+        tell(id, hello);
+        return session_->participants().at(id).name;
+    };
+    EXPECT_EQ(name_of(alice, "Ada", 1), "Ada");
+    EXPECT_EQ(name_of(bob, "\u0410d\u200ba", 2), "\u0410da (2)") << "Cyrillic, and one unseen";
+    EXPECT_EQ(name_of(carol, "Ada", 1), "Ada") << "who comes again before the old connection ends";
+    session_->on_closed(alice);
+    session_->on_closed(carol);
+    EXPECT_EQ(name_of(dave, "ADA", 4), "ADA") << "nobody else is called so now";
+}
+
 TEST(Membership, ForgetsTheOldestOfTooManyAndNotesNobodyWithoutAnId) {
     Membership membership(false);
-    membership.remove({});
+    membership.remove({}, "token");
+    EXPECT_TRUE(membership.tokens_of_removed().empty());
     EXPECT_EQ(membership.judge({}, Role::expert).entry, Membership::Entry::enters);
     const auto person = [](std::size_t number) {
         Bytes id(wire::person_id_size);
@@ -410,9 +431,13 @@ TEST(Membership, ForgetsTheOldestOfTooManyAndNotesNobodyWithoutAnId) {
         return id;
     };
     for (std::size_t i = 0; i <= Membership::max_known_people; ++i)
-        membership.remove(person(i));
+        membership.remove(person(i), "token " + std::to_string(i));
     EXPECT_EQ(membership.judge(person(0), Role::expert).entry, Membership::Entry::enters);
     EXPECT_EQ(membership.judge(person(1), Role::expert).entry, Membership::Entry::was_removed);
+    EXPECT_EQ(membership.tokens_of_removed().size(), Membership::max_known_people);
+    EXPECT_EQ(membership.tokens_of_removed().front(), "token 1");
+    membership.forget_all();
+    EXPECT_TRUE(membership.tokens_of_removed().empty());
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     const Participant& publisher = *admission_.find(id);
     const std::vector<PlacedScreen> screens =
         place_screens({id, publisher.name, publisher.person, {}, {}}, cameras);
-    streams_.add(id, std::move(cameras), publisher.name);
+    streams_.add(id, std::move(cameras), publisher.given_name);
     for (const PlacedScreen& screen : screens)
         room_.add_screen(screen.camera, screen.offer, screen.chosen);
     take_media(id);

@@ -45,9 +45,19 @@ void Membership::admit(const Bytes& person) {
     }
 }
 
-void Membership::remove(const Bytes& person) {
-    if (Known* known = note(person))
+void Membership::remove(const Bytes& person, const std::string& token) {
+    if (Known* known = note(person)) {
         known->removed = true;
+        known->token = token;
+    }
+}
+
+std::vector<std::string> Membership::tokens_of_removed() const {
+    std::vector<std::string> tokens;
+    for (const Known& known : known_)
+        if (known.removed)
+            tokens.push_back(known.token);
+    return tokens;
 }
 
 void Membership::set_muted(const Bytes& person, bool muted) {

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/bytes.h"
 #include "session/permissions.h"
@@ -33,11 +35,15 @@ public:
     Judged judge(const Bytes& person, Role of_link) const;
 
     void admit(const Bytes& person);
-    void remove(const Bytes& person);
+    // `token`: of the link by which the person came.
+    void remove(const Bytes& person, const std::string& token);
     void set_muted(const Bytes& person, bool muted);
     // Holds only if the person comes by a link of the same role again.
     void set_role(const Bytes& person, Role of_link, Role role);
     void forget_all() { known_.clear(); }
+
+    // The tokens of links by which those came who were removed.
+    std::vector<std::string> tokens_of_removed() const;
 
 private:
     struct Known {
@@ -45,6 +51,7 @@ private:
         bool admitted = false, removed = false, muted = false;
         Role of_link{}, role{};
         bool has_role = false;
+        std::string token;  // of a removed one
     };
     const Known* find(const Bytes& person) const;
     // Null for a person without an id.

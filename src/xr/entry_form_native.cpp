@@ -79,6 +79,9 @@ struct EntryForm::Parts {
     EntryFields fields;
     TextField<4096> link;
     TextField<64> name;
+    std::string hidden_link;  // is shown without its letters while the field holds it
+    std::vector<EntryRecent> recents;
+    std::optional<RecentAnswer> recent;
     render::PictureTexture picture;
     std::deque<FormKeyPress> keys;  // one for each picture, as ImGui sees levels
     std::optional<int> held;        // the key that is down in ImGui
@@ -112,6 +115,7 @@ struct EntryForm::Parts {
     void take(const FormInput& input, Size window);
     EntryAnswer lay_out(const EntryFacts& facts);
     EntryAnswer form(const EntryFacts& facts, float width);
+    void recent_list(float width);
     void session(const EntryFacts& facts, float width);
     void label(const char* words) const;
 };
@@ -189,11 +193,14 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     ImGui::SetNextItemWidth(width - paste - ImGui::GetStyle().ItemSpacing.x);
     if (fresh == 0 && fields.link.empty())
         ImGui::SetKeyboardFocusHere();
-    bool entered = ImGui::InputText("##link", link.letters.data(), link.letters.size(),
-                                    ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool is_hidden = !hidden_link.empty() && link.text() == hidden_link;
+    bool entered = ImGui::InputText(
+        "##link", link.letters.data(), link.letters.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | (is_hidden ? ImGuiInputTextFlags_Password : 0));
     ImGui::SameLine();
     if (ImGui::Button("Paste"))
         link.set(clipboard.text());
+    recent_list(width);
     label("Your name, which the others see");
     ImGui::SetNextItemWidth(width);
     if (fresh == 0 && !fields.link.empty())
@@ -236,6 +243,30 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     fields.link = link.text();
     fields.name = name.text();
     return answer;
+}
+
+// One line for each: the button that chooses it, and the one that forgets it.
+void EntryForm::Parts::recent_list(float width) {
+    if (recents.empty())
+        return;
+    label("Or a session that you have entered before");
+    ImGui::PushFont(small);
+    const float forget = ImGui::CalcTextSize("Forget").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {ImGui::GetStyle().FramePadding.x, 0.2f * float(text_pixels)});
+    for (std::size_t i = 0; i < recents.size(); ++i) {
+        ImGui::PushID(int(i));
+        const std::string line = recents[i].session + "   " + recents[i].place;
+        if (ImGui::Button(line.c_str(), {width - forget - ImGui::GetStyle().ItemSpacing.x, 0}))
+            recent = RecentAnswer{i, false};
+        ImGui::SameLine();
+        if (ImGui::Button("Forget", {forget, 0}))
+            recent = RecentAnswer{i, true};
+        ImGui::PopID();
+    }
+    ImGui::PopStyleVar(2);
+    ImGui::PopFont();
 }
 
 void EntryForm::Parts::session(const EntryFacts& facts, float width) {
@@ -291,6 +322,19 @@ EntryAnswer EntryForm::Parts::lay_out(const EntryFacts& facts) {
 EntryForm::EntryForm(EntryFields fields, Clipboard clipboard)
     : parts_(std::make_unique<Parts>(std::move(fields), std::move(clipboard))) {}
 EntryForm::~EntryForm() = default;
+
+void EntryForm::set_recents(std::vector<EntryRecent> recents) {
+    parts_->recents = std::move(recents);
+}
+
+void EntryForm::set_hidden_link(const std::string& link) {
+    parts_->link.set(link);
+    parts_->fields.link = parts_->hidden_link = parts_->link.text();
+}
+
+std::optional<RecentAnswer> EntryForm::take_recent() {
+    return std::exchange(parts_->recent, std::nullopt);
+}
 
 void EntryForm::set_picture(ColorView picture) {
     parts_->picture.set(picture);

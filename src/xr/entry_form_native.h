@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form before a session: the link, the person's name, voice, and what the host says of its
-// session.
+// The form before a session: the link or one of those entered before, the person's name, voice, and
+// what the host says of its session.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,18 @@ struct EntryFacts {
     bool operator==(const EntryFacts&) const = default;
 };
 
+// A session that the person has entered before.
+struct EntryRecent {
+    std::string session;  // its name
+    std::string place;    // the rest of its line, for example the role and the host
+};
+
+// The person has chosen one of the sessions entered before, or wants it to be offered no more.
+struct RecentAnswer {
+    std::size_t index = 0;
+    bool forgets = false;
+};
+
 enum class EntryAnswer { none, enter, leave };
 
 // Needs the window's GL context current, also in the destructor.
@@ -49,6 +62,13 @@ public:
     // Throws Error where the driver does not accept the shaders.
     EntryForm(EntryFields fields, Clipboard clipboard);
     ~EntryForm();
+
+    // Offers these below the field of the link.
+    void set_recents(std::vector<EntryRecent> recents);
+    // Fills in a link that is not shown in letters until the person edits it.
+    void set_hidden_link(const std::string& link);
+    // The answer since the last call.
+    std::optional<RecentAnswer> take_recent();
 
     // A small picture of the session; an empty view removes it.
     void set_picture(ColorView picture);

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures that go from their publisher straight to a receiver, in three networks that reach each other."""
+import contextlib
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -9,7 +11,8 @@ import time
 import unittest
 import urllib.parse
 
-from theatron_process import PROGRAM, Process, host, make_recording
+import shaped_link
+from theatron_process import PROGRAM, Process, host, make_recording, wait_until
 from three_networks import ThreeNetworks, missing
 
 
@@ -97,6 +100,33 @@ class DirectSending(unittest.TestCase):
             first = meeting.wait_for(lambda c: c["frames"] > 0)
             later = meeting.wait_for(lambda c: c["frames"] > first["frames"] + 30)
             self.assertFalse(later["direct"])
+
+
+class FullUplink(unittest.TestCase):
+    def test_receivers_that_the_publishers_link_does_not_carry_get_the_hosts_copy(self):
+        if why := shaped_link.missing():
+            self.skipTest(why)
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_uplink_"))
+        self.addCleanup(shutil.rmtree, folder)
+        camera = f"folder:{make_recording(folder / 'cart')},loop=1,preload=1,fps=12"
+        # 3.7 Mbit/s for each copy: one passes, and three do not.
+        with contextlib.ExitStack() as stack:
+            link = stack.enter_context(shaped_link.ShapedLink("rate_mbit=5", "delay_ms=5", "buffer_ms=300"))
+            h = stack.enter_context(host(folder / "state", listen="0.0.0.0:0", prefix=link.at_host()))
+            program = lambda word, of, *words, **options: stack.enter_context(Process(
+                word, at(h.greeting[of], shaped_link.HOST_ADDRESS), *words,
+                env={**os.environ, "XDG_STATE_HOME": str(folder / words[-1])}, **options))
+            publisher = program("publish", "publish_link", "--camera", camera, "--name", "cart", prefix=link.at_viewer())
+            receivers = [program("join", "link", "--every", "0.1", "--depth-codec", "raw", "--name", name,
+                                 prefix=link.at_host()) for name in ("Ann", "Ben", "Eva")]
+            for receiver in receivers:
+                receiver.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0, 30)
+            said = lambda text: sum(text in line for line in publisher.errors)
+            wait_until(lambda: said("receiver is left to the host") >= 2, 30)
+            frames = [receiver.newest_json()["cameras"][0]["frames"] for receiver in receivers]
+            for receiver, before in zip(receivers, frames):
+                receiver.wait_for(lambda f: f["cameras"][0]["frames"] > before + 30, 30)
+            self.assertLessEqual(said("receivers=3"), 2, "all three together are not tried again and again")
 
 
 if __name__ == "__main__":

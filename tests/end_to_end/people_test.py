@@ -57,6 +57,31 @@ class People(unittest.TestCase):
         self.assertEqual(process.end(20), code, process.errors)
         self.assertIn(text, "".join(process.errors))
 
+    def test_names_tell_people_apart_and_a_removed_ones_link_shows_nobody(self):
+        with contextlib.ExitStack() as stack:
+            h = stack.enter_context(self.start())
+            links, own = h.greeting["links"], self.link("--role", "expert", "--for", "Ada")["link"]
+            boss = stack.enter_context(self.member(links["operator"], "Boss"))
+            ada = stack.enter_context(self.member(own, "Ada"))
+            boss.wait_for(lambda f: names(f) == ["Ada", "Boss"], 20)
+            # A Cyrillic letter, and one that nobody sees.
+            other = stack.enter_context(self.member(links["expert"], "\u0410d\u200ba"))
+            boss.wait_for(lambda f: names(f) == ["Ada", "Boss", "\u0410da (2)"], 20)
+
+            shown = lambda link: json.loads(run("lobby", link, "--json")[1])["sessions"][0]
+            self.assertEqual(len(shown(own)["people"]), 3)
+            boss.say("remove Ada")
+            self.assert_ends_with(ada, "An operator has removed you from this session.")
+            wait_until(lambda: "people" not in shown(own), 10)
+            session, picture = shown(own), self.folder / "picture.png"
+            self.assertEqual((session["held_back"], "cameras" in session, session["people_count"]), (True, False, 2))
+            self.assertIn("was removed", run("lobby", own)[1])
+            self.assertIn("gives no picture", run("lobby", own, "--picture", picture)[2])
+            self.assertIn("was removed", run("status", own)[2])
+            self.assertEqual(len(shown(links["expert"])["people"]), 2)
+            self.assertEqual(run("lobby", links["expert"], "--picture", picture)[0], 0)
+            self.assertEqual(other.newest_json()["phase"], "joined")
+
     def test_an_operator_admits_mutes_changes_roles_and_removes(self):
         with contextlib.ExitStack() as stack:
             h = stack.enter_context(self.start("--admit", "ask"))

@@ -9,7 +9,7 @@ import time
 import unittest
 
 from raw_peer import STATES, RawPeer
-from theatron_process import Process, host, make_recording, read_png, run, write_png
+from theatron_process import Process, host, make_recording, read_png, run, wait_until, write_png
 
 ROOM = 3         # wire::Feature
 OBJECT_POSE = 2  # wire::StateTopic
@@ -177,6 +177,46 @@ class Room(unittest.TestCase):
                     self.assertGreater(count(drawn, FACE, side), 500, name)
                     self.assertEqual(count(drawn, FACE, 1 - side), 0, name)
                     self.assertEqual(count(drawn, WALL, 0) + count(drawn, WALL, 1), 0, "the wall behind Anna is cut off")
+
+    def test_an_observer_sees_a_scripted_person_and_one_with_a_camera_meet_hand_over_and_teleport(self):
+        face = make_face(self.folder / "face")
+        with self.start() as h, member(h.greeting["links"]["observer"], "Olga") as olga, \
+                member(h.greeting["link"], "Sam") as sam, \
+                member(h.greeting["publish_link"], "Cara", "--publish", f"folder:{face},loop=1,preload=1") as cara:
+            everybody = (olga, sam, cara)
+            for person in everybody:
+                person.wait_for(lambda f: people(f) == ["Cara", "Olga", "Sam"], 20)
+            olga.wait_for(lambda f: len(f["cameras"]) == 2, 20)
+            sam.say("stand 0.5 1.6 -0.2 0 1 -1")
+            sam.say("brick 0.5 1 -0.75")
+            sam.say(f"grab {brick(olga.wait_for(brick, 10))['id']}")
+            for person in everybody:
+                person.wait_for(lambda f: brick(f)["held_by"] == self.number(sam), 10)
+            sam.say("give Cara")
+            cara.wait_for(lambda f: brick(f)["held_by"] == self.number(cara), 10)
+            cara.say("move 0 1.25 -0.75 30")
+
+            def seen_at(x):
+                """Cara stands here, with the brick; the observer's program draws what it sees."""
+                cara.say(f"stand {x} 1.6 -0.75 {x} 1.6 0")
+                picture = self.folder / "picture.png"
+                with Process("join", h.greeting["links"]["observer"], "--name", "Painter", "--offscreen", picture,
+                             "--size", "320x240", "--seconds", "1.5", "--color-codec", "raw", "--renderer", "mesh",
+                             "--json") as painter:
+                    self.assertEqual(painter.end(60), 0, "".join(painter.errors))
+                return [count(read_png(picture), FACE, side) for side in (0, 1)]
+
+            left, right = seen_at(-0.25)
+            self.assertTrue(left > 500 and right == 0, (left, right))
+            left, right = seen_at(0.25)
+            self.assertTrue(left == 0 and right > 500, (left, right))
+            cara.say("release")
+            rooms = [p.wait_for(lambda f: brick(f)["held_by"] == 0 and people(f) == ["Cara", "Olga", "Sam"], 10)["room"]
+                     for p in everybody]
+            self.assertEqual([r["objects"][0]["position"] for r in rooms], [[0, 1.25, -0.75]] * 3)
+            self.assertEqual(len({r["hash"] for r in rooms}), 1)
+            olga.say("brick 0 1 0")
+            wait_until(lambda: any("role does not allow" in line for line in olga.errors), 10)
 
     def test_what_cannot_be_done_is_said(self):
         with self.start() as h, member(h.greeting["link"], "Anna Ö. Two") as anna, \

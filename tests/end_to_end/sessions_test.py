@@ -147,7 +147,10 @@ class Sessions(unittest.TestCase):
         self.assertFalse({"Anna", "Ben"} & joined)
         self.assertEqual([e["event"] for e in log if e.get("name") == "Anna" and "session" not in e],
                          ["joined", "left"])
-        self.assertEqual([e["event"] for e in log if e.get("detail") == "OR 4"], ["began", "ended"])
+        self.assertEqual([(e["event"], e.get("by")) for e in log if e.get("detail") == "OR 4"],
+                         [("began", None), ("ended", "host"), ("deleted", "host")])
+        self.assertEqual([(e["event"], e.get("by")) for e in log if e.get("detail") == "OR 3"],
+                         [("began", None), ("ended", None)], "the host was stopped")
 
     def test_a_session_is_created_while_the_host_runs_and_kept_over_a_restart(self):
         with contextlib.ExitStack() as stack:
@@ -200,6 +203,8 @@ class Sessions(unittest.TestCase):
         self.command("session", "end", "OR 4")
         self.assertEqual(self.command("session", "list"), [])
         self.assertFalse((self.state / "sessions" / "OR%204").exists())
+        last = self.audited()[-1]
+        self.assertEqual((last["event"], last["session"], last["by"]), ("deleted", "OR 4", "host"))
 
     def test_people_wait_for_a_session_whose_camera_is_not_there_when_the_host_begins(self):
         with self.start("--session", "OR 3") as h:
@@ -214,8 +219,15 @@ class Sessions(unittest.TestCase):
         lamp.rename(away)
         # Another session of the folder cannot take its links and its room.
         self.assertIn("cannot be the first", self.refusal("host", "--state", self.state, "--listen", "127.0.0.1:0", "--session", "OR 4"))
-        with host(self.state, listen=address, options=("--session", "OR 3")):
+        with host(self.state, listen=address, options=("--session", "OR 3")) as h:
             wait_until(lambda: "not open at the moment" in self.refusal("lobby", link), 10)
+            # The operator of the host sees it everywhere, with the reason.
+            operator = h.greeting["links"]["operator"]
+            closed = lambda: json.loads(run("status", operator, "--json")[1]).get("closed_sessions", [{}])[0]
+            wait_until(lambda: "lamp" in closed().get("problem", ""), 10)
+            self.assertIn("\nOR 4: not open. ", run("status", operator)[1])
+            self.assertRegex(run("lobby", operator)[1], r"\nOR 4: not open\. .*lamp")
+            self.assertNotIn("OR 4", run("lobby", h.greeting["links"]["expert"])[1])
             ada.wait_for(lambda f: f["phase"] == "lost" and f["cameras"][0]["state"] == "lost", 10)
             away.rename(lamp)
             ada.wait_for(lambda f: f["phase"] == "joined" and cameras(f) == ["lamp"], 30)

@@ -305,6 +305,19 @@ class Window(unittest.TestCase):
             wait_until(lambda: title().startswith("Enter a session") and self.has_main_button())
             type_in("key", "Escape")
             self.assertEqual(viewer.end(), 0, viewer.errors)
+            # The next form offers this session, without its link in letters, until it is forgotten.
+            links = home / "theatron" / "recent_links"
+            self.assertIn(h.greeting["link"], links.read_text())
+            self.assertEqual(links.stat().st_mode & 0o777, 0o600)
+            with Process("join", "--size", f"{WIDTH}x{HEIGHT}", "--renderer", "splat",
+                         env={**self.screen.environment, "XDG_STATE_HOME": str(home)}) as again:
+                wait_until(lambda: title().startswith("Enter a session") and not self.has_main_button())
+                type_in("key", "Down", "key", "space")
+                wait_until(self.has_main_button)
+                type_in("key", "Right", "key", "space")
+                wait_until(lambda: not links.read_text())
+                type_in("key", "Escape")
+                self.assertEqual(again.end(), 0, again.errors)
 
     def has_color(self, color, least):
         blue_green_red = bytes(reversed(color))

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/shown_name.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "base/outside_text.h"
+
+namespace theatron {
+namespace {
+
+// Removes the first character of valid UTF-8, which is not empty, and returns it.
+char32_t take_letter(std::string_view& text, std::string_view& bytes) {
+    const auto lead = std::uint8_t(text[0]);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    char32_t code = length == 1 ? lead : lead & (0x7fu >> length);
+    for (std::size_t i = 1; i < length; ++i)
+        code = code << 6 | (std::uint8_t(text[i]) & 0x3f);
+    bytes = text.substr(0, length);
+    text.remove_prefix(length);
+    return code;
+}
+
+bool is_within(char32_t c, char32_t first, char32_t last) {
+    return c >= first && c <= last;
+}
+
+// Those that Unicode calls "default ignorable", and annotations.
+bool is_invisible(char32_t c) {
+    return c == 0xad || c == 0x34f || is_within(c, 0x115f, 0x1160) ||
+           is_within(c, 0x17b4, 0x17b5) || is_within(c, 0x180b, 0x180f) ||
+           is_within(c, 0x200b, 0x200f) || is_within(c, 0x2060, 0x206f) || c == 0x3164 ||
+           is_within(c, 0xfe00, 0xfe0f) || c == 0xffa0 || is_within(c, 0xfff0, 0xfffb) ||
+           is_within(c, 0x1bca0, 0x1bca3) || is_within(c, 0x1d173, 0x1d17a) ||
+           is_within(c, 0xe0000, 0xe0fff);
+}
+
+// U+2800 is a pattern of Braille without dots.
+bool is_space(char32_t c) {
+    return c == ' ' || c == 0xa0 || c == 0x1680 || is_within(c, 0x2000, 0x200a) || c == 0x202f ||
+           c == 0x205f || c == 0x2800 || c == 0x3000;
+}
+
+// From U+00C0 and from U+00E0 on, without accents; x for the two signs among them.
+constexpr std::string_view latin_1 = "aaaaaaaceeeeiiiidnoooooxouuuuyps";
+// From U+0100 on.
+constexpr std::string_view latin_extended =
+    "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkkllllllllllnnnnnnnnn"
+    "oooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
+static_assert(latin_1.size() == 0x20 && latin_extended.size() == 0x80);
+
+// Small letters of other alphabets that look like a Latin one, they or their capitals.
+struct Lookalike {
+    char32_t letter;
+    char latin;
+};
+constexpr Lookalike lookalikes[] = {
+    {0x3b1, 'a'}, {0x3b2, 'b'}, {0x3b5, 'e'}, {0x3b6, 'z'}, {0x3b7, 'h'}, {0x3b9, 'i'},
+    {0x3ba, 'k'}, {0x3bc, 'm'}, {0x3bd, 'n'}, {0x3bf, 'o'}, {0x3c1, 'p'}, {0x3c4, 't'},
+    {0x3c5, 'y'}, {0x3c7, 'x'},  // Greek
+    {0x430, 'a'}, {0x432, 'b'}, {0x435, 'e'}, {0x43a, 'k'}, {0x43c, 'm'}, {0x43d, 'h'},
+    {0x43e, 'o'}, {0x440, 'p'}, {0x441, 'c'}, {0x442, 't'}, {0x443, 'y'}, {0x445, 'x'},
+    {0x450, 'e'}, {0x451, 'e'}, {0x455, 's'}, {0x456, 'i'}, {0x457, 'i'}, {0x458, 'j'},
+    {0x4bb, 'h'}, {0x501, 'd'}, {0x51b, 'q'}, {0x51d, 'w'},  // Cyrillic
+};
+
+char32_t small_letter(char32_t c) {
+    if (is_within(c, 'A', 'Z') || is_within(c, 0x391, 0x3a9) || is_within(c, 0x410, 0x42f))
+        return c + 0x20;
+    if (is_within(c, 0x400, 0x40f))
+        return c + 0x50;
+    // The other Cyrillic letters of the table above stand behind their capitals.
+    return c == 0x4ba || c == 0x500 || c == 0x51a || c == 0x51c ? c + 1 : c;
+}
+
+char32_t look_of_letter(char32_t c) {
+    if (is_within(c, 0xff01, 0xff5e))  // of full width
+        c -= 0xfee0;
+    if (c == 0xff)
+        return 'y';
+    if (is_within(c, 0xc0, 0xff))
+        return char32_t(latin_1[c & 0x1f]);
+    if (is_within(c, 0x100, 0x17f))
+        return char32_t(latin_extended[c - 0x100]);
+    c = small_letter(c);
+    const auto found = std::find_if(std::begin(lookalikes), std::end(lookalikes),
+                                    [&](const Lookalike& known) { return known.letter == c; });
+    return found == std::end(lookalikes) ? c : char32_t(found->latin);
+}
+
+// I and l are the same in many fonts.
+char32_t without_mix_ups(char32_t c) {
+    return c == 'i' || c == '1' || c == '|' ? U'l' : c == '0' ? U'o' : c;
+}
+
+}  // namespace
+
+std::string clean_name(std::string_view text, std::size_t max_characters) {
+    const std::string clean = clean_text(text, std::numeric_limits<std::size_t>::max());
+    std::string name;
+    std::string_view rest = clean, bytes;
+    while (!rest.empty()) {
+        const char32_t c = take_letter(rest, bytes);
+        if (is_invisible(c))
+            continue;
+        if (!is_space(c))
+            name += bytes;
+        else if (!name.empty())
+            name += ' ';
+    }
+    name = clean_text(name, max_characters);
+    name.erase(name.find_last_not_of(' ') + 1);
+    return name;
+}
+
+std::string look_of(std::string_view name) {
+    std::string look;
+    std::string_view bytes;
+    while (!name.empty()) {
+        const char32_t read = take_letter(name, bytes);
+        if (is_within(read, 0x300, 0x36f) || is_space(read))  // an accent on its own
+            continue;
+        const char32_t c = without_mix_ups(look_of_letter(read));
+        if (c < 0x80)
+            look += char(c);
+        else if (c == read)
+            look += bytes;
+        else
+            // Only letters of two bytes have become others.
+            look += {char(0xc0 | c >> 6), char(0x80 | (c & 0x3f))};
+    }
+    return look;
+}
+
+std::string told_apart(const std::string& name, const std::vector<std::string>& others,
+                       std::size_t max_characters) {
+    std::vector<std::string> looks;
+    for (const std::string& other : others)
+        looks.push_back(look_of(other));
+    const auto is_taken = [&](const std::string& text) {
+        return std::find(looks.begin(), looks.end(), look_of(text)) != looks.end();
+    };
+    std::string shown = name;
+    for (std::size_t number = 2; is_taken(shown); ++number) {
+        const std::string behind = " (" + std::to_string(number) + ")";
+        shown = clean_text(name, max_characters - std::min(max_characters, behind.size())) + behind;
+    }
+    return shown;
+}
+
+}  // namespace theatron

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/shown_name.h"
+
+#include <gtest/gtest.h>
+
+namespace theatron {
+namespace {
+
+constexpr std::size_t plenty = 100;
+
+TEST(CleanName, LeavesNamesOfAnyLanguageAsTheyAre) {
+    for (const char* name :
+         {"", "Dr. Ada  Bee", "Müller", "Анна", "Γιώργος", "山田", "محمد", "🩺 Ben"})
+        EXPECT_EQ(clean_name(name, plenty), name);
+}
+
+TEST(CleanName, HasNoCharactersThatNobodySees) {
+    EXPECT_EQ(clean_name("A\u200bd\u200da\u2060\u00ad", plenty), "Ada");
+    EXPECT_EQ(clean_name("Ada\ufe0f\u3164\U000e0041", plenty), "Ada");
+    EXPECT_EQ(clean_name("\u00a0 Ada\u2003Bee\u3000\u2800", plenty), "Ada Bee");
+    EXPECT_EQ(clean_name("\u200b \u200b", plenty), "");
+    EXPECT_EQ(clean_name("Ada\n\xff", plenty), "Ada \ufffd");
+}
+
+TEST(CleanName, IsCutToItsCharactersAfterCleaning) {
+    EXPECT_EQ(clean_name("\u200b\u200b\u200bÄrzte", 3), "Ärz");
+    EXPECT_EQ(clean_name("Ada Bee", 4), "Ada");
+}
+
+TEST(LookOf, IsEqualForNamesThatAreEasilyTakenForEachOther) {
+    const auto look_alike = [](const char* a, const char* b) { return look_of(a) == look_of(b); };
+    EXPECT_TRUE(look_alike("Ada", "ADA"));
+    EXPECT_TRUE(look_alike("Ada", "\u0410d\u0430")) << "Cyrillic A and a";
+    EXPECT_TRUE(look_alike("Ada", "\u0391da")) << "Greek Alpha";
+    EXPECT_TRUE(look_alike("Ada", "Ａｄａ")) << "of full width";
+    EXPECT_TRUE(look_alike("Müller", "MüIIer")) << "capital I for small l";
+    EXPECT_TRUE(look_alike("Müller", "Mu\u0308ller")) << "an accent on its own";
+    EXPECT_TRUE(look_alike("Łukasz", "łukasz"));
+    EXPECT_TRUE(look_alike("Ольга", "ОЛЬГА"));
+    EXPECT_TRUE(look_alike("Ёлка", "ёлка"));
+    EXPECT_TRUE(look_alike("Γιώργος", "ΓΙώΡΓΟς"));
+    EXPECT_TRUE(look_alike("Dr. Ada", "Dr.  Ada"));
+    EXPECT_TRUE(look_alike("OR 10", "OR lO"));
+    for (const auto& [a, b] : {std::pair("Ada", "Ida"), std::pair("Ada", "Ada B"),
+                               std::pair("Анна", "Анка"), std::pair("山田", "山口")})
+        EXPECT_FALSE(look_alike(a, b)) << a << " " << b;
+}
+
+TEST(ToldApart, PutsTheLowestFreeNumberBehindAName) {
+    EXPECT_EQ(told_apart("Ada", {}, plenty), "Ada");
+    EXPECT_EQ(told_apart("Ada", {"Ben", "Adam"}, plenty), "Ada");
+    EXPECT_EQ(told_apart("ada", {"Ada"}, plenty), "ada (2)");
+    EXPECT_EQ(told_apart("Ada", {"Ada", "ADA (2)"}, plenty), "Ada (3)");
+    EXPECT_EQ(told_apart("Ada", {"Ada (2)"}, plenty), "Ada") << "nobody else has it alone";
+    EXPECT_EQ(told_apart(std::string(64, 'x'), {std::string(64, 'x')}, 64),
+              std::string(60, 'x') + " (2)");
+}
+
+}  // namespace
+}  // namespace theatron
