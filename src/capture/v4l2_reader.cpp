@@ -14,6 +14,7 @@ extern "C" {
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <tuple>
 #include <vector>
 
 #include "base/steady_clock.h"
@@ -29,7 +30,10 @@ namespace {
 using Kind = VideoAnswer::Kind;
 
 constexpr unsigned buffers_wanted = 4;
-constexpr Size usual_size{1280, 720};
+// The largest that is asked for without a wish; a driver answers with what is nearest.
+constexpr Size usual_size{1920, 1080};
+// A rate of so much of the wanted one is enough.
+constexpr double enough_rate = 0.9;
 constexpr std::size_t largest_buffer = std::size_t(64) << 20;
 
 struct Format {
@@ -37,7 +41,7 @@ struct Format {
     AVPixelFormat pixels;  // none: JPEG
     int planes;
 };
-// In the order of preference: without loss first, as far as the cable allows the device to.
+// In the order of preference: without loss first.
 constexpr Format formats[] = {
     {V4L2_PIX_FMT_YUYV, AV_PIX_FMT_YUYV422, 1}, {V4L2_PIX_FMT_UYVY, AV_PIX_FMT_UYVY422, 1},
     {V4L2_PIX_FMT_NV12, AV_PIX_FMT_NV12, 2},    {V4L2_PIX_FMT_YUV420, AV_PIX_FMT_YUV420P, 3},
@@ -68,6 +72,7 @@ private:
     }
     bool choose_format();
     bool choose(const Format& format, Size size);
+    bool take_newest(v4l2_buffer& buffer) const;
     bool map_buffers();
     bool write_picture(const std::uint8_t* bytes, std::size_t count);
 
@@ -77,12 +82,31 @@ private:
     const Format* format_ = nullptr;
     Size size_;
     int stride_ = 0;
+    double frames_per_second_ = 0;
+    AVColorSpace colors_ = AVCOL_SPC_UNSPECIFIED;
+    AVColorRange range_ = AVCOL_RANGE_UNSPECIFIED;
     std::vector<std::span<const std::uint8_t>> buffers_;
     AVCodecContext* jpeg_ = nullptr;
     AVPacket* packet_ = nullptr;
     AVFrame* frame_ = nullptr;
 };
 
+AVColorSpace colors_of(const v4l2_pix_format& told) {
+    std::uint32_t encoding = told.ycbcr_enc;
+    if (encoding == V4L2_YCBCR_ENC_DEFAULT)
+        encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(told.colorspace);
+    return encoding == V4L2_YCBCR_ENC_709 || encoding == V4L2_YCBCR_ENC_XV709 ? AVCOL_SPC_BT709
+                                                                              : AVCOL_SPC_SMPTE170M;
+}
+
+AVColorRange range_of(const v4l2_pix_format& told) {
+    const bool is_full =
+        told.quantization == V4L2_QUANTIZATION_FULL_RANGE ||
+        (told.quantization == V4L2_QUANTIZATION_DEFAULT && told.colorspace == V4L2_COLORSPACE_JPEG);
+    return is_full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+}
+
+// Sets the format and the rate of the device.
 bool Device::choose(const Format& format, Size size) {
     v4l2_format wanted{};
     wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -97,17 +121,36 @@ bool Device::choose(const Format& format, Size size) {
     size_ = {int(wanted.fmt.pix.width), int(wanted.fmt.pix.height)};
     stride_ = int(std::min(wanted.fmt.pix.bytesperline, unsigned(8 * max_side)));
     format_ = &format;
+    colors_ = colors_of(wanted.fmt.pix);
+    range_ = range_of(wanted.fmt.pix);
+    v4l2_streamparm pace{};
+    pace.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    pace.parm.capture.timeperframe = {1, std::uint32_t(std::lround(opening_.frames_per_second))};
+    frames_per_second_ = opening_.frames_per_second;
+    if (const auto& told = pace.parm.capture.timeperframe;
+        ask(VIDIOC_S_PARM, &pace) && told.numerator > 0 && told.denominator > 0)
+        frames_per_second_ = double(told.denominator) / told.numerator;
     return true;
 }
 
-// A size that was asked for is more important than pictures without loss.
+// The right size comes before the rate, and both before pictures without loss: many devices give
+// those only slowly, since a cable carries no more.
 bool Device::choose_format() {
     const Size size = opening_.wanted == Size{} ? usual_size : opening_.wanted;
-    for (const bool exactly : {true, false})
-        for (const Format& format : formats)
-            if (choose(format, size) && (!exactly || size_ == size))
-                return true;
-    return false;
+    const Format* best = nullptr;
+    std::tuple<bool, std::size_t, double> best_value;
+    for (const Format& format : formats) {
+        if (!choose(format, size))
+            continue;
+        const std::tuple value{
+            size_ == size, std::min(size_.area(), size.area()),
+            std::min(frames_per_second_, enough_rate * opening_.frames_per_second)};
+        if (!best || value > best_value) {
+            best = &format;
+            best_value = value;
+        }
+    }
+    return best && choose(*best, size);
 }
 
 bool Device::map_buffers() {
@@ -138,13 +181,6 @@ VideoAnswer Device::open() {
     av_log_set_level(AV_LOG_QUIET);
     if (!choose_format())
         return {.kind = Kind::no_decoder};
-    v4l2_streamparm pace{};
-    pace.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    pace.parm.capture.timeperframe = {1, std::uint32_t(std::lround(opening_.frames_per_second))};
-    double fps = opening_.frames_per_second;
-    if (const auto& told = pace.parm.capture.timeperframe;
-        ask(VIDIOC_S_PARM, &pace) && told.numerator > 0 && told.denominator > 0)
-        fps = double(told.denominator) / told.numerator;
     if (!writer_.begin(opening_.wanted == Size{} ? size_ : opening_.wanted))
         return {.kind = Kind::impossible_size};
     if (format_->pixels == AV_PIX_FMT_NONE) {
@@ -161,7 +197,7 @@ VideoAnswer Device::open() {
     }
     if (!map_buffers())
         return {.kind = Kind::refused};
-    return {Kind::opened, {}, writer_.size(), fps};
+    return {Kind::opened, {}, writer_.size(), frames_per_second_};
 }
 
 // False if the picture is damaged.
@@ -194,7 +230,23 @@ bool Device::write_picture(const std::uint8_t* bytes, std::size_t count) {
     if (count < needed ||
         std::size_t(stride_) < std::size_t(av_image_get_linesize(format_->pixels, size_.width, 0)))
         return false;
-    writer_.write({format_->pixels, size_, rows, strides});
+    writer_.write({format_->pixels, size_, rows, strides, colors_, range_});
+    return true;
+}
+
+// Older pictures that wait are left out: the driver keeps up to four. False: no picture.
+bool Device::take_newest(v4l2_buffer& buffer) const {
+    const auto take = [&](v4l2_buffer& one) {
+        one = {};
+        one.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+        one.memory = V4L2_MEMORY_MMAP;
+        return ask(VIDIOC_DQBUF, &one);
+    };
+    if (!take(buffer))
+        return false;
+    for (v4l2_buffer later; take(later); buffer = later)
+        if (!ask(VIDIOC_QBUF, &buffer))
+            return false;
     return true;
 }
 
@@ -208,9 +260,7 @@ std::optional<VideoAnswer> Device::next() {
         if (!(ready.revents & POLLIN))
             continue;
         v4l2_buffer buffer{};
-        buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-        buffer.memory = V4L2_MEMORY_MMAP;
-        if (!ask(VIDIOC_DQBUF, &buffer)) {
+        if (!take_newest(buffer)) {
             if (errno == EAGAIN)
                 continue;
             return std::nullopt;

@@ -127,8 +127,8 @@ void allow_display(Filter& filter) {
 
 void allow_device(Filter& filter) {
     for (const unsigned long request :
-         {VIDIOC_QUERYCAP, VIDIOC_ENUM_FMT, VIDIOC_G_FMT, VIDIOC_S_FMT, VIDIOC_S_PARM,
-          VIDIOC_REQBUFS, VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_DQBUF, VIDIOC_STREAMON})
+         {VIDIOC_S_FMT, VIDIOC_S_PARM, VIDIOC_REQBUFS, VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_DQBUF,
+          VIDIOC_STREAMON})
         filter.allow(SCMP_SYS(ioctl), {is(0, input_descriptor), is(1, request)});
     constexpr unsigned protection = 2, descriptor = 4;
     filter.allow(SCMP_SYS(mmap),

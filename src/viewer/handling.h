@@ -30,6 +30,8 @@ public:
     // Asks for a new brick before an eye.
     void make_brick(const render::CameraView& view, client::Participant& participant);
 
+    bool holds() const { return held_.has_value(); }
+
     // The newest sentence for the user since the last call; may be empty.
     std::string take_note();
 

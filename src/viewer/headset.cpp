@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "session/shared_screen.h"
+#include "viewer/looking_back.h"
 #include "viewer/refusal_text.h"
 
 namespace theatron::viewer {
@@ -206,13 +207,15 @@ void Headset::choose(const MenuRow& row) {
         case MenuAction::drawing:
         case MenuAction::new_brick:
         case MenuAction::go_to_person:
+        case MenuAction::live:
             wish_ = row;
     }
 }
 
 void Headset::on_hand(const xr::HandIntents& intents, Hand& hand, LiveScene& scene,
                       client::Participant& participant, double seconds) {
-    hand.points = intents.points;
+    // The ray meets surfaces of the past, which are not there now.
+    hand.points = intents.points && !scene.past_moment();
     hand.row.reset();
     const bool has_menu = menu_.is_shown() && &hand == &hands_[xr::left_side] && intents.is_bare;
     if (hand.room_from_aim && !hand.held && !has_menu)
@@ -268,6 +271,10 @@ bool Headset::take(Hand& hand, LiveScene& scene, client::Participant& participan
     const session::RoomObject* object = meeting.find(hit->object);
     if (!object)
         return false;
+    if (scene.past_moment()) {
+        note_ = looking_back_changes_nothing;
+        return true;
+    }
     if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
         note_ = meeting.name_of(object->grip.holder) + " holds this";
         return true;

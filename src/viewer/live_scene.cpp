@@ -87,6 +87,14 @@ void LiveScene::leave_out_other_moments(const client::Participant& participant) 
         clouds_.set_presence(id, presence_of(id));
 }
 
+std::optional<TimePoint> LiveScene::past_moment() const {
+    std::optional<TimePoint> oldest;
+    for (const auto& [id, frame] : newest_)
+        if (frame->past && !left_out_.contains(id))
+            oldest = std::min(oldest.value_or(frame->times.captured), frame->times.captured);
+    return oldest;
+}
+
 double LiveScene::presence_of(CameraId camera) const {
     const auto known = presence_.find(camera);
     return left_out_.contains(camera) ? 0 : known == presence_.end() ? 1 : known->second;
@@ -102,6 +110,7 @@ void LiveScene::note_screens(const client::Participant& participant) {
 
 bool LiveScene::take_meeting(const client::Participant& participant) {
     meeting_.set_clouds(person_clouds_.seen());
+    meeting_.show_moment(past_moment());
     const bool changed = meeting_.take(participant);
     if (changed) {
         person_clouds_.place(meeting_.people());
@@ -246,9 +255,11 @@ std::vector<ColoredPoint> LiveScene::points() const {
     return all;
 }
 
+// Others point at the present: what their rays meet is not in a picture of the past.
 void LiveScene::add_pointers(const render::CameraView& view) {
+    const bool is_present = !past_moment();
     for (const room::RoomPerson& person : meeting_.people())
-        if (person.points && !person.is_stale)
+        if (is_present && person.points && !person.is_stale)
             pointers_.push_back({person.id, person.name, person.right_hand->translation,
                                  rotate(person.right_hand->rotation, {0, 0, -1}), std::nullopt});
     pointers_.insert(pointers_.end(), own_pointers_.begin(), own_pointers_.end());

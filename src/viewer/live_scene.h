@@ -104,6 +104,9 @@ public:
     // picture is of another moment than the others' (looking_back.h).
     const std::map<CameraId, receive::CameraFramePtr>& newest() const { return newest_; }
     bool is_drawn(CameraId camera) const { return !left_out_.contains(camera); }
+    // The moment of the oldest picture of the past that is drawn, in session time; nullopt: the
+    // present is drawn.
+    std::optional<TimePoint> past_moment() const;
     // The camera is live and its newest frame is of the present, as judged last.
     bool shows_present(CameraId camera) const;
 

@@ -64,15 +64,19 @@ bool LookingBack::go(Duration ago, client::Participant& participant, TimePoint n
     return true;
 }
 
-void LookingBack::add_panel(const std::string& past, const client::Participant& participant,
-                            TimePoint now, RoomPanel& panel) const {
+void LookingBack::add_panel(const std::string& past, bool knows_objects,
+                            const client::Participant& participant, TimePoint now,
+                            RoomPanel& panel) const {
     using std::chrono::seconds;
     const auto button = [&](const char* label, Duration ago) {
         panel.commands.push_back(LookBackTo{ago});
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
     xr::PanelRow row{past.empty() ? "The present" : past,
-                     past.empty() ? "" : "People and voices are of now",
+                     past.empty()    ? ""
+                     : knows_objects ? "People and voices are of now"
+                                     : "People and voices are of now; objects and marks of before "
+                                       "you came are not drawn",
                      {}};
     if (past.empty())
         row.buttons = {button("10 s ago", seconds(10)), button("30 s ago", seconds(30)),

@@ -25,6 +25,10 @@ std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
                       const std::set<CameraId>& looking,
                       const std::map<CameraId, std::string>& names, TimePoint session_time);
 
+// Said to a person who wants to change something meanwhile.
+inline constexpr const char* looking_back_changes_nothing =
+    "You look back; objects, marks and pointing are of now. End: live again";
+
 // Use from one thread.
 class LookingBack {
 public:
@@ -38,9 +42,9 @@ public:
     // False: the host keeps nothing.
     bool go(Duration ago, client::Participant& participant, TimePoint now);
 
-    // Adds the panel with its buttons.
-    void add_panel(const std::string& past, const client::Participant& participant, TimePoint now,
-                   RoomPanel& panel) const;
+    // Adds the panel with its buttons. `knows_objects`: those of the room at that moment.
+    void add_panel(const std::string& past, bool knows_objects,
+                   const client::Participant& participant, TimePoint now, RoomPanel& panel) const;
 
 private:
     Duration here(const client::Participant& participant, TimePoint now) const;

@@ -67,15 +67,16 @@ TEST(LookingBack, OffersTheLastMinuteAndOnePressBackToThePresent) {
     const LookingBack looking;
     const TimePoint now = from_us(5'000'000);
     RoomPanel present, past;
-    looking.add_panel("", nobody, now, present);
+    looking.add_panel("", true, nobody, now, present);
     ASSERT_EQ(present.panels.size(), 1u);
     const auto& row = present.panels[0].rows.at(0);
     ASSERT_EQ(row.buttons.size(), 3u);
     EXPECT_EQ(std::get<LookBackTo>(present.commands.at(std::size_t(row.buttons[1].command))).ago,
               std::chrono::seconds(30));
-    looking.add_panel("NOT LIVE: 23 s ago", nobody, now, past);
+    looking.add_panel("NOT LIVE: 23 s ago", false, nobody, now, past);
     const auto& shown = past.panels.at(0).rows.at(0);
     EXPECT_EQ(shown.text, "NOT LIVE: 23 s ago");
+    EXPECT_NE(shown.detail.find("before you came"), std::string::npos);
     EXPECT_EQ(shown.buttons.at(0).label, "Live");
     EXPECT_EQ(std::get<LookBackTo>(past.commands.at(std::size_t(shown.buttons[0].command))).ago,
               Duration(0));

@@ -83,8 +83,12 @@ bool Meeting::take(const client::Participant& participant) {
         room_ = participant.room();
         changed = true;
     }
-    changed = case_.take(participant, room_.objects, changed) || changed;
     const TimePoint now = taken_at_ = participant.now();
+    if (participant.can_look_back() && participant.status().clock_known &&
+        (changed || !past_.knows(now)))
+        past_.note(room_.objects, now);
+    changed = take_past() || changed;
+    changed = case_.take(participant, shown(), changed) || changed;
     auto poses = participant.poses();
     std::erase_if(tracks_, [&](const auto& track) { return !poses.contains(track.first); });
     for (auto& [id, pose] : poses) {
@@ -103,6 +107,18 @@ bool Meeting::take(const client::Participant& participant) {
         changed || !std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same);
     people_ = std::move(people);
     return changed;
+}
+
+// True if other objects are drawn than before.
+bool Meeting::take_past() {
+    const bool showed_past = std::exchange(shows_past_, moment_.has_value());
+    if (!moment_)
+        return showed_past;
+    session::RoomObjects then = past_.at(*moment_);
+    if (showed_past && then == then_)
+        return false;
+    then_ = std::move(then);
+    return true;
 }
 
 bool Meeting::is_moving(TimePoint session_time) const {
@@ -125,7 +141,7 @@ const render::SceneMesh& Meeting::mesh_of(const room::Brick& brick) {
 
 void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) {
     const Vec3 eye = view.room_from_eye.translation;
-    for (const auto& [id, object] : room_.objects) {
+    for (const auto& [id, object] : shown()) {
         add_holder(frame, id, object, eye);
         if (object.kind != session::ObjectKind::brick)
             continue;
@@ -139,7 +155,7 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
     case_.add_to(frame, view);
     if (screens_)
         screens_->add_to(frame);
-    std::vector<room::PlacedMark> marks = placed_marks(room_.objects, case_);
+    std::vector<room::PlacedMark> marks = placed_marks(shown(), case_);
     if (new_mark_)
         append_placed(*new_mark_, false, case_, marks);
     mark_scene_.add_to(frame, marks, view);
@@ -160,6 +176,8 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
     for (room::RoomPerson& person : shown) {
         if (const auto meter = meters_.find(person.id); meter != meters_.end())
             person.name += " " + meter->second;
+        if (shows_past_)
+            person.name += " (now)";
         if (const auto face = faces_.find(person.id); face != faces_.end())
             person.face = face->second;
     }

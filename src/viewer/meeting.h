@@ -18,6 +18,7 @@
 #include "room/teleport_marks.h"
 #include "session/pose_track.h"
 #include "viewer/case_scene.h"
+#include "viewer/room_past.h"
 #include "viewer/shared_screens.h"
 
 namespace theatron::viewer {
@@ -46,6 +47,13 @@ public:
 
     // The others who speak, with their levels (Voices). True if the picture changes.
     bool set_speaking(const std::map<ParticipantId, int>& levels_db);
+
+    // The bricks, organs and marks that are drawn and met by rays are those of this moment of the
+    // session's time, from the next take(), and other people are marked as being of now; nullopt:
+    // the present.
+    void show_moment(std::optional<TimePoint> moment) { moment_ = moment; }
+    // False: the objects of the moment that is shown are not known, since this person came later.
+    bool knows_shown_moment() const { return !moment_ || past_.knows(*moment_); }
 
     // Takes over new objects, people and poses. True if the picture changes.
     bool take(const client::Participant& participant);
@@ -91,11 +99,14 @@ public:
     std::string name_of(ParticipantId id) const;
 
     const std::vector<room::RoomPerson>& people() const { return people_; }
+    // As it is now.
     const client::Participant::Room& room() const { return room_; }
     // Another person whose head has a pose; null if there is none of this number.
     const room::RoomPerson* person(ParticipantId id) const;
 
 private:
+    bool take_past();
+    const session::RoomObjects& shown() const { return shows_past_ ? then_ : room_.objects; }
     const render::SceneMesh& mesh_of(const room::Brick& brick);
     void add_teleports(render::SceneFrame& frame);
     void add_holder(render::SceneFrame& frame, session::ObjectId id,
@@ -104,6 +115,10 @@ private:
     SharedScreens* screens_ = nullptr;
     std::uint64_t version_ = 0;
     client::Participant::Room room_;
+    RoomPast past_;
+    std::optional<TimePoint> moment_;
+    bool shows_past_ = false;
+    session::RoomObjects then_;  // at moment_
     std::vector<room::RoomPerson> people_;
     std::set<ParticipantId> clouds_;
     std::map<ParticipantId, room::FacePicture> faces_;

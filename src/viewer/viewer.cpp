@@ -61,10 +61,14 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
                       TimePoint now) {
     mouse_ = input.pointer_covered ? std::nullopt : input.pointer;
     picture_ = picture;
-    draw_region(input, picture, now);
+    const bool is_past = scene_.past_moment().has_value();
+    if (is_past)
+        keep_present(input, now);
+    else
+        draw_region(input, picture, now);
     mark(input, picture);
     point(input, picture);
-    if (eye_.is_placed())
+    if (eye_.is_placed() && (!is_past || handling_.holds()))
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
                            eye_.view(picture), scene_.meeting(), participant_, now);
     if (const std::string text = handling_.take_note(); !text.empty())
@@ -505,7 +509,8 @@ Facts Viewer::facts(TimePoint now) {
     facts.past = past(now);
     // The way back to the present comes first, the offer to look back last.
     if (!facts.past.empty())
-        looking_back_.add_panel(facts.past, participant_, now, panel);
+        looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
+                                now, panel);
     if (shows_panels_) {
         const wire::Role role = facts.received.status.standing.role;
         const client::Participant::Room& room = scene_.meeting().room();
@@ -520,9 +525,11 @@ Facts Viewer::facts(TimePoint now) {
                                    is_calling(now), voices_.speaking, own_face_}));
         add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
-            looking_back_.add_panel(facts.past, participant_, now, panel);
+            looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
+                                    now, panel);
     }
-    if (shows_case_)
+    // Its buttons would change the present by what is shown of the past.
+    if (shows_case_ && facts.past.empty())
         add_case(panel);
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);

@@ -176,6 +176,7 @@ private:
     void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
     void play(const PlayStep& play, TimePoint now);
     bool look_back(const xr::KeyPress& key, TimePoint now);
+    void keep_present(xr::WindowInput& input, TimePoint now);
     void look_back(Duration ago, TimePoint now);
     std::string past(TimePoint now) const;
     bool may(session::Right right) const;

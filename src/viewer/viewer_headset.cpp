@@ -53,10 +53,10 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
         note(text, now);
     const auto status = participant_.status();
     const bool is_joined = status.phase == client::Participant::Phase::joined;
-    scene_.set_headset_text(!is_joined            ? "Connection lost, trying again..."
-                            : !facts.past.empty() ? facts.past
-                            : now < notice_until_ ? notice_
-                                                  : "");
+    const std::string notice = now < notice_until_ ? notice_ : "";
+    const char* const between = facts.past.empty() || notice.empty() ? "" : ". ";
+    scene_.set_headset_text(is_joined ? facts.past + between + notice
+                                      : "Connection lost, trying again...");
 }
 
 void Viewer::recentre_headset() {
@@ -67,6 +67,8 @@ void Viewer::recentre_headset() {
 void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
     if (wish.action == MenuAction::drawing) {
         choose_next_renderer(now);
+    } else if (wish.action == MenuAction::new_brick && scene_.past_moment()) {
+        note(looking_back_changes_nothing, now);
     } else if (wish.action == MenuAction::new_brick) {
         handling_.make_brick(headset_->head(), participant_);
     } else if (wish.action == MenuAction::live) {

@@ -132,6 +132,23 @@ void Viewer::look_back(Duration ago, TimePoint now) {
         note(wire::text_of(wire::ManageRefusal::nothing_kept), now);
 }
 
+// Looking back, a person changes nothing of the present by what is shown of the past.
+void Viewer::keep_present(xr::WindowInput& input, TimePoint now) {
+    if (marking_.tool())
+        marking_.choose(std::nullopt, scene_.meeting());
+    const std::size_t count = input.keys.size();
+    const auto last =
+        std::remove_if(input.keys.begin(), input.keys.end(), [](const xr::KeyPress& key) {
+            return key.action == xr::Action::new_brick || key.action == xr::Action::give ||
+                   key.action == xr::Action::remove || key.action == xr::Action::marks ||
+                   key.action == xr::Action::undo_mark || key.action == xr::Action::slice_here;
+        });
+    input.keys.erase(last, input.keys.end());
+    if (input.points || input.keys.size() < count)
+        note(looking_back_changes_nothing, now);
+    input.points = false;
+}
+
 std::string Viewer::past(TimePoint now) const {
     const std::set<CameraId> looking = participant_.past_cameras();
     const auto& shown = scene_.newest();

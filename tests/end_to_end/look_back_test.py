@@ -82,6 +82,58 @@ class LookBack(unittest.TestCase):
             self.assertGreater(red_of_right(), 200)
             self.assertEqual(red_of_right("back 2"), 0)
 
+    def test_objects_are_those_of_the_moment_that_is_shown(self):
+        still = make_recording(self.folder / "still", frames=1)
+        stand(still)
+
+        def picture(name, link, seconds=1):
+            return Process("join", link, "--offscreen", self.folder / f"{name}.png", "--size", "160x120", "--quality", "low",
+                           "--view", "camera:0", "--color-codec", "raw", "--seconds", str(seconds), "--every", "0.1")
+
+        def bricks(figures):
+            return [o for o in figures["room"]["objects"] if o["kind"] == "brick"]
+
+        def changed(name, before):
+            """Pixels of the left and of the right half that are not as in the picture before."""
+            width, height, channels, rows = read_png(self.folder / f"{name}.png")
+            old = read_png(self.folder / f"{before}.png")[3]
+            counts = [0, 0]
+            for y in range(height):
+                for x in range(width):
+                    at = channels * x
+                    counts[x >= width // 2] += max(abs(a - b) for a, b in zip(rows[y][at:at + 3], old[y][at:at + 3])) > 40
+            return counts
+
+        with host(self.folder / "state", f"folder:{still},fps={FPS},loop=1,preload=1") as h, \
+                Process("join", h.greeting["link"], "--every", "0.1", "--name", "Anna") as anna:
+            link = h.greeting["link"]
+            anna.wait_for(lambda f: f["cameras"] and camera(f)["frames"] > FPS, 30)
+            with picture("empty", link) as ben:
+                self.assertEqual(ben.end(60), 0, "".join(ben.errors))
+            anna.say("brick -0.25 1.6 -0.7")
+            anna.wait_for(lambda f: len(bricks(f)) == 1, 10)
+            # Ben is there for 4 s: 3 s back he sees the old brick, not the one that was made since.
+            with picture("past", link, seconds=6) as ben:
+                ben.wait_for(lambda f: f["cameras"] and camera(f)["frames"] > 4 * FPS, 30)
+                anna.say("brick 0.25 1.6 -0.7")
+                ben.wait_for(lambda f: len(bricks(f)) == 2, 10)
+                ben.say("back 3")
+                ben.wait_for(lambda f: camera(f)["past"], 10)
+                self.assertEqual(ben.end(60), 0, "".join(ben.errors))
+            # A latecomer does not know when they were made.
+            with picture("late", link, seconds=2) as ben:
+                ben.wait_for(lambda f: f["cameras"] and camera(f)["frames"] > 0, 30)
+                ben.say("back 5")
+                ben.wait_for(lambda f: camera(f)["past"], 10)
+                self.assertEqual(ben.end(60), 0, "".join(ben.errors))
+            with picture("now", link) as ben:
+                self.assertEqual(ben.end(60), 0, "".join(ben.errors))
+        left, right = changed("now", "empty")
+        self.assertTrue(left > 50 and right > 50, (left, right))
+        left, right = changed("past", "empty")
+        self.assertTrue(left > 50 and right < 20, (left, right))
+        self.assertLess(max(changed("late", "empty")), 20)
+
     def test_a_host_that_keeps_nothing_says_so(self):
         with host(self.folder / "state", self.camera, options=("--look-back", "0")) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as guest:

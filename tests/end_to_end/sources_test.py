@@ -16,6 +16,8 @@ from theatron_process import PROGRAM, Process, host, make_recording, read_png, r
 from virtual_screen import VirtualScreen
 
 WAIT = 30
+STANDIN = os.environ.get("THEATRON_V4L2_STANDIN", "build/release/tests/v4l2_standin/libv4l2_standin.so")
+INCOMPLETE = 3  # exit code of `record` where a picture was lost, as on a busy machine
 
 
 def camera(figures, name):
@@ -99,6 +101,81 @@ class Sources(unittest.TestCase):
                 self.assertEqual(code, 1)
                 self.assertIn(words, errors)
                 self.assertEqual(errors.count("\n"), 1, errors)
+
+
+class Devices(unittest.TestCase):
+    """A USB webcam that does not exist (tests/v4l2_standin/standin_device.h): the program opens it, and a reader in its
+    sandbox gets its pictures by the same system calls as from a real one."""
+
+    DEVICE = "/dev/video42"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_devices_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+
+    def environment(self, **more):
+        return {**os.environ, "LD_PRELOAD": str(pathlib.Path(STANDIN).resolve()), "V4L2_STANDIN_DEVICE": self.DEVICE, **more}
+
+    def recorded(self, link, name):
+        """The colour pictures of a second, without loss."""
+        file = self.folder / f"{name}.mkv"
+        code, _, errors = run("record", link, file, "--seconds", "1", "--color-codec", "raw")
+        self.assertIn(code, (0, INCOMPLETE), errors)
+        code, _, errors = run("export", file, "--png", self.folder / name)
+        self.assertEqual(code, 0, errors)
+        return [read_png(picture) for picture in sorted((self.folder / name / "color").glob("*.png"))[:6]]
+
+    def assert_stripes(self, picture, size, third):
+        width, height, _, rows = picture
+        self.assertEqual((width, height), size)
+        for n, color in enumerate(((255, 0, 0), (0, 255, 0), third)):
+            x = (2 * n + 1) * width // 6
+            pixel = tuple(rows[height // 4][3 * x:3 * x + 3])
+            self.assertTrue(all(abs(a - b) < 10 for a, b in zip(pixel, color)), (pixel, color))
+
+    def test_a_device_is_shown_in_its_colours(self):
+        with host(self.folder / "state") as h, \
+                Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},size=640x480,name=scope",
+                        "--may-record", env=self.environment()), \
+                Process("join", h.greeting["link"], "--every", "0.2") as seen:
+            seen.wait_for(shown("scope", 20), WAIT)
+            pictures = self.recorded(h.greeting["link"], "small")
+        places = []
+        for picture in pictures:
+            self.assert_stripes(picture, (640, 480), (0, 0, 255))
+            last = picture[3][-1]
+            places.append(next(x for x in range(640) if min(last[3 * x:3 * x + 3]) > 200))
+        # The white block moves by a step for each picture.
+        self.assertGreater(len(set(places)), 2, places)
+        self.assertTrue(all(x % 16 < 2 for x in places), places)
+
+    def test_its_largest_picture_is_shown_at_the_full_rate(self):
+        """This device gives its largest pictures without loss at a third of the rate only: JPEG is taken."""
+        with host(self.folder / "state2") as h, \
+                Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},name=scope", "--may-record",
+                        env=self.environment()), \
+                Process("join", h.greeting["link"], "--every", "0.2") as seen:
+            seen.wait_for(shown("scope", 20), WAIT)
+            for picture in self.recorded(h.greeting["link"], "large"):
+                self.assert_stripes(picture, (1280, 720), (255, 0, 255))
+
+    def test_a_device_that_is_unplugged_comes_back(self):
+        with host(self.folder / "state3") as h, \
+                Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},size=640x480,name=scope",
+                        "--every", "0.2", env=self.environment(V4L2_STANDIN_PICTURES="40")) as cart:
+            gone = cart.wait_for(lambda f: camera(f, "scope")["state"] == "stale", WAIT)
+            self.assertEqual(camera(gone, "scope")["problem"], f"The video device '{self.DEVICE}' has ended.")
+            before = camera(gone, "scope")["frames"]
+            cart.wait_for(lambda f: camera(f, "scope")["state"] == "live" and camera(f, "scope")["frames"] > before, WAIT)
+
+    def test_it_is_a_webcam_too(self):
+        with host(self.folder / "state4") as h, \
+                Process("join", h.greeting["link"], "--name", "Ben", "--webcam", self.DEVICE, "--every", "0.2",
+                        env=self.environment()) as ben, \
+                Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada:
+            ben.wait_for(lambda f: f["webcam"]["state"] == "seen", WAIT)
+            ada.wait_for(shown("face"), WAIT)
 
 
 class Windows(unittest.TestCase):
