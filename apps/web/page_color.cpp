@@ -24,7 +24,7 @@ client::ColorMeasure measure_of(const client::ParticipantFigures& figures) {
             continue;
         measure.has_h264 = measure.has_h264 || is_h264(color.codec);
         measure.decode_ms = std::max(measure.decode_ms, color.decode_ms);
-        measure.failures += color.decoder_failures;
+        measure.lost += color.decoder_failures;
         if (camera.state.condition == wire::CameraCondition::live)
             slowest = std::min(slowest.value_or(color.frames_per_second), color.frames_per_second);
     }
@@ -61,7 +61,7 @@ void PageColor::choose(const std::string& codec) {
     }
     chosen_ = codec;
     reason_ = codec + ", as you chose";
-    failures_before_.reset();
+    failures_ = {};
 }
 
 bool PageColor::observe(const client::ParticipantFigures& figures, TimePoint now) {
@@ -72,11 +72,7 @@ bool PageColor::observe(const client::ParticipantFigures& figures, TimePoint now
         reason_.clear();
         return true;
     }
-    if (!is_h264(chosen_))
-        return false;
-    // Figures may have been reset.
-    failures_before_ = std::min(failures_before_.value_or(measure.failures), measure.failures);
-    if (measure.failures - *failures_before_ < client::ColorPreference::too_many_failures)
+    if (!is_h264(chosen_) || !failures_.are_too_many(measure.lost, now))
         return false;
     choose(video::ColorSetting().text);
     reason_ = "JPEG: the browser's decoder failed with H.264";

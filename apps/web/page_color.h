@@ -36,7 +36,7 @@ private:
     bool can_h264_;
     client::ColorPreference preference_;
     std::string chosen_, reason_;  // empty: as preference_ says
-    std::optional<std::uint64_t> failures_before_;
+    client::DecoderFailures failures_;
 };
 
 }  // namespace theatron::web

@@ -32,6 +32,11 @@ json to_json(const xr::OverlayContent& overlay) {
     };
 }
 
+// Null before the first frame since the session's time is known.
+json age_json(double age_ms) {
+    return age_ms == 0 ? json() : json(age_ms);
+}
+
 json camera_json(const client::CameraFigures& figures) {
     const auto& [camera, depth, color, direct] = figures;
     return {{"name", camera.description.name},
@@ -43,11 +48,11 @@ json camera_json(const client::CameraFigures& figures) {
             {"dropped", figures.dropped()},
             {"fps", depth.frames_per_second},
             {"mbit_per_second", figures.mbit_per_second()},
-            {"age_ms", depth.age_now_ms},
-            {"age_p50_ms", depth.age_p50_ms},
-            {"age_p99_ms", depth.age_p99_ms},
+            {"age_ms", age_json(depth.age_now_ms)},
+            {"age_p50_ms", age_json(depth.age_p50_ms)},
+            {"age_p99_ms", age_json(depth.age_p99_ms)},
             {"color_fps", color.frames_per_second},
-            {"color_age_p50_ms", color.age_p50_ms},
+            {"color_age_p50_ms", age_json(color.age_p50_ms)},
             {"depth_decode_ms", depth.decode_ms},
             {"color_decode_ms", color.decode_ms},
             {"decoder_failures", color.decoder_failures}};

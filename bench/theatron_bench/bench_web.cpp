@@ -91,7 +91,9 @@ json ages_of(const json& cameras) {
     json ages{{"p50", 0.0}, {"p99", 0.0}};
     for (const json& camera : cameras)
         for (const auto& [key, name] : {std::pair{"p50", "age_p50_ms"}, {"p99", "age_p99_ms"}})
-            ages[key] = std::max(ages[key].get<double>(), camera[name].get<double>());
+            // Null where no frame came.
+            if (camera[name].is_number())
+                ages[key] = std::max(ages[key].get<double>(), camera[name].get<double>());
     return ages;
 }
 

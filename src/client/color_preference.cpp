@@ -15,6 +15,15 @@ std::string whole(double value) {
 
 }  // namespace
 
+bool DecoderFailures::are_too_many(std::uint64_t lost, TimePoint now) {
+    if (lost_ && lost > *lost_)
+        failures_.push_back(now);
+    lost_ = lost;
+    while (!failures_.empty() && now - failures_.front() > window)
+        failures_.pop_front();
+    return failures_.size() >= most;
+}
+
 ColorPreference::ColorPreference(bool can_h264)
     : can_h264_(can_h264),
       codec_(video::ColorSetting().text),
@@ -38,22 +47,18 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
 
 void ColorPreference::begin(const ColorMeasure& measure) {
     asks_h264_ = true;
-    codec_ = video::auto_color;
-    reason_ = "The host chooses: only " + whole(measure.pictures_per_second) +
+    codec_ = video::parse_color_setting("h264").setting.text;
+    reason_ = "H.264 is tried: only " + whole(measure.pictures_per_second) +
               " pictures a second came as JPEG";
     began_.reset();
     is_judged_ = false;
     pictures_before_ = measure.pictures_per_second;
-    failures_before_ = measure.failures;
+    failures_ = {};
 }
 
 void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
-    // Figures may have been reset.
-    failures_before_ = std::min(failures_before_, measure.failures);
-    const std::uint64_t failures = measure.failures - failures_before_;
-    if (failures >= too_many_failures)
-        return end("the browser's decoder failed for " + std::to_string(failures) + " pictures",
-                   now);
+    if (failures_.are_too_many(measure.lost, now))
+        return end("the browser's decoder failed with H.264", now);
     if (!measure.has_h264) {
         began_.reset();
         return;

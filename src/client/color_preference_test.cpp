@@ -19,8 +19,8 @@ protected:
     }
     void try_h264() {
         observe(whole, 1s);
-        EXPECT_EQ(observe(thinned, 3s), 1);
-        EXPECT_EQ(preference.codec(), "auto");
+        EXPECT_EQ(observe(thinned, 5s), 1);
+        EXPECT_EQ(preference.codec(), "h264:crf=20");
     }
 
     const ColorMeasure whole{false, false, 30, 8, 0}, thinned{true, false, 15, 8, 0},
@@ -54,8 +54,8 @@ TEST_F(ColorPreferenceTest, EndsATryThatGivesFewerPicturesAndWaitsLongerEachTime
     EXPECT_EQ(
         preference.reason(),
         "JPEG: 9 pictures a second came as H.264, 15 before; H.264 is tried again after 30 s");
-    EXPECT_EQ(observe(thinned, 25s), 0);
-    EXPECT_EQ(observe(thinned, 5s), 1);
+    EXPECT_EQ(observe(thinned, 27s), 0);
+    EXPECT_EQ(observe(thinned, 3s), 1);
     EXPECT_EQ(observe(worse, ColorPreference::trial + 1s), 1);
     EXPECT_EQ(observe(thinned, 50s), 0);
     EXPECT_EQ(observe(thinned, 10s), 1);
@@ -68,30 +68,39 @@ TEST_F(ColorPreferenceTest, EndsWhenTheDecoderIsTooSlow) {
     slow.decode_ms = 400;
     EXPECT_EQ(observe(slow, 1s), 0);
     EXPECT_EQ(observe(h264, 1s), 0);
-    EXPECT_EQ(observe(slow, 3s), 1);
+    EXPECT_EQ(observe(slow, 5s), 1);
     EXPECT_EQ(preference.codec(), "jpeg:quality=85");
 }
 
-TEST_F(ColorPreferenceTest, EndsWhenTheDecoderFails) {
+TEST_F(ColorPreferenceTest, EndsWhenTheDecoderFailsAgainAndAgain) {
+    try_h264();
     ColorMeasure failing = h264;
-    failing.failures = 7;
-    observe({false, false, 30, 8, 7}, 1s);
-    EXPECT_EQ(observe({true, false, 15, 8, 7}, 3s), 1);
-    EXPECT_EQ(observe(failing, 3s), 0);
-    failing.failures += ColorPreference::too_many_failures - 1;
-    EXPECT_EQ(observe(failing, 3s), 0);
+    observe(failing, 1s);
+    for (std::size_t i = 1; i < DecoderFailures::most; ++i) {
+        failing.lost += 8;
+        EXPECT_EQ(observe(failing, 1s), 0) << i;
+    }
     // A measurement begins anew.
-    failing.failures = 0;
-    EXPECT_EQ(observe(failing, 3s), 0);
-    failing.failures = ColorPreference::too_many_failures;
+    failing.lost = 0;
+    EXPECT_EQ(observe(failing, 1s), 0);
+    ++failing.lost;
     EXPECT_EQ(observe(failing, 1s), 1);
     EXPECT_EQ(preference.codec(), "jpeg:quality=85");
+}
+
+TEST_F(ColorPreferenceTest, OneFailureThatLosesManyPicturesIsOne) {
+    try_h264();
+    ColorMeasure failing = h264;
+    for (int i = 0; i < 20; ++i) {
+        failing.lost += 8;
+        EXPECT_EQ(observe(failing, DecoderFailures::window / 2 + 1s), 0) << i;
+    }
 }
 
 TEST_F(ColorPreferenceTest, IsNotJudgedWhileTheHostSendsJpeg) {
     try_h264();
     EXPECT_EQ(observe(thinned, 600s), 0);
-    EXPECT_EQ(preference.codec(), "auto");
+    EXPECT_EQ(preference.codec(), "h264:crf=20");
     EXPECT_EQ(observe(h264, 3s), 0);
 }
 

@@ -45,14 +45,16 @@ struct WorkerMedia {
     }
 };
 
-// Asks for WorkerFigures; with `reset`, of the time from now on.
+// Asks for WorkerFigures; with `reset`, of the time from now on; with `forgets_ages`, their ages
+// alone are.
 struct WorkerFiguresWanted {
     Duration session_offset{};
-    bool reset = false;
+    bool reset = false, forgets_ages = false;
 
     static void fields(auto& m, auto&& field) {
         field(m.session_offset);
         field(m.reset);
+        field(m.forgets_ages);
     }
 };
 

@@ -58,6 +58,8 @@ public:
         session_offset_ = m.session_offset;
         if (m.reset)
             receiver_.reset_figures();
+        if (m.forgets_ages)
+            receiver_.forget_ages();
         reply(WorkerFigures{generation_, receiver_.figures(now())});
     }
 

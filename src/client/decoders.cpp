@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/thread_name.h"
+#include "client/participant_figures.h"
 
 namespace theatron::client {
 
@@ -74,6 +75,7 @@ void Decoders::run(Worker& worker) {
 void Decoders::note_figures(Worker& worker, std::unique_lock<std::mutex>& lock) {
     worker.figures_wanted = false;
     const bool reset = std::exchange(worker.reset_wanted, false);
+    const bool forget = std::exchange(worker.forget_wanted, false);
     worker.busy = true;
     lock.unlock();
     std::vector<receive::StreamFigures> figures;
@@ -81,12 +83,14 @@ void Decoders::note_figures(Worker& worker, std::unique_lock<std::mutex>& lock) 
     (void)contain("decode", [&] {
         if (reset)
             worker.receiver.reset_figures();
+        if (forget)
+            worker.receiver.forget_ages();
         figures = worker.receiver.figures(now);
     });
     lock.lock();
     worker.busy = false;
-    // reset_figures() was called meanwhile: these figures are from before it.
-    if (worker.reset_wanted)
+    // Called meanwhile: these figures are from before it.
+    if (worker.reset_wanted || worker.forget_wanted)
         return;
     worker.figures = std::move(figures);
     worker.figures_at = now;
@@ -236,6 +240,17 @@ void Decoders::reset_figures() {
                 anew.codec = f.codec;
                 f = anew;
             }
+        }
+        worker->changed.notify_all();
+    }
+}
+
+void Decoders::forget_ages() {
+    for (const auto& worker : workers_) {
+        {
+            const std::lock_guard lock(worker->mutex);
+            worker->figures_wanted = worker->forget_wanted = true;
+            worker->figures = without_ages(std::move(worker->figures));
         }
         worker->changed.notify_all();
     }

@@ -51,6 +51,8 @@ public:
     // Figures of a short time ago, except for age_now_ms, which is of now.
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
+    // The session's time has become known: ages of before meant nothing.
+    void forget_ages();
 
 private:
     // Bytes that may wait for all threads together; messages beyond them are dropped. A sender
@@ -92,7 +94,7 @@ private:
         std::size_t bytes_spare = 0;
         bool busy = false;
         bool stopping = false;
-        bool figures_wanted = false, reset_wanted = false;
+        bool figures_wanted = false, reset_wanted = false, forget_wanted = false;
         std::vector<receive::StreamFigures> figures;
         TimePoint figures_at;
         std::thread thread;

@@ -99,4 +99,10 @@ void Decoders::reset_figures() {
     workers_.front()->receiver.reset_figures();
 }
 
+void Decoders::forget_ages() {
+    if (pooled())
+        return pooled()->forget_ages();
+    workers_.front()->receiver.forget_ages();
+}
+
 }  // namespace theatron::client

@@ -296,8 +296,10 @@ void Participant::on_control(ByteView message) {
                 if (is_new)
                     shared_->figures = without_ages(std::move(shared_->figures));
             }
-            if (is_new)
+            if (is_new) {
+                decoders_->forget_ages();
                 offer_all();
+            }
             if (is_new && session_.joined() && options_.described)
                 options_.described();
             break;
@@ -424,7 +426,12 @@ void Participant::on_tick() {
     if (local < next_report_)
         return;
     next_report_ = local + 100ms;
-    const auto figures = decoders_->figures();
+    auto figures = decoders_->figures();
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!shared_->status.clock_known)
+            figures = without_ages(std::move(figures));
+    }
     wire::Report report;
     for (const auto& f : figures)
         report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,

@@ -7,6 +7,7 @@
 
 #include "base/steady_clock.h"
 #include "client/decoder_pool_web.h"
+#include "client/participant_figures.h"
 
 namespace theatron::client {
 namespace {
@@ -102,7 +103,8 @@ std::vector<receive::StreamFigures> PooledDecoders::figures() {
     std::vector<receive::StreamFigures> all;
     for (unsigned i = 0; i < workers_.size(); ++i) {
         Worker& worker = workers_[i];
-        post(i, WorkerFiguresWanted{session_offset(), std::exchange(worker.reset_wanted, false)});
+        post(i, WorkerFiguresWanted{session_offset(), std::exchange(worker.reset_wanted, false),
+                                    std::exchange(worker.forget_wanted, false)});
         for (receive::StreamFigures f : worker.figures) {
             if (f.frames > 0)
                 f.age_now_ms += to_ms(events_.now() - worker.figures_at);
@@ -123,6 +125,13 @@ void PooledDecoders::reset_figures() {
             anew.codec = f.codec;
             f = anew;
         }
+    }
+}
+
+void PooledDecoders::forget_ages() {
+    for (Worker& worker : workers_) {
+        worker.forget_wanted = true;
+        worker.figures = without_ages(std::move(worker.figures));
     }
 }
 
@@ -174,8 +183,8 @@ void PooledDecoders::on(Worker&, const WorkerProblem& m) {
 }
 
 void PooledDecoders::on(Worker& worker, WorkerFigures& m) {
-    // From before reset_figures(), or of other cameras.
-    if (worker.reset_wanted || m.generation != generation_)
+    // From before reset_figures() or forget_ages(), or of other cameras.
+    if (worker.reset_wanted || worker.forget_wanted || m.generation != generation_)
         return;
     worker.figures = std::move(m.figures);
     worker.figures_at = events_.now();

@@ -24,6 +24,7 @@ public:
     bool on_media(ByteView message, std::uint64_t connection);
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
+    void forget_ages();
 
     std::uint64_t generation() const { return generation_; }
 
@@ -43,7 +44,7 @@ private:
         std::size_t bytes_waiting = 0;
         std::vector<receive::StreamFigures> figures;
         TimePoint figures_at;
-        bool reset_wanted = false;
+        bool reset_wanted = false, forget_wanted = false;
         std::map<CameraId, std::shared_ptr<const ColorImage>> colors;  // last that came
     };
 

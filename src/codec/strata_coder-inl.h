@@ -68,14 +68,17 @@ inline constexpr WordShuffles word_shuffles;
 static_assert(chunk_lanes <= 8);
 
 HWY_INLINE unsigned set_of(M32 mask) {
+#if HWY_TARGET == HWY_WASM
+    return unsigned(wasm_i32x4_bitmask(mask.raw));
+#else
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(D32(), mask, bits);
     return bits[0];
+#endif
 }
 HWY_INLINE hn::Vec<Half16> shuffle(hn::Vec<Half16> words, const std::uint8_t* bytes) {
     const hn::Repartition<std::uint8_t, Half16> d8;
-    return hn::BitCast(Half16(),
-                       hn::TableLookupBytes(hn::BitCast(d8, words), hn::LoadU(d8, bytes)));
+    return hn::BitCast(Half16(), bytes_at(hn::BitCast(d8, words), hn::LoadU(d8, bytes)));
 }
 #endif
 
@@ -84,11 +87,11 @@ HWY_INLINE hn::Vec<Half16> shuffle(hn::Vec<Half16> words, const std::uint8_t* by
 HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     return V32{_mm512_maskz_expand_epi32(mask.raw, load32(words).raw)};
-#elif HWY_TARGET == HWY_AVX2
+#elif HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_WASM
     return hn::PromoteTo(D32(),
                          shuffle(hn::LoadU(Half16(), words), word_shuffles.spread[set_of(mask)]));
 #else
-    // A scalar loop for four lanes: a shuffle is not faster, and slower in WebAssembly.
+    // A scalar loop for four lanes: a shuffle is not faster.
     const D32 d;
     alignas(64) std::uint32_t wanted[chunk_lanes];
     hn::Store(hn::IfThenElseZero(mask, hn::Set(d, 1)), d, wanted);
@@ -99,6 +102,14 @@ HWY_INLINE V32 spread_words(const std::uint16_t* words, M32 mask) {
         lane = word;
     }
     return hn::Load(d, wanted);
+#endif
+}
+
+HWY_INLINE std::size_t count_of(M32 mask) {
+#if HWY_TARGET == HWY_WASM
+    return hwy::PopCount(set_of(mask));
+#else
+    return hn::CountTrue(D32(), mask);
 #endif
 }
 
@@ -223,7 +234,7 @@ private:
         std::size_t total = 0;
         for (int i = 0; i < max_chunks; ++i) {
             small[i] = above(hn::Set(d, least_state), states_[i]);
-            counts[i] = hn::CountTrue(d, small[i]);
+            counts[i] = count_of(small[i]);
             total += counts[i];
         }
         left_ -= std::ptrdiff_t(total);
@@ -247,7 +258,7 @@ HWY_INLINE V32 emit(V32 state, M32 mask, std::uint16_t*& out) {
     const V32 low = hn::And(state, hn::Set(d, 0xffff));
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 || HWY_TARGET == HWY_SCALAR
     store16(hn::Compress(low, mask), out);
-    out += hn::CountTrue(d, mask);
+    out += count_of(mask);
 #else
     // Highway's own Compress of four or eight lanes copies its table on each call.
     const unsigned set = set_of(mask);

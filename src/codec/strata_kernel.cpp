@@ -12,6 +12,8 @@
 #include "hwy/highway.h"
 
 // The order matters: each file uses the one before.
+#include "codec/strata_lanes-inl.h"
+
 #include "codec/strata_model-inl.h"
 
 #include "codec/strata_coder-inl.h"

@@ -16,15 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace theatron::codec::strata::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D16 = hn::CappedTag<std::uint16_t, lane_count>;
-using S16 = hn::RebindToSigned<D16>;
-using D8 = hn::Rebind<std::uint8_t, D16>;
-using V16 = hn::Vec<D16>;
-using VS16 = hn::Vec<S16>;
-
-inline constexpr int part_lanes = int(hn::MaxLanes(D16()));
-inline constexpr int part_count = lane_count / part_lanes;
-
 // Values of a step that the row below reads three steps later, one lane further.
 // Without blend only the first kind is kept.
 enum Trace { marks_above, triple0, triple1, triple2, triple3, trace_count };
@@ -76,30 +67,6 @@ struct Prediction {
 HWY_INLINE V16 load(const std::uint16_t* plane, int steps_ago, int lane) {
     return hn::LoadU(D16(), plane - std::ptrdiff_t(steps_ago) * plane_stride + lane);
 }
-
-// Converts the lowest bits of a 64-bit mask to a vector mask, and back.
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
-    return hn::Mask<D16>{static_cast<decltype(hn::Mask<D16>::raw)>(bits)};
-}
-HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
-    return mask.raw;
-}
-#else
-HWY_INLINE hn::Mask<D16> mask_of(std::uint64_t bits) {
-    std::uint8_t bytes[sizeof(bits)];
-    std::memcpy(bytes, &bits, sizeof(bits));
-    return hn::LoadMaskBits(D16(), bytes);
-}
-HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
-    // Highway converts masks to bits only through memory.
-    std::uint8_t bytes[sizeof(std::uint64_t)] = {};
-    hn::StoreMaskBits(D16(), mask, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
-}
-#endif
 
 HWY_INLINE V16 half_of_signed(V16 v) {
     return hn::BitCast(D16(), hn::ShiftRight<1>(hn::BitCast(S16(), v)));
@@ -205,7 +172,7 @@ HWY_INLINE V16 level_of(V16 activity, V16 how_far) {
     const V16 most = hn::Set(d, 15);
     const auto look_up = [&](const std::uint8_t* table, V16 index) HWY_ATTR {
         const auto bytes = hn::BitCast(d8, hn::Min(index, most));
-        return hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, table), bytes));
+        return hn::BitCast(d, bytes_at(hn::LoadDup128(d8, table), bytes));
     };
     const V16 side = look_up(context_tables.side, how_far);
     const V16 part = hn::Add(look_up(context_tables.low, activity),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A participant's side of the network in a browser's page: its WebSocket, its events, its timers.
 // Sending policy and acknowledgements are those of net/connection.cpp.
+#include <emscripten/emscripten.h>
 #include <emscripten/eventloop.h>
 #include <emscripten/html5.h>
 #include <emscripten/websocket.h>
@@ -11,6 +12,9 @@
 #include "net/acknowledger.h"
 #include "net/client.h"
 #include "net/silence.h"
+
+// Emscripten 3.1 keeps sockets that were deleted (it deletes another key of its table).
+EM_JS(void, theatron_forget_socket, (int socket), { WS.sockets[socket] = null; });
 
 namespace theatron::net {
 namespace {
@@ -60,7 +64,8 @@ struct Client::Impl {
             emscripten_clear_timeout(std::exchange(soon, 0));
         if (socket > 0) {
             emscripten_websocket_close(socket, 1000, "");
-            emscripten_websocket_delete(std::exchange(socket, 0));
+            emscripten_websocket_delete(socket);
+            theatron_forget_socket(std::exchange(socket, 0));
         }
     }
 

@@ -370,6 +370,14 @@ void Receiver::sort_ages(Stream& stream) {
     stream.age_max_ms = stream.ages.max();
 }
 
+void Receiver::forget_ages() {
+    for (auto& [id, s] : streams_) {
+        s.sorted_at = 0;
+        s.age_ms = s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
+        s.ages.clear();
+    }
+}
+
 void Receiver::reset_figures() {
     for (auto& [id, s] : streams_) {
         s.frames = s.bytes = s.dropped = s.sorted_at = s.decoder_failures = 0;

@@ -107,6 +107,8 @@ public:
 
     // Resets rates, ages and drops.
     void reset_figures();
+    // Resets ages alone: the clock that they were measured with was wrong.
+    void forget_ages();
 
 private:
     struct Stream {

@@ -416,6 +416,10 @@ TEST_F(DepthOnly, FiguresTellRateAndAge) {
     EXPECT_EQ(figures.frames, 60u);
     EXPECT_EQ(figures.dropped, 0u);
     EXPECT_GT(figures.mbit_per_second, 0);
+    receiver.forget_ages();
+    EXPECT_EQ(receiver.figures(at(59))[0].age_p50_ms, 0);
+    EXPECT_EQ(receiver.figures(at(59))[0].age_max_ms, 0);
+    EXPECT_EQ(receiver.figures(at(59))[0].frames, 60u);
     receiver.reset_figures();
     EXPECT_EQ(receiver.figures(at(59))[0].frames, 0u);
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The browser draws the letters, with the font that it uses for pages.
+#include "render/font_atlas_web.h"
+
 #include <emscripten.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "render/glyphs.h"
@@ -33,34 +36,65 @@ namespace {
 constexpr int cell = 2 * glyph_pixels;  // of a canvas that holds any letter
 constexpr int pen_x = glyph_pixels / 2, base_line = cell - glyph_pixels / 2;
 
-}  // namespace
+// A step of so many letters takes some milliseconds.
+constexpr int letters_at_once = 8;
 
-FontAtlas load_font_atlas(std::span<const std::byte>) {
-    GlyphCollector collector;
-    std::vector<std::uint8_t> covered(std::size_t(cell) * cell);
-    for (char32_t letter = first_glyph; letter <= last_glyph; ++letter) {
-        if (!is_in_atlas(letter))
-            continue;
-        const double advance =
-            theatron_draw_letter(int(letter), glyph_pixels, cell, pen_x, base_line, covered.data());
+class Letters {
+public:
+    // False once all are there.
+    bool step() {
+        for (int i = 0; i < letters_at_once && next_ <= last_glyph; ++i, ++next_)
+            if (is_in_atlas(next_))
+                add(next_);
+        if (next_ <= last_glyph)
+            return true;
+        if (!atlas_)
+            atlas_ = collector_.take(0.73 * glyph_pixels);
+        return false;
+    }
+    const FontAtlas& atlas() const { return *atlas_; }
+
+private:
+    void add(char32_t letter) {
+        const double advance = theatron_draw_letter(int(letter), glyph_pixels, cell, pen_x,
+                                                    base_line, covered_.data());
         int left = cell, right = 0, top = cell, bottom = 0;
         for (int y = 0; y < cell; ++y)
             for (int x = 0; x < cell; ++x)
-                if (covered[std::size_t(y * cell + x)] != 0) {
+                if (covered_[std::size_t(y * cell + x)] != 0) {
                     left = std::min(left, x);
                     right = std::max(right, x + 1);
                     top = std::min(top, y);
                     bottom = std::max(bottom, y + 1);
                 }
-        if (left >= right) {
-            collector.add(letter, advance);
-            continue;
-        }
-        collector.add(letter, advance,
-                      {covered.data() + top * cell + left, {right - left, bottom - top}, cell},
-                      left - pen_x, base_line - top);
+        if (left >= right)
+            return collector_.add(letter, advance);
+        collector_.add(letter, advance,
+                       {covered_.data() + top * cell + left, {right - left, bottom - top}, cell},
+                       left - pen_x, base_line - top);
     }
-    return collector.take(0.73 * glyph_pixels);
+
+    char32_t next_ = first_glyph;
+    GlyphCollector collector_;
+    std::vector<std::uint8_t> covered_ = std::vector<std::uint8_t>(std::size_t(cell) * cell);
+    std::optional<FontAtlas> atlas_;
+};
+
+Letters& letters() {
+    static Letters only;
+    return only;
+}
+
+}  // namespace
+
+bool prepare_font_atlas() {
+    return !letters().step();
+}
+
+FontAtlas load_font_atlas(std::span<const std::byte>) {
+    while (letters().step()) {
+    }
+    return letters().atlas();
 }
 
 }  // namespace theatron::render

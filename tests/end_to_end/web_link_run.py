@@ -28,6 +28,11 @@ WATCH = """(() => {
 })()"""
 
 
+def oldest(cameras, age):
+    """None where no frame came."""
+    return max((camera[age] for camera in cameras if camera[age] is not None), default=None)
+
+
 def watch(page, settle_s, seconds):
     """Figures of the slower camera over this time, once the page has had time for its choices."""
     time.sleep(settle_s)
@@ -39,8 +44,8 @@ def watch(page, settle_s, seconds):
     passed = time.monotonic() - begin
     grown = {key: min((b[key] - a[key]) / passed for a, b in zip(first, last)) for key in ("depth_frames", "color_frames")}
     return {"depth_per_s": grown["depth_frames"], "color_per_s": grown["color_frames"],
-            "mbit_per_s": sum(c["mbit_per_second"] for c in last), "age_p50_ms": max(c["age_p50_ms"] for c in last),
-            "age_p99_ms": max(c["age_p99_ms"] for c in last), "color_age_p50_ms": max(c["color_age_p50_ms"] for c in last),
+            "mbit_per_s": sum(c["mbit_per_second"] for c in last), "age_p50_ms": oldest(last, "age_p50_ms"),
+            "age_p99_ms": oldest(last, "age_p99_ms"), "color_age_p50_ms": oldest(last, "color_age_p50_ms"),
             "color_decode_ms": max(c["color_decode_ms"] for c in last), "color": last[0]["color"],
             "failures": sum(c["decoder_failures"] for c in last), "reason": state["reason"],
             "longest_task_ms": page.evaluate("longest_task_ms")}

@@ -55,7 +55,7 @@ class WebLoss(unittest.TestCase):
     def back(self, page, joins):
         page.wait_for(f"theatron.state.phase === 'joined' && theatron.state.joins === {joins}", 20)
         frames = page.evaluate("theatron.state.cameras[0]?.depth_frames ?? 0")
-        page.wait_for(f"theatron.state.cameras[0]?.depth_frames > {frames} && theatron.state.cameras[0].age_ms < 1000", 20)
+        page.wait_for(f"theatron.state.cameras[0]?.depth_frames > {frames} && theatron.state.cameras[0].age_ms !== null && theatron.state.cameras[0].age_ms < 1000", 20)
 
 
 if __name__ == "__main__":

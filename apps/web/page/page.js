@@ -43,7 +43,7 @@ async function load_client() {
     });
     const numbers = count => Array(count).fill("number");
     const functions = {
-        join: [null, ["string", "number", "string", "string", "string", "string", "number"]],
+        join: [null, ["string", "number", "string", "string", "string", "string", "number", "number"]],
         join_flat: [null, ["string", "number", "string", "string", "string", "string", "number"]],
         flat_picture: ["number", []],
         flat_width: ["number", []],
@@ -354,14 +354,23 @@ function show_way({ has_picture, flat_camera }) {
         $(`enter_${kind}`).hidden = is_flat || !has_picture || !page.headset_kinds[kind];
 }
 
+// As --render-scale of theatron join; 0: chosen by drawing time.
+function drawn_scale(asked) {
+    const scale = Number(asked);
+    return scale >= 0.1 && scale <= 1 ? scale : 0;
+}
+
 // Into the session, in the way of seeing that was chosen.
 function enter(client) {
     const is_flat = page.way === "flat";
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
-    (is_flat ? client.join_flat : client.join)(host, port, link.get("join"), $("name").value.trim(), person_id(),
-        link.get("color") ?? "auto", page.has_h264() ? 1 : 0);
+    const person = [host, port, link.get("join"), $("name").value.trim(), person_id(), link.get("color") ?? "auto", page.has_h264() ? 1 : 0];
+    if (is_flat)
+        client.join_flat(...person);
+    else
+        client.join(...person, drawn_scale(link.get("scale")));
     allow_voice_recording(client, page.voice_may_record);
 }
 

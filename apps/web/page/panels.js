@@ -42,6 +42,8 @@ function set_text(place, content) {
 }
 
 function age(ms) {
+    if (ms === null)
+        return "–";  // the session's time is not known yet
     return ms < 1000 ? `${Math.round(ms / 10) * 10} ms` : `${Math.floor(ms / 1000)} s`;
 }
 

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "visit.h"
+
+#include <GLES3/gl3.h>
+#include <emscripten/emscripten.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "base/error.h"
+#include "base/hex_text.h"
+#include "base/steady_clock.h"
+#include "render/gl_driver.h"
+
+// Gives a packet of another's voice to the page. The program is one module of JavaScript.
+EM_JS(void, theatron_give_voice, (unsigned speaker, const void* packet, int size),
+      { Module.on_voice(speaker, HEAPU8.slice(packet, packet + size)); });
+// The framebuffer of the headset's pictures, which page/headset.js sets, by a name of GL. The
+// program is one module of JavaScript.
+EM_JS(unsigned, theatron_headset_framebuffer, (unsigned name), {
+    const framebuffer = Module.headset_framebuffer;
+    if (!framebuffer)
+        return 0;
+    name = name || GL.getNewId(GL.framebuffers);
+    GL.framebuffers[name] = framebuffer;
+    framebuffer.name = name;
+    return name;
+});
+
+namespace theatron::web {
+namespace {
+
+viewer::Viewer::Options viewer_options(const client::Participant::Options& join, double scale) {
+    viewer::Viewer::Options options;
+    options.depth_codec = join.depth_codec;
+    options.color_codec = join.color_codec;
+    options.shows_people = true;
+    options.room.in_steps = true;
+    options.scale = scale;
+    options.has_gpu = !render::is_software(render::driver_name());
+    return options;
+}
+
+client::Participant::Options with_faces(client::Participant::Options join,
+                                        client::FaceSender& face) {
+    join.takes_faces = true;
+    join.face = face.events();
+    return join;
+}
+
+}  // namespace
+
+Visit::Visit(client::Participant::Options join, std::string host_address, PageColor asked,
+             double scale)
+    : address(std::move(host_address)),
+      color(std::move(asked)),
+      options(viewer_options(join, scale)),
+      participant(with_faces(std::move(join), face)),
+      viewer(options, participant) {}
+
+Page& page() {
+    static auto* const only = new Page;
+    return *only;
+}
+
+void open_context() {
+    if (page().context != 0)
+        return;
+    EmscriptenWebGLContextAttributes attributes;
+    emscripten_webgl_init_context_attributes(&attributes);
+    attributes.majorVersion = 2;
+    attributes.alpha = attributes.depth = attributes.antialias = EM_FALSE;
+    attributes.powerPreference = EM_WEBGL_POWER_PREFERENCE_HIGH_PERFORMANCE;
+    const auto context = emscripten_webgl_create_context("#view", &attributes);
+    if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS)
+        throw Error("This browser has no WebGL 2; use a newer one, or theatron join.");
+    page().context = context;
+}
+
+client::Participant::Options join_options(const net::Link& link, const char* name,
+                                          const char* person, const PageColor& color) {
+    client::Participant::Options options;
+    options.link = link;
+    options.name = name;
+    options.color_codec = color.codec();
+    options.keeps_room = options.keeps_cases = options.shows_patient = true;
+    // The page made the digits itself.
+    options.person = bytes_of_hex(person).value_or(Bytes());
+    options.voice = [](ParticipantId speaker, ByteView packet) {
+        theatron_give_voice(unsigned(speaker), packet.data(), int(packet.size()));
+    };
+    options.remark = [](const std::string& text) {
+        std::puts(text.c_str());
+        if (page().visit)
+            page().visit->viewer.note(text, steady_now());
+        if (page().flat)
+            page().flat->view.note(text, steady_now());
+    };
+    return options;
+}
+
+void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now) {
+    if (visit.viewer.color_codec() != visit.color.codec())
+        visit.color.choose(visit.viewer.color_codec());
+    (void)visit.color.observe(figures, now);
+    if (visit.viewer.color_codec() != visit.color.codec())
+        visit.viewer.choose_color_codec(visit.color.codec());
+}
+
+void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, TimePoint now) {
+    if (visit.color.observe(figures, now))
+        visit.participant.choose_codecs("", visit.color.codec());
+}
+
+bool finish_drawing(Visit& visit) {
+    if (!visit.drawing.take_passed())
+        return false;
+    visit.viewer.on_presented(visit.drawing_began, steady_now());
+    return true;
+}
+
+void draw(Visit& visit, Size size) {
+    if (visit.drawing.is_waiting())
+        return;
+    const TimePoint now = steady_now();
+    const xr::WindowInput input = page().input.take();
+    visit.viewer.on_input(
+        input, input.grabbed ? visit.picture.distance_at(*input.grabbed) : std::nullopt, size, now);
+    const bool changed = visit.viewer.step(size, now);
+    if (!changed && !input.redraw)
+        return;
+    if (changed)
+        visit.viewer.draw(size, visit.picture.begin(size, visit.viewer.way().scale), now);
+    visit.picture.show(size);
+    if (changed) {
+        visit.drawing.begin();
+        visit.drawing_began = now;
+    }
+    glFlush();
+}
+
+void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
+    const TimePoint now = steady_now();
+    // The window's size does not matter here.
+    constexpr Size any{16, 9};
+    page().input = {};
+    visit.viewer.on_headset(frame, now);
+    (void)visit.viewer.step(any, now);
+    const unsigned framebuffer = visit.headset_framebuffer =
+        theatron_headset_framebuffer(visit.headset_framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    if (real_room)
+        glClearColor(0, 0, 0, 0);
+    else
+        glClearColor(0.09f, 0.10f, 0.12f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    visit.viewer.draw_headset(frame, framebuffer, now);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    // While the GPU is behind, one picture in several is measured.
+    if (!visit.drawing.is_waiting()) {
+        visit.drawing.begin();
+        visit.drawing_began = now;
+    }
+    glFlush();
+}
+
+}  // namespace theatron::web

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page's visit of a session: the room, or the 2D view, and what draws it.
+#pragma once
+
+#include <emscripten/html5.h>
+
+#include <memory>
+#include <string>
+
+#include "client/face_sender.h"
+#include "flat_view.h"
+#include "page_color.h"
+#include "picture_fence.h"
+#include "viewer/viewer.h"
+#include "xr/input_queue.h"
+#include "xr/scaled_picture.h"
+
+namespace theatron::web {
+
+// A page that joined.
+struct Visit {
+    // `scale`: of the canvas's pixels to draw, on each side; 0: chosen by drawing time.
+    Visit(client::Participant::Options join, std::string host_address, PageColor asked,
+          double scale);
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+    std::string address;
+    PageColor color;
+    viewer::Viewer::Options options;
+    client::FaceSender face;
+    client::Participant participant;
+    viewer::Viewer viewer;
+    xr::ScaledPicture picture;
+    unsigned headset_framebuffer = 0;  // its name, once it was used
+    PictureFence drawing;              // of the newest picture
+    TimePoint drawing_began;
+};
+
+// A page that joined and only shows a camera's picture.
+struct FlatVisit {
+    FlatVisit(client::Participant::Options join, std::string host_address, PageColor asked)
+        : address(std::move(host_address)),
+          color(std::move(asked)),
+          participant(std::move(join)),
+          view(participant) {}
+
+    std::string address;
+    PageColor color;
+    client::Participant participant;
+    FlatView view;
+};
+
+// The page's state. Objects of GL must not outlive their context, so nothing is destroyed when the
+// page is closed.
+struct Page {
+    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
+    std::unique_ptr<Visit> visit;     // this
+    std::unique_ptr<FlatVisit> flat;  // or this, or none
+    xr::InputQueue input;             // since the last picture
+    std::string problem;              // why the visit ended; a sentence
+    std::string text;                 // that the last function returned
+    Bytes bytes;                      // that the script writes for the next function
+
+    void leave() {
+        visit.reset();
+        flat.reset();
+    }
+    client::Participant* participant() const {
+        return visit ? &visit->participant : flat ? &flat->participant : nullptr;
+    }
+};
+
+Page& page();
+
+// Runs `work`; an exception ends the visit with its sentence.
+template <class Work>
+void guarded(Work work) {
+    try {
+        work();
+    } catch (const std::exception& e) {
+        page().problem = e.what();
+        page().leave();
+    }
+}
+
+// Throws Error if the browser has no WebGL 2.
+void open_context();
+
+// `person` in hex digits.
+client::Participant::Options join_options(const net::Link& link, const char* name,
+                                          const char* person, const PageColor& color);
+
+// Follows the person's choice, or else asks for another codec by measurements.
+void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now);
+void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, TimePoint now);
+
+// Begins a picture if there is a new one and the GPU is free.
+void draw(Visit& visit, Size size);
+// A picture for a headset, whatever is new: its display needs one each time.
+void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room);
+// True once the GPU has finished the last picture. Waiting for it would block the page.
+bool finish_drawing(Visit& visit);
+
+}  // namespace theatron::web

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/host_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace theatron::host {
+namespace {
+
+// One of everything that has fields.
+HostFigures full_figures() {
+    HostFigures figures;
+    HostFigures::Camera camera;
+    camera.lane.stages.emplace_back();
+    camera.lane.encoders.emplace_back();
+    figures.cameras.push_back(camera);
+    figures.participants.emplace_back();
+    figures.published.emplace_back();
+    figures.places.cameras.push_back({true, false, 0, 0, {}});
+    figures.places.pairs.push_back({0, 0, 0, false});
+    figures.visitors.emplace_back();
+    figures.certificates.emplace_back();
+    return figures;
+}
+
+// Names of fields at any depth, without those of `dropped` and `troubles`, which are kinds.
+void add_names(const nlohmann::json& json, std::set<std::string>& names) {
+    if (json.is_array())
+        for (const auto& element : json)
+            add_names(element, names);
+    if (json.is_object())
+        for (const auto& [name, value] : json.items()) {
+            names.insert(name);
+            if (name != "dropped" && name != "troubles")
+                add_names(value, names);
+        }
+}
+
+std::string metrics_page() {
+    std::ifstream in("docs/metrics.md", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+TEST(HostFigures, EveryFieldIsOnThePageOfMetrics) {
+    const std::string page = metrics_page();
+    std::set<std::string> names;
+    add_names(to_json(std::vector{full_figures(), full_figures()}), names);
+    EXPECT_GT(names.size(), 50u);
+    for (const std::string& name : names)
+        EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
+}
+
+TEST(HostFigures, EveryMetricIsOnThePageOfMetrics) {
+    const std::string page = metrics_page();
+    std::istringstream lines(to_prometheus({full_figures()}));
+    int families = 0;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("# TYPE ")) {
+            const std::string name = line.substr(7, line.find(' ', 7) - 7);
+            EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
+            ++families;
+        }
+    EXPECT_GT(families, 20);
+}
+
+}  // namespace
+}  // namespace theatron::host
