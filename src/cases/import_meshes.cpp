@@ -186,6 +186,8 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     progress("Reading the label map", 0);
     const LabelMap map = read_label_map(file);
     const std::vector<LabelCount> labels = labels_in(map);
+    if (labels.empty())
+        remarks.push_back("The label map " + quoted_path(file) + " has no labels but 0.");
     if (labels.size() > max_parts)
         throw Error("The label map " + quoted_path(file) + " has more than " +
                     std::to_string(max_parts) +

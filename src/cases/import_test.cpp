@@ -565,6 +565,22 @@ TEST_F(Import, APictureThatIsDamagedOrNoneIsNamed) {
     EXPECT_THAT(refusal(), HasSubstr("65 pictures (PNG, JPEG), and a case has at most 64"));
 }
 
+TEST_F(Import, AFinishedCaseIsToldFromOtherFolders) {
+    write_series(source());
+    import();
+    EXPECT_THAT(sentence([&] { import_case(target(), folder_.path() / "again", {}, no_progress); }),
+                HasSubstr("case' is a finished case already"));
+}
+
+TEST_F(Import, AnEmptyLabelMapIsNamed) {
+    fs::create_directories(source());
+    std::ofstream(source() / "empty.nrrd", std::ios::binary)
+        << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
+           "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n"
+        << std::string(8, '\0');
+    EXPECT_THAT(refusal(), HasSubstr("empty.nrrd' has no labels but 0"));
+}
+
 TEST_F(Import, AFolderThatIsThereStaysAsItIs) {
     write_series(source());
     fs::create_directories(target());

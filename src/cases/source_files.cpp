@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cases/case_folder.h"
 #include "cases/foreign_files.h"
 #include "cases/import_case.h"
 #include "cases/quoted_path.h"
@@ -33,6 +34,13 @@ void sort_in(const fs::path& file, SourceFiles& files) {
         files.images.push_back(file);
     else
         files.others.push_back(file);
+}
+
+bool is_of_finished_case(const fs::path& file) {
+    for (const char* extension : {mesh_extension, volume_extension, picture_extension})
+        if (file.extension() == extension)
+            return true;
+    return false;
 }
 
 // Sorted by name. An error in the middle would leave files out without a word.
@@ -85,11 +93,16 @@ SourceFiles find_source_files(const fs::path& source) {
             sort_in(file, files);
     }
     if (files.images.empty() && files.meshes.empty() && files.label_maps.empty() &&
-        files.pictures.empty())
+        files.pictures.empty()) {
+        if (std::any_of(files.others.begin(), files.others.end(), is_of_finished_case))
+            throw Error(name +
+                        " is a finished case already; a session offers it if it lies in the "
+                        "folder of 'theatron host --cases'.");
         throw Error(name +
                     " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
                     "maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
                     (files.links > 0 ? "; links in it are not followed." : "."));
+    }
     return files;
 }
 

@@ -102,6 +102,7 @@ void CaseShelf::run() {
 void CaseShelf::look() {
     std::set<std::string> names;
     std::error_code failed;
+    bool too_many = false;
     for (fs::directory_iterator entry(directory_, failed), end; !failed && entry != end;
          entry.increment(failed)) {
         std::error_code ignored;
@@ -109,9 +110,16 @@ void CaseShelf::look() {
         // An import works in a hidden folder until the case is whole.
         if (!name.starts_with('.') && entry->is_directory(ignored))
             names.insert(std::move(name));
-        if (names.size() > max_folders)
+        if (names.size() > max_folders) {
             names.erase(std::prev(names.end()));
+            too_many = true;
+        }
     }
+    if (too_many && !said_too_many_)
+        log::say("The folder of cases '" + clean_text(directory_.string(), 300) +
+                 "' holds more than " + std::to_string(max_folders) +
+                 " folders; only the first ones by name are read.");
+    said_too_many_ = too_many;
     const std::string problem = failed ? failed.message() : "";
     if (!problem.empty() && problem != listing_problem_)
         log::warning("host", "the folder of cases cannot be read",

@@ -64,6 +64,7 @@ private:
     const Changed changed_;
     std::map<std::string, Folder> folders_;  // the thread's only; by name
     std::string listing_problem_;            // likewise
+    bool said_too_many_ = false;             // likewise
     mutable std::mutex mutex_;               // guards all below
     std::condition_variable stop_;
     std::map<ContentHash, std::shared_ptr<const Bytes>> content_;
