@@ -295,6 +295,8 @@ void add_interaction(CLI::App& bench) {
                      "Busy threads on the one core that the viewer's decoders may use")
         ->capture_default_str()
         ->check(CLI::Range(0, 16));
+    command->add_flag("--draw", b.draws,
+                      "One more participant draws all cameras in a window, which needs a display");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
@@ -324,6 +326,8 @@ void add_interaction(CLI::App& bench) {
             print_times("there and back", r["grabs"]["there_and_back_ms"]);
             print_times("a grab or release, at another participant", r["grabs"]["grab_ms"]);
             std::printf("  host: %.2f cores\n", r["host_cores"].get<double>());
+            if (r["drawn"].is_number())
+                std::printf("  the window: %d pictures of 1280x720\n", r["drawn"].get<int>());
             const auto& pictures = r["pictures"];
             std::printf("  pictures: lowest %.1f fps, %.1f Mbit/s, age p50 %.0f ms, p99 %.0f ms\n",
                         pictures["fps_min"].get<double>(), pictures["mbit_per_s"].get<double>(),

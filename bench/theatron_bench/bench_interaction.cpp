@@ -6,11 +6,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "base/error.h"
@@ -64,6 +66,27 @@ private:
     }
     std::atomic<bool> stopping_ = false;
     std::vector<std::thread> threads_;
+};
+
+// A participant with a window, whose settings are not those of the person who measures.
+class Drawing {
+public:
+    Drawing(const net::Link& link, const std::filesystem::path& folder)
+        : child_({"join", net::format_link(link), "--name", "window", "--size", "1280x720"},
+                 folder) {}
+    // Ends it. Returns the number of its pictures. Throws Error.
+    int end() {
+        child_.interrupt();
+        int pictures = 0;
+        for (std::string line = child_.read_line(); !line.empty(); line = child_.read_line())
+            (void)std::sscanf(line.c_str(), "drew %d pictures", &pictures);
+        if (child_.wait().exit_code != 0 || pictures == 0)
+            throw Error("The window has drawn nothing; its message is above.");
+        return pictures;
+    }
+
+private:
+    ChildProcess child_;
 };
 
 // Written by the viewer's network thread.
@@ -166,6 +189,9 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     if (!bench.cases.empty())
         open_offered_case(*viewer);
     const Crowd crowd(bench.crowd);
+    std::optional<Drawing> drawing;
+    if (bench.draws)
+        drawing.emplace(link, folder / "window");
 
     const TimePoint begin = steady_now() + seconds_to_duration(bench.warmup_seconds);
     const TimePoint end = begin + seconds_to_duration(bench.seconds);
@@ -214,11 +240,14 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         of_case = {{"mbit_per_s", double(now.got - fetched.got) * 8e-6 / bench.seconds},
                    {"got", now.got},
                    {"all", now.all}};
+    nlohmann::json drawn;
+    if (drawing)
+        drawn = drawing->end();
     const nlohmann::json late = percentiles(ages.ms, bench.link_delay_ms);
     return {{"p50_ms", late["p50"]},
             {"p99_ms", late["p99"]},
             {"max_ms", late["max"]},
-            {"participants", bench.people + 2},
+            {"participants", bench.people + 2 + bench.draws},
             {"grabs", grabs.result()},
             {"host_cores", host_cpu / bench.seconds},
             {"cameras", bench.cameras.size()},
@@ -230,7 +259,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
              {{"fps_min", fps},
               {"mbit_per_s", mbit},
               {"age_ms", {{"p50", age_p50}, {"p99", age_p99}}}}},
-            {"case", of_case}};
+            {"case", of_case},
+            {"drawn", drawn}};
 }
 
 }  // namespace theatron::bench

@@ -25,13 +25,16 @@ struct InteractionBench {
     std::string cases;
     // Busy threads with which the viewer's decoders share one core.
     int crowd = 0;
+    // One more participant draws all cameras in a window, which needs a display.
+    bool draws = false;
 };
 
 // Returns {p50_ms,p99_ms,max_ms,participants,cameras,poses,round_trip_ms:{p50,p99,max},
-// grabs,host_cores,pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}},case}: from the sending of a pose
-// to its arrival at the viewer, minus the link's delay; actions in the room (bench_grabs.h), with
-// the link's delay; the host's processor time; and the pictures' rate and age meanwhile; `case` is
-// null or {mbit_per_s,got,all}. Throws Error.
+// grabs,host_cores,pictures:{fps_min,mbit_per_s,age_ms:{p50,p99}},case,drawn}: from the sending of
+// a pose to its arrival at the viewer, minus the link's delay; actions in the room (bench_grabs.h),
+// with the link's delay; the host's processor time; and the pictures' rate and age meanwhile;
+// `case` is null or {mbit_per_s,got,all}; `drawn` is null or the number of pictures that the window
+// has drawn. Throws Error.
 nlohmann::json bench_interaction(const InteractionBench& bench);
 
 }  // namespace theatron::bench

@@ -9,12 +9,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "base/error.h"
 
 namespace theatron::bench {
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
+                           const std::string& state_home) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error("Cannot start a child process.");
@@ -26,6 +28,14 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     for (std::string& argument : copies)
         argv.push_back(argument.data());
     argv.push_back(nullptr);
+    std::string own_state = "XDG_STATE_HOME=" + state_home;
+    std::vector<char*> variables;
+    for (char** variable = environ; *variable; ++variable)
+        if (state_home.empty() || !std::string_view(*variable).starts_with("XDG_STATE_HOME="))
+            variables.push_back(*variable);
+    if (!state_home.empty())
+        variables.push_back(own_state.data());
+    variables.push_back(nullptr);
 
     const pid_t parent = getpid();
     pid_ = fork();
@@ -35,7 +45,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
         const int nothing = open("/dev/null", O_RDONLY);
         if (getppid() == parent && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 &&
             dup2(ends[1], STDOUT_FILENO) >= 0)
-            execv(program.c_str(), argv.data());
+            execve(program.c_str(), argv.data(), variables.data());
         _exit(127);
     }
     close(ends[1]);

@@ -10,8 +10,10 @@ namespace theatron::bench {
 class ChildProcess {
 public:
     // Starts it with `arguments`; its standard output is readable. The child is killed when the
-    // calling thread ends, for whatever reason. Throws Error.
-    explicit ChildProcess(const std::vector<std::string>& arguments);
+    // calling thread ends, for whatever reason. `state_home`: of its person's settings; empty:
+    // those of this process. Throws Error.
+    explicit ChildProcess(const std::vector<std::string>& arguments,
+                          const std::string& state_home = "");
     ~ChildProcess();  // kills the child if it still runs
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

@@ -66,6 +66,20 @@ TEST(RoomState, TakesOnlyPosesOfThePresentGripAndNewerOnes) {
     EXPECT_EQ(room.object().room_from_object, at(3));
 }
 
+// The clock of the next holder may be a little behind that of the last one.
+TEST(RoomState, TakesThePosesOfANewGripWhateverTheTimeOfTheLastOnes) {
+    OneBrick room;
+    room.request(anna, 2, request::Grab{room.brick});
+    EXPECT_TRUE(room.host.on_pose(anna, {room.brick, {anna, 2}, TimePoint(50ms), at(2), 1}));
+    room.request(anna, 3, request::HandOver{room.brick, 2, ben});
+    const Grip given{ben, 3 | given_grip};
+    EXPECT_TRUE(room.host.on_pose(ben, {room.brick, given, TimePoint(40ms), at(3), 1}));
+    room.request(ben, 1, request::Release{room.brick, given.number, at(3), 1});
+    room.request(anna, 4, request::Grab{room.brick});
+    EXPECT_TRUE(room.host.on_pose(anna, {room.brick, {anna, 4}, TimePoint(30ms), at(4), 1}));
+    EXPECT_EQ(room.object().room_from_object, at(4));
+}
+
 TEST(RoomState, HandsOverOnlyToSomebodyWhoIsThere) {
     OneBrick room;
     room.request(anna, 2, request::Grab{room.brick});
@@ -167,6 +181,28 @@ TEST(RoomReplica, ShowsItsOwnDoingAtOnceAndTakesItBackWhenRefused) {
     EXPECT_TRUE(replica.take_poses_again().empty());
     EXPECT_EQ(replica.predicted(), room.host.objects());
     EXPECT_FALSE(replica.move(room.brick, at(4), 1, TimePoint(2ms)));
+}
+
+TEST(RoomReplica, DoesNotShowWhatTheHostCannotAccept) {
+    OneBrick room;
+    room.request(anna, 2, request::Grab{room.brick});
+    RoomReplica replica(ben);
+    replica.on_snapshot(room.host.snapshot());
+    const auto grip = [&] { return replica.predicted().at(room.brick).grip; };
+    replica.request(request::Grab{room.brick});
+    EXPECT_EQ(grip(), (Grip{anna, 2})) << "it is held";
+    replica.request(request::HandOver{room.brick, 2, ben});
+    EXPECT_EQ(grip(), (Grip{anna, 2})) << "only its holder hands it over";
+}
+
+TEST(RoomReplica, GivesEachOwnPoseALaterTime) {
+    OneBrick room;
+    room.request(anna, 2, request::Grab{room.brick});
+    RoomReplica replica(anna);
+    replica.on_snapshot(room.host.snapshot());
+    for (const double x : {1.0, 2.0})
+        EXPECT_TRUE(room.host.on_pose(anna, *replica.move(room.brick, at(x), 1, TimePoint(5ms))));
+    EXPECT_EQ(room.object().room_from_object, at(2));
 }
 
 TEST(RoomReplica, AsksForASnapshotWhenAChangeIsMissing) {

@@ -191,7 +191,7 @@ class Room(unittest.TestCase):
             sam.say("brick 0.5 1 -0.75")
             sam.say(f"grab {brick(olga.wait_for(brick, 10))['id']}")
             for person in everybody:
-                person.wait_for(lambda f: brick(f)["held_by"] == self.number(sam), 10)
+                person.wait_for(lambda f: brick(f) and brick(f)["held_by"] == self.number(sam), 10)
             sam.say("give Cara")
             cara.wait_for(lambda f: brick(f)["held_by"] == self.number(cara), 10)
             cara.say("move 0 1.25 -0.75 30")
