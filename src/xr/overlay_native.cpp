@@ -251,7 +251,7 @@ float Overlay::Parts::button_width(const PanelButton& button) const {
     return measure(small, button.label).x + 1.4f * unit;
 }
 
-// Of the slider and the buttons, with the gaps.
+// The width of a row's slider and buttons, with the gaps.
 float Overlay::Parts::controls_width(const PanelRow& row) const {
     float width = row.slider ? slider_units * unit + 1.4f * unit : 0;
     for (const PanelButton& button : row.buttons)
@@ -259,7 +259,7 @@ float Overlay::Parts::controls_width(const PanelRow& row) const {
     return width;
 }
 
-// Between the edges of the panel.
+// The width of a panel without its edges that breaks no text.
 float Overlay::Parts::wanted_width(const Panel& panel) const {
     float width = measure(normal, panel.title).x;
     for (const PanelRow& row : panel.rows)
