@@ -121,6 +121,9 @@ void allow_display(Filter& filter) {
     filter.allow(SCMP_SYS(recvmsg), {is(0, input_descriptor)});
     filter.allow(SCMP_SYS(sendmsg), {is(0, input_descriptor)});
     filter.allow(SCMP_SYS(writev), {is(0, input_descriptor)});
+    // The library ends a connection that the server has closed.
+    filter.allow(SCMP_SYS(shutdown), {is(0, input_descriptor)});
+    filter.allow(SCMP_SYS(close), {is(0, input_descriptor)});
     // The parent set the flags that the library sets.
     filter.fail(SCMP_SYS(fcntl), 0);
 }

@@ -75,7 +75,7 @@ void LookingBack::add_panel(const std::string& past, bool knows_objects,
     xr::PanelRow row{past.empty() ? "The present" : past,
                      past.empty()    ? ""
                      : knows_objects ? "People and voices are of now"
-                                     : "People and voices are of now; objects and marks of before "
+                                     : "People and voices are of now; objects and marks of before\n"
                                        "you came are not drawn",
                      {}};
     if (past.empty())

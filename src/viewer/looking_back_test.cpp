@@ -76,7 +76,7 @@ TEST(LookingBack, OffersTheLastMinuteAndOnePressBackToThePresent) {
     looking.add_panel("NOT LIVE: 23 s ago", false, nobody, now, past);
     const auto& shown = past.panels.at(0).rows.at(0);
     EXPECT_EQ(shown.text, "NOT LIVE: 23 s ago");
-    EXPECT_NE(shown.detail.find("before you came"), std::string::npos);
+    EXPECT_NE(shown.detail.find("are not drawn"), std::string::npos);
     EXPECT_EQ(shown.buttons.at(0).label, "Live");
     EXPECT_EQ(std::get<LookBackTo>(past.commands.at(std::size_t(shown.buttons[0].command))).ago,
               Duration(0));

@@ -15,6 +15,24 @@ namespace {
 
 // Windows narrower than this, in half text heights, show one row of facts.
 constexpr float small_window_units = 80;
+// Beside pictures, panels take at most so much of the window's width.
+constexpr float panels_beside_pictures = 0.5f;
+// A text is not broken because its own width was rounded.
+constexpr float rounding = 1;
+// In half text heights.
+constexpr float panel_padding = 1.4f, slider_units = 22;
+
+// The largest height for each such that all of them, cut to it, have this height together.
+float largest_share(std::vector<float> heights, float together) {
+    std::sort(heights.begin(), heights.end());
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const float share = together / float(heights.size() - i);
+        if (heights[i] > share)
+            return share;
+        together -= heights[i];
+    }
+    return heights.empty() ? 0 : heights.back();
+}
 
 }  // namespace
 
@@ -44,9 +62,10 @@ struct Overlay::Parts {
     // Each draws its part; all use the state that draw() has set up.
     float facts(const std::vector<Fact>& facts) const;
     void message(const std::string& message, const std::string& detail, float bottom) const;
-    float notice(const std::string& words, ImU32 color, float top) const;
+    float notice_end(const std::string& words, float top) const;
+    std::optional<float> notice_middle(const std::string& words, float from, float to) const;
+    float notice(const std::string& words, ImU32 color, float top, float middle) const;
     void help(float bottom) const;
-    void panels(const std::vector<Panel>& panels, float bottom);
 
     // Rows that are scrolled out above, of the panel with this title.
     std::map<std::string, double> scrolled;
@@ -57,6 +76,10 @@ struct Overlay::Parts {
             return place.x >= from.x && place.x < to.x && place.y >= from.y && place.y < to.y;
         }
     };
+    float button_width(const PanelButton& button) const;
+    float controls_width(const PanelRow& row) const;
+    float wanted_width(const Panel& panel) const;
+    float panels(const std::vector<Panel>& panels, const Area& free);
     std::vector<Area> panel_areas;
     std::vector<std::string> panel_titles;  // of each of them
     std::vector<std::pair<Area, int>> buttons;
@@ -129,18 +152,31 @@ void Overlay::Parts::message(const std::string& message, const std::string& deta
     text(normal, {(window.x - more.x) / 2, from.y + size.y + unit}, colors::label, detail, wrap);
 }
 
-// Returns where the next may begin.
-float Overlay::Parts::notice(const std::string& words, ImU32 color, float top) const {
+// Where the next may begin.
+float Overlay::Parts::notice_end(const std::string& words, float top) const {
+    return words.empty() ? top : top + measure(normal, words, window.x * 0.8f).y + 3 * unit;
+}
+
+// Where its middle is so that it covers nothing beside these two; nullopt: it is too wide.
+std::optional<float> Overlay::Parts::notice_middle(const std::string& words, float from,
+                                                   float to) const {
+    const float half = measure(normal, words, window.x * 0.8f).x / 2 + 3 * unit;
+    if (2 * half > to - from)
+        return std::nullopt;
+    return std::clamp(window.x / 2, from + half, to - half);
+}
+
+float Overlay::Parts::notice(const std::string& words, ImU32 color, float top, float middle) const {
     if (words.empty())
         return top;
     const float wrap = window.x * 0.8f, padding = unit;
     const ImVec2 size = measure(normal, words, wrap);
-    const ImVec2 from{(window.x - size.x) / 2, top + padding};
+    const ImVec2 from{middle - size.x / 2, top + padding};
     list->AddRectFilled({from.x - 2 * padding, from.y - padding},
                         {from.x + size.x + 2 * padding, from.y + size.y + padding}, colors::panel,
                         unit);
     text(normal, from, color, words, wrap);
-    return from.y + size.y + 2 * padding;
+    return notice_end(words, top);
 }
 
 void Overlay::Parts::help(float bottom) const {
@@ -211,38 +247,104 @@ float Overlay::Parts::bar(const PanelRow& row, float bottom) {
     return bottom + height;
 }
 
-// Rows that do not fit above `bottom` are left out, and a last line says how many. The mouse wheel
-// shows them.
-void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
-    const float padding = 1.4f * unit, gap = 0.7f * unit, left = 1.5f * unit;
-    const float button_height = normal->FontSize + gap, slider_width = 22 * unit;
-    float top = 1.5f * unit;
-    const auto button_width = [&](const PanelButton& button) {
-        return measure(small, button.label).x + 2 * gap;
+float Overlay::Parts::button_width(const PanelButton& button) const {
+    return measure(small, button.label).x + 1.4f * unit;
+}
+
+// The width of a row's slider and buttons, with the gaps.
+float Overlay::Parts::controls_width(const PanelRow& row) const {
+    float width = row.slider ? slider_units * unit + 1.4f * unit : 0;
+    for (const PanelButton& button : row.buttons)
+        width += button_width(button) + 0.7f * unit;
+    return width;
+}
+
+// The width of a panel without its edges that breaks no text.
+float Overlay::Parts::wanted_width(const Panel& panel) const {
+    float width = measure(normal, panel.title).x;
+    for (const PanelRow& row : panel.rows)
+        width = std::max(
+            {width, measure(normal, row.text).x + controls_width(row) + 2 * panel_padding * unit,
+             measure(small, row.detail).x});
+    return width;
+}
+
+// Rows that do not fit are left out, and a last line says how many; the mouse wheel shows them. A
+// panel higher than the others' share of the window is the first to lose rows. Where not all have
+// space for a row, the last ones are counted below the others. Returns the right edge of the
+// widest panel; 0: there is none.
+float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) {
+    const float padding = panel_padding * unit, gap = 0.7f * unit, left = free.from.x;
+    const float button_height = normal->FontSize + gap, slider_width = slider_units * unit;
+    const float least_text_width = 12 * unit;
+    const auto panel_width = [&](const Panel& panel) {
+        return std::min(wanted_width(panel), free.to.x - left - 2 * padding);
     };
+    // A text that is too long for its place has several lines; where little is left beside the
+    // buttons, it stands above them.
+    struct RowPlace {
+        float text_width, text_height, height;
+        bool buttons_below;
+    };
+    const auto place_of = [&](const PanelRow& row, float width) {
+        RowPlace place{width - controls_width(row), 0, 0, false};
+        const float wanted = measure(normal, row.text).x;
+        place.buttons_below = wanted > place.text_width && place.text_width < least_text_width;
+        if (place.buttons_below)
+            place.text_width = width;
+        place.text_height =
+            std::max(button_height, measure(normal, row.text, place.text_width + rounding).y + gap);
+        const float detail =
+            row.detail.empty() ? 0 : measure(small, row.detail, width + rounding).y;
+        place.height =
+            place.text_height + (place.buttons_below ? button_height + gap : 0) + detail + gap;
+        return place;
+    };
+    const float frame = 2 * padding + normal->FontSize + gap;
+    if (shown.empty())
+        return 0;
+    std::vector<float> heights;
+    float highest_row = 0;
     for (const Panel& panel : shown) {
-        float width = measure(normal, panel.title).x;
+        heights.push_back(frame);
         for (const PanelRow& row : panel.rows) {
-            float buttons_width = 0;
-            for (const PanelButton& button : row.buttons)
-                buttons_width += button_width(button) + gap;
-            if (row.slider)
-                buttons_width += slider_width + 2 * gap;
-            width = std::max({width, measure(normal, row.text).x + buttons_width + 2 * padding,
-                              measure(small, row.detail).x});
+            const float height = place_of(row, panel_width(panel)).height;
+            heights.back() += height;
+            highest_row = std::max(highest_row, height);
         }
-        width = std::min(width, window.x - 2 * (left + padding));
-        const auto row_height = [&](const PanelRow& row) {
-            const auto lines = std::count(row.detail.begin(), row.detail.end(), '\n') + 1;
-            return button_height + (row.detail.empty() ? 0 : float(lines) * small->FontSize) + gap;
+    }
+    const float gaps = unit * float(shown.size() - 1);
+    const float least = frame + highest_row + small->FontSize;
+    const float share = largest_share(heights, free.to.y - free.from.y - gaps);
+    // Where there is no space for all, the first ones have what they need.
+    const bool is_for_all =
+        share >= std::min(least, *std::max_element(heights.begin(), heights.end()));
+    const float line = small->FontSize + 2 * unit;
+    float top = free.from.y, right_edge = 0;
+    for (std::size_t n = 0; n < shown.size(); ++n) {
+        const Panel& panel = shown[n];
+        const bool is_last = n + 1 == shown.size();
+        const float height_left = free.to.y - top - (is_last ? 0 : line);
+        const float most = is_for_all ? share : height_left;
+        if (!is_for_all && height_left < std::min(least, heights[n])) {
+            const std::string more = std::to_string(shown.size() - n) +
+                                     (is_last ? " more panel" : " more panels") +
+                                     ": close one of these";
+            const ImVec2 size = measure(small, more);
+            list->AddRectFilled({left, top}, {left + size.x + 2 * padding, top + size.y + unit},
+                                colors::panel, unit);
+            text(small, {left + padding, top + unit / 2}, colors::warning, more);
+            return std::max(right_edge, left + size.x + 2 * padding);
+        }
+        const float width = panel_width(panel), room = most - frame;
+        const auto fits = [&](float height, std::size_t rows) {
+            return height + (rows < panel.rows.size() ? small->FontSize : 0) <= room + 1;
         };
-        const float room = window.y - bottom - top - 2 * padding - normal->FontSize - gap;
-        const auto fits = [&](float height) { return height + small->FontSize <= room; };
         // The first row as far down as the wheel wants, and the last rows fill the panel.
         std::size_t last_first = panel.rows.size();
         for (float height = 0; last_first > 0; --last_first) {
-            height += row_height(panel.rows[last_first - 1]);
-            if (!fits(height))
+            height += place_of(panel.rows[last_first - 1], width).height;
+            if (!fits(height, panel.rows.size() - last_first + 1))
                 break;
         }
         double& wanted = scrolled[panel.title];
@@ -250,13 +352,16 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
         const auto first = std::size_t(std::lround(wanted));
         float height = 0;
         std::size_t end = first;
-        while (end < panel.rows.size() && fits(height + row_height(panel.rows[end])))
-            height += row_height(panel.rows[end++]);
+        for (; end < panel.rows.size(); ++end) {
+            const float more = place_of(panel.rows[end], width).height;
+            if (!fits(height + more, end + 1 - first))
+                break;
+            height += more;
+        }
         const std::size_t left_out = panel.rows.size() - (end - first);
-        const Area area{
-            {left, top},
-            {left + width + 2 * padding, top + 2 * padding + normal->FontSize + gap + height +
-                                             (left_out > 0 ? small->FontSize : 0)}};
+        const Area area{{left, top},
+                        {left + width + 2 * padding,
+                         top + frame + height + (left_out > 0 ? small->FontSize : 0)}};
         panel_areas.push_back(area);
         panel_titles.push_back(panel.title);
         list->AddRectFilled(area.from, area.to, colors::panel, unit);
@@ -266,34 +371,38 @@ void Overlay::Parts::panels(const std::vector<Panel>& shown, float bottom) {
         y += normal->FontSize + gap;
         for (std::size_t i = first; i < end; ++i) {
             const PanelRow& row = panel.rows[i];
+            const RowPlace place = place_of(row, width);
+            const float beside = place.buttons_below ? y + place.text_height : y;
             float x = area.to.x - padding;
             for (auto button = row.buttons.rbegin(); button != row.buttons.rend(); ++button) {
                 const float wide = button_width(*button);
-                const Area place{{x - wide, y}, {x, y + button_height}};
-                list->AddRectFilled(place.from, place.to, colors::button, 0.5f * unit);
-                text(small, {place.from.x + gap, y + (button_height - small->FontSize) / 2},
+                const Area at{{x - wide, beside}, {x, beside + button_height}};
+                list->AddRectFilled(at.from, at.to, colors::button, 0.5f * unit);
+                text(small, {at.from.x + gap, beside + (button_height - small->FontSize) / 2},
                      colors::key, button->label);
-                buttons.push_back({place, button->command});
+                buttons.push_back({at, button->command});
                 x -= wide + gap;
             }
             if (row.slider) {
                 x -= gap;
-                slider(*row.slider, {{x - slider_width, y}, {x, y + button_height}});
-                x -= slider_width + gap;
+                slider(*row.slider, {{x - slider_width, beside}, {x, beside + button_height}});
             }
-            list->PushClipRect({left + padding, y}, {x, y + row_height(row)}, true);
-            text(normal, {left + padding, y + gap / 2}, colors::text, row.text);
-            list->PopClipRect();
+            text(normal, {left + padding, y + gap / 2}, colors::text, row.text,
+                 place.text_width + rounding);
+            const float below =
+                beside + (place.buttons_below ? button_height + gap : place.text_height);
             if (!row.detail.empty())
-                text(small, {left + padding, y + button_height}, colors::label, row.detail);
-            y += row_height(row);
+                text(small, {left + padding, below}, colors::label, row.detail, width + rounding);
+            y += place.height;
         }
         if (left_out > 0)
             text(small, {left + padding, y}, colors::label,
                  std::to_string(left_out) + " more: mouse wheel");
         list->PopClipRect();
         top = area.to.y + unit;
+        right_edge = std::max(right_edge, area.to.x);
     }
+    return right_edge;
 }
 
 bool Overlay::covers(Vec2 place) const {
@@ -355,14 +464,37 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     }
     if (content.bar)
         bottom = p.bar(*content.bar, bottom);
-    p.pictures.draw(*p.list, *p.small, p.unit, {p.window.x, p.window.y - bottom}, content.pictures);
-    p.panels(content.panels, bottom);
+    const float margin = 1.5f * p.unit;
+    const float widest =
+        content.pictures.empty() ? p.window.x - 2 * margin : panels_beside_pictures * p.window.x;
+    // A warning stands at the top beside the panels and pictures. Where it cannot, it stands at the
+    // bottom and they end above it: nothing that is clicked moves when it comes.
+    float panels_right = 0;
+    for (const Panel& panel : content.panels)
+        panels_right = std::max(panels_right, margin + 2 * panel_padding * p.unit +
+                                                  std::min(p.wanted_width(panel), widest));
+    const float pictures_left =
+        content.pictures.empty()
+            ? p.window.x
+            : p.window.x - OverlayPictures::columns_width * p.window.x - 4 * p.unit;
+    const auto middle_of = [&](const std::string& words) {
+        return p.notice_middle(words, panels_right, pictures_left);
+    };
+    const auto middle = middle_of(content.warning);
+    const float end = p.window.y - bottom - (middle ? 0 : p.notice_end(content.warning, 0));
+    const float panels_end =
+        p.panels(content.panels, {{margin, margin}, {margin + widest, end - p.unit}});
+    p.pictures.draw(*p.list, *p.small, p.unit, p.window,
+                    {panels_end + (panels_end > 0 ? p.unit : 0), p.unit}, {p.window.x, end},
+                    content.pictures);
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);
     if (content.help)
         p.help(bottom);
-    const float below = p.notice(content.warning, colors::warning, 1.5f * p.unit);
-    p.notice(content.notice, colors::text, below);
+    const float below = p.notice(content.warning, colors::warning, middle ? margin : end,
+                                 middle.value_or(p.window.x / 2));
+    p.notice(content.notice, colors::text, middle ? below : margin,
+             middle_of(content.notice).value_or(p.window.x / 2));
 
     ImGui::Render();
     p.pass.draw(*ImGui::GetDrawData());

@@ -16,9 +16,13 @@ namespace theatron::xr {
 // Needs the window's GL context current, also in the destructor.
 class OverlayPictures {
 public:
+    // The share of the window's width that all columns take at most.
+    static constexpr float columns_width = 0.48f;
+
     // Adds them to `list`, whose data must be drawn before the next call. `unit` is the gap between
-    // texts, `window` the part of the window that is free for pictures, in pixels.
-    void draw(ImDrawList& list, ImFont& font, float unit, ImVec2 window,
+    // texts, `from` and `to` the corners of the part of the window that is free for pictures, in
+    // pixels.
+    void draw(ImDrawList& list, ImFont& font, float unit, ImVec2 window, ImVec2 from, ImVec2 to,
               const std::vector<OverlayPicture>& pictures);
     // The command of the picture that stands at this pixel, if there is one.
     std::optional<int> command_at(ImVec2 pixel) const;

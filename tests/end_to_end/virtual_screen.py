@@ -15,7 +15,8 @@ class VirtualScreen:
         reader, writer = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writer), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp",
-             "-fbdir", self.folder.name], pass_fds=[writer], stderr=subprocess.DEVNULL)
+             # Otherwise it begins anew when its last client leaves, and closes the connections of those who come then.
+             "-noreset", "-fbdir", self.folder.name], pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as pipe:
             self.display = ":" + pipe.readline().strip()
