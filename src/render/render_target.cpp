@@ -2,6 +2,7 @@
 #include "render/render_target.h"
 
 #include "base/error.h"
+#include "render/complete_framebuffer.h"
 
 namespace theatron::render {
 namespace {
@@ -14,21 +15,6 @@ void attach(const Texture& texture, GLenum format, Size size, GLenum attachment)
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
 }
 
-// The framebuffer can be drawn into.
-bool is_complete() {
-#ifdef __EMSCRIPTEN__
-    // A browser answers when all is drawn that was begun, so only the first of these targets, which
-    // all have the same kinds of attachments, is asked for.
-    static bool is_possible = false;
-    if (is_possible)
-        return true;
-    is_possible = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    return is_possible;
-#else
-    return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-#endif
-}
-
 }  // namespace
 
 RenderTarget::RenderTarget(Size size) : size_(size) {
@@ -38,7 +24,7 @@ RenderTarget::RenderTarget(Size size) : size_(size) {
     attach(depth_, GL_DEPTH_COMPONENT24, size, GL_DEPTH_ATTACHMENT);
     const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(2, buffers);
-    if (!is_complete())
+    if (!is_complete_framebuffer<RenderTarget>())
         throw Error("The graphics driver cannot draw a picture of " + std::to_string(size.width) +
                     "x" + std::to_string(size.height) + " pixels.");
 }

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "image/scratch.h"
+#include "render/complete_framebuffer.h"
 
 namespace theatron::render {
 
@@ -167,7 +168,7 @@ SceneTexture::SceneTexture(Size size) : parts_(std::make_unique<Parts>()) {
     glBindFramebuffer(GL_FRAMEBUFFER, parts_->framebuffer.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            parts_->texture.name(), 0);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    if (!is_complete_framebuffer<SceneTexture>())
         throw Error("The graphics driver cannot draw into a texture of " +
                     std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels.");
     const float nothing[] = {0, 0, 0, 0};

@@ -58,12 +58,12 @@ class WebH264(unittest.TestCase):
         for options in ("", "&decoding=page"):
             with self.subTest(options):
                 page = self.enter("&color=h264" + options)
-                page.wait_for(f"{CAMERA}?.color.startsWith('h264') && {CAMERA}.color_frames > 20")
+                page.wait_for(f"{CAMERA}?.color.startsWith('h264') && {CAMERA}.color_frames > 8")
                 self.assertEqual(page.evaluate(f"{CAMERA}.decoder_failures"), 0)
                 self.assertTrue(page.evaluate("theatron.state.color.is_chosen"))
                 # Pictures are handed on with depth of the same moment.
                 pictures = page.wait_for("theatron.state.has_picture && theatron.state.pictures")
-                page.wait_for(f"theatron.state.pictures > {pictures + 3}")
+                page.wait_for(f"theatron.state.pictures > {pictures + 1}")
                 self.assertEqual(page.problems, [])
                 self.leave(page)
 
@@ -79,7 +79,7 @@ class WebH264(unittest.TestCase):
         page = self.enter("&color=h264&decoding=page", FAILING % "n => n === 5")
         page.wait_for(f"{CAMERA}?.decoder_failures >= 1")
         frames = page.evaluate(f"{CAMERA}.color_frames")
-        page.wait_for(f"{CAMERA}.color_frames > {frames + 10}")
+        page.wait_for(f"{CAMERA}.color_frames > {frames + 4}")
         self.assertTrue(page.evaluate(f"{CAMERA}.color").startswith("h264"))
         self.leave(page)
 
@@ -89,7 +89,7 @@ class WebH264(unittest.TestCase):
         self.assertEqual(page.evaluate("theatron.state.color.reason"), "JPEG: the browser's decoder failed with H.264")
         page.wait_for("document.getElementById('facts').textContent.includes('failed with H.264')")
         frames = page.evaluate(f"{CAMERA}.color_frames")
-        page.wait_for(f"{CAMERA}.color_frames > {frames + 5}")
+        page.wait_for(f"{CAMERA}.color_frames > {frames + 3}")
         self.leave(page)
 
     def test_a_browser_without_such_decoders_says_so(self):
