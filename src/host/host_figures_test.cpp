@@ -49,7 +49,7 @@ std::string metrics_page() {
 TEST(HostFigures, EveryFieldIsOnThePageOfMetrics) {
     const std::string page = metrics_page();
     std::set<std::string> names;
-    add_names(to_json(std::vector{full_figures(), full_figures()}), names);
+    add_names(to_json(PortFigures{{full_figures(), full_figures()}, {{}}}), names);
     EXPECT_GT(names.size(), 50u);
     for (const std::string& name : names)
         EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
@@ -57,7 +57,7 @@ TEST(HostFigures, EveryFieldIsOnThePageOfMetrics) {
 
 TEST(HostFigures, EveryMetricIsOnThePageOfMetrics) {
     const std::string page = metrics_page();
-    std::istringstream lines(to_prometheus({full_figures()}));
+    std::istringstream lines(to_prometheus({{full_figures()}, {{}}}));
     int families = 0;
     for (std::string line; std::getline(lines, line);)
         if (line.starts_with("# TYPE ")) {
