@@ -6,20 +6,20 @@
 namespace theatron {
 namespace {
 
-constexpr std::size_t plenty = 100;
+constexpr std::size_t enough = 100;
 
 TEST(CleanName, LeavesNamesOfAnyLanguageAsTheyAre) {
     for (const char* name :
          {"", "Dr. Ada  Bee", "Müller", "Анна", "Γιώργος", "山田", "محمد", "🩺 Ben"})
-        EXPECT_EQ(clean_name(name, plenty), name);
+        EXPECT_EQ(clean_name(name, enough), name);
 }
 
 TEST(CleanName, HasNoCharactersThatNobodySees) {
-    EXPECT_EQ(clean_name("A\u200bd\u200da\u2060\u00ad", plenty), "Ada");
-    EXPECT_EQ(clean_name("Ada\ufe0f\u3164\U000e0041", plenty), "Ada");
-    EXPECT_EQ(clean_name("\u00a0 Ada\u2003Bee\u3000\u2800", plenty), "Ada Bee");
-    EXPECT_EQ(clean_name("\u200b \u200b", plenty), "");
-    EXPECT_EQ(clean_name("Ada\n\xff", plenty), "Ada \ufffd");
+    EXPECT_EQ(clean_name("A\u200bd\u200da\u2060\u00ad", enough), "Ada");
+    EXPECT_EQ(clean_name("Ada\ufe0f\u3164\U000e0041", enough), "Ada");
+    EXPECT_EQ(clean_name("\u00a0 Ada\u2003Bee\u3000\u2800", enough), "Ada Bee");
+    EXPECT_EQ(clean_name("\u200b \u200b", enough), "");
+    EXPECT_EQ(clean_name("Ada\n\xff", enough), "Ada \ufffd");
 }
 
 TEST(CleanName, IsCutToItsCharactersAfterCleaning) {
@@ -47,11 +47,11 @@ TEST(LookOf, IsEqualForNamesThatAreEasilyTakenForEachOther) {
 }
 
 TEST(ToldApart, PutsTheLowestFreeNumberBehindAName) {
-    EXPECT_EQ(told_apart("Ada", {}, plenty), "Ada");
-    EXPECT_EQ(told_apart("Ada", {"Ben", "Adam"}, plenty), "Ada");
-    EXPECT_EQ(told_apart("ada", {"Ada"}, plenty), "ada (2)");
-    EXPECT_EQ(told_apart("Ada", {"Ada", "ADA (2)"}, plenty), "Ada (3)");
-    EXPECT_EQ(told_apart("Ada", {"Ada (2)"}, plenty), "Ada") << "nobody else has it alone";
+    EXPECT_EQ(told_apart("Ada", {}, enough), "Ada");
+    EXPECT_EQ(told_apart("Ada", {"Ben", "Adam"}, enough), "Ada");
+    EXPECT_EQ(told_apart("ada", {"Ada"}, enough), "ada (2)");
+    EXPECT_EQ(told_apart("Ada", {"Ada", "ADA (2)"}, enough), "Ada (3)");
+    EXPECT_EQ(told_apart("Ada", {"Ada (2)"}, enough), "Ada") << "nobody else has it alone";
     EXPECT_EQ(told_apart(std::string(64, 'x'), {std::string(64, 'x')}, 64),
               std::string(60, 'x') + " (2)");
 }

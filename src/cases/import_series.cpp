@@ -57,19 +57,21 @@ std::vector<std::string> words_of_number(const std::string& number) {
     return folded_words(number, Umlaut::as_one_letter, Split::at_separators);
 }
 
-// False only if it is certain: both have a number that differs, or none has one and names or dates
-// of birth differ.
+// False only if it is certain: both have a number that differs, or the same one with another name
+// and another date of birth, or one of them has none and names or dates of birth differ.
 bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
     const auto of_both = [&](const char* name) {
         return std::pair(value_of(a, name), value_of(b, name));
     };
-    const auto [number_a, number_b] = of_both("PatientID");
-    if (!number_a.empty() && !number_b.empty())
-        return words_of_number(number_a) == words_of_number(number_b);
     const auto [name_a, name_b] = of_both("PatientName");
     const auto [born_a, born_b] = of_both("PatientBirthDate");
-    return may_be_one_name(name_a, name_b) &&
-           (born_a.empty() || born_b.empty() || born_a == born_b);
+    const bool may_be_name = may_be_one_name(name_a, name_b);
+    const bool may_be_date = born_a.empty() || born_b.empty() || born_a == born_b;
+    const auto [number_a, number_b] = of_both("PatientID");
+    if (number_a.empty() || number_b.empty())
+        return may_be_name && may_be_date;
+    // Hospitals use the same numbers, and a person may take another name.
+    return words_of_number(number_a) == words_of_number(number_b) && (may_be_name || may_be_date);
 }
 
 struct Slices {

@@ -192,7 +192,8 @@ void PatientWords::add_birth_date(const std::string& value) {
 }
 
 void PatientWords::add(const Identifier& identifier) {
-    if (identifier.name == "PatientName" || identifier.name == "OtherPatientNames")
+    if (identifier.name == "PatientName" || identifier.name == "OtherPatientNames" ||
+        identifier.name == "PatientBirthName" || identifier.name == "PatientMotherBirthName")
         add_name(identifier.value);
     else if (identifier.name == "PatientID" || identifier.name == "OtherPatientIDs" ||
              identifier.name == "AccessionNumber")

@@ -81,6 +81,7 @@ TEST(PatientWords, NamesThatArePartsOfUsualWordsLeaveThose) {
     for (const char* text :
          {"long axis", "renal artery", "sleeve", "left renal vein", "congestion"})
         EXPECT_FALSE(words.occur_in(text)) << text;
+    EXPECT_TRUE(words_of({{"PatientBirthName", "Kowalski"}}).occur_in("Frau Kowalski, geb"));
     // Unless the patient is called so.
     EXPECT_TRUE(words_of({{"PatientName", "Herz^Anna"}}).occur_in("Herz"));
     EXPECT_TRUE(words_of({{"PatientID", "liver-01"}}).occur_in("liver 01"));

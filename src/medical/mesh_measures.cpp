@@ -68,13 +68,13 @@ bool has_one_fan_per_vertex(const Mesh& mesh) {
         fans.join(halves[i].low_corner, halves[i + 1].low_corner);
         fans.join(halves[i].high_corner, halves[i + 1].high_corner);
     }
-    constexpr std::uint32_t none = 0xffffffff;
-    std::vector<std::uint32_t> fan_of(mesh.positions.size(), none);
+    constexpr std::uint32_t no_corner = 0xffffffff;
+    std::vector<std::uint32_t> fan_of(mesh.positions.size(), no_corner);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (std::uint32_t k = 0; k < 3; ++k) {
             std::uint32_t& fan = fan_of[mesh.triangles[i][k]];
             const std::uint32_t here = fans.find(std::uint32_t(3 * i + k));
-            if (fan == none)
+            if (fan == no_corner)
                 fan = here;
             if (fan != here)
                 return false;

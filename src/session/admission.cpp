@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/shown_name.h"
+#include "session/audit_event.h"
 
 namespace theatron::session {
 namespace {
@@ -107,8 +108,10 @@ void Admission::note(Participant& participant, const wire::Join& hello,
     participant.person = hello.person;
     participant.records = hello.records;
     participant.given_name = name_of_guest(hello.name);
-    participant.name =
-        told_apart(participant.given_name, names_beside(participant), wire::max_name);
+    // The audit log names whoever sits at the host's machine so.
+    std::vector<std::string> others = names_beside(participant);
+    others.push_back(at_the_host);
+    participant.name = told_apart(participant.given_name, others, wire::max_name);
     participant.asks_to_publish =
         std::count(hello.features.begin(), hello.features.end(), wire::Feature::publish) > 0;
 }

@@ -95,19 +95,33 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             break;
         case ManageAction::mute:
         case ManageAction::unmute:
-            person.muted = decision.action == ManageAction::mute;
-            membership_.set_muted(person.person, person.muted);
-            audit(person.muted ? What::muted : What::unmuted, id, by_name);
-            tell_standing(id);
+            for (const ParticipantId own : connections_of(id, by)) {
+                Participant& here = *admission_.find(own);
+                here.muted = decision.action == ManageAction::mute;
+                membership_.set_muted(here.person, here.muted);
+                audit(here.muted ? What::muted : What::unmuted, own, by_name);
+                tell_standing(own);
+            }
             break;
-        case ManageAction::set_role:
-            set_role(id, decision.role);
-            audit(What::role_changed, id, by_name);
+        case ManageAction::set_role: {
+            // By a link of another role somebody has another task, such as to publish.
+            const Role of_link = person.of_link;
+            for (const ParticipantId own : connections_of(id, by)) {
+                const Participant& here = *admission_.find(own);
+                if (here.of_link != of_link || here.waits())
+                    continue;
+                set_role(own, decision.role);
+                audit(What::role_changed, own, by_name);
+            }
             break;
+        }
         case ManageAction::remove:
-            membership_.remove(person.person, person.token);
-            audit(What::removed, id, by_name);
-            refuse(id, {TextCode::removed_by_operator});
+            for (const ParticipantId own : connections_of(id, by)) {
+                const Participant& here = *admission_.find(own);
+                membership_.remove(here.person, here.token);
+                audit(What::removed, own, by_name);
+                refuse(own, {TextCode::removed_by_operator});
+            }
             break;
         case ManageAction::revoke_link:
             // It would remove the operator, too, perhaps the last one.
@@ -121,6 +135,16 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             break;
     }
     return ManageRefusal::none;
+}
+
+std::vector<ParticipantId> HostSession::connections_of(ParticipantId id, ParticipantId by) {
+    std::vector<ParticipantId> own{id};
+    const Bytes& person = admission_.find(id)->person;
+    for (const auto& [other, there] : admission_.participants())
+        if (other != id && other != by && !person.empty() && there.person == person &&
+            (there.takes_part() || there.waits()))
+            own.push_back(other);
+    return own;
 }
 
 void HostSession::begin_again() {

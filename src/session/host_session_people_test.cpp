@@ -226,6 +226,25 @@ TEST_F(People, WhoIsRemovedIsGoneAtOnceAndStaysOut) {
     EXPECT_EQ(manage(alice, ManageAction::remove, alice), ManageRefusal::yourself);
 }
 
+TEST_F(People, DecisionsHoldForAllConnectionsOfAPerson) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "secret", int(bob));
+    come(dave, "secret");
+    EXPECT_EQ(manage(alice, ManageAction::mute, bob), ManageRefusal::none);
+    EXPECT_TRUE(to<wire::Standing>(bob).at(0).muted);
+    EXPECT_TRUE(to<wire::Standing>(carol).at(0).muted);
+    EXPECT_TRUE(to<wire::Standing>(dave).empty());
+    EXPECT_EQ(manage(alice, ManageAction::set_role, carol, Role::observer), ManageRefusal::none);
+    EXPECT_EQ(session_->participants().at(bob).role, Role::observer);
+    EXPECT_EQ(session_->participants().at(dave).role, Role::expert);
+    EXPECT_EQ(manage(alice, ManageAction::remove, carol), ManageRefusal::none);
+    EXPECT_EQ(audited(), (std::vector{What::removed, What::removed}));
+    EXPECT_FALSE(is_in(bob));
+    EXPECT_FALSE(is_in(carol));
+    EXPECT_TRUE(is_in(dave));
+}
+
 TEST_F(People, ARevokedLinkEndsTheConnectionsOfAllWhoCameByItAndOfNobodyElse) {
     come(alice, "or");
     come(bob, "secret");
@@ -417,6 +436,8 @@ TEST_F(People, WhoseNamesLookEqualAreToldApartExceptForTheSameProgram) {
     session_->on_closed(alice);
     session_->on_closed(carol);
     EXPECT_EQ(name_of(dave, "ADA", 4), "ADA") << "nobody else is called so now";
+    session_->on_closed(dave);
+    EXPECT_EQ(name_of(dave, "host", 4), "host (2)") << "the audit log's name of the host's machine";
 }
 
 TEST(Membership, ForgetsTheOldestOfTooManyAndNotesNobodyWithoutAnId) {

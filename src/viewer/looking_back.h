@@ -27,7 +27,7 @@ std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
 
 // Said to a person who wants to change something meanwhile.
 inline constexpr const char* looking_back_changes_nothing =
-    "You look back; objects, marks and pointing are of now. End: live again";
+    "You look back and change nothing meanwhile. End: live again";
 
 // Use from one thread.
 class LookingBack {

@@ -187,7 +187,8 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
 // The name of another person above what they hold.
 void Meeting::add_holder(render::SceneFrame& frame, session::ObjectId id,
                          const session::RoomObject& object, Vec3 eye) {
-    if (object.grip.holder == ParticipantId{} || object.grip.holder == room_.self)
+    // Somebody who holds it now did not yet hold it, or not there, in the past that is shown.
+    if (shows_past_ || object.grip.holder == ParticipantId{} || object.grip.holder == room_.self)
         return;
     const std::string text = name_of(object.grip.holder) + " holds this";
     double above_m = label_above_m;

@@ -90,7 +90,8 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                              button(observes ? "Make expert" : "Make observer",
                                     Decide{Action::set_role, person.id,
                                            observes ? wire::Role::expert : wire::Role::observer}),
-                             button("Remove", Decide{Action::remove, person.id, {}})}});
+                             button(facts.asked_removal == person.id ? "Really remove" : "Remove",
+                                    Decide{Action::remove, person.id, {}})}});
     }
     if (!who.rows.empty() && facts.may_call)
         who.rows.push_back({"",

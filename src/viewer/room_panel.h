@@ -102,6 +102,8 @@ struct RoomPanelFacts {
     bool may_call = false, is_calling = false;
     std::map<ParticipantId, int> speaking = {};  // as in Voices
     OwnFace own_face = OwnFace::none;
+    // The person of whom "Remove" was pressed once; removed by the second press.
+    std::optional<ParticipantId> asked_removal = {};
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

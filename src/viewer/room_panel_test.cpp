@@ -98,6 +98,9 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
     EXPECT_EQ(role.role, wire::Role::expert);
     EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[2].command)).action,
               wire::ManageAction::remove);
+    EXPECT_EQ(buttons[2].label, "Remove");
+    facts.asked_removal = person.id;
+    EXPECT_EQ(room_panel(facts).panels[1].rows.at(1).buttons[2].label, "Really remove");
 }
 
 TEST(RoomPanel, OffersToGoToWhoeverCallsAndToCall) {

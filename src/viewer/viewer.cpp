@@ -225,11 +225,22 @@ void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
     }
 }
 
+std::optional<ParticipantId> Viewer::asked_removal(TimePoint now) const {
+    constexpr Duration time_to_confirm = std::chrono::seconds(5);
+    return removal_ && now - removal_->asked < time_to_confirm ? std::optional(removal_->person)
+                                                               : std::nullopt;
+}
+
 void Viewer::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
         return;
     const RoomCommand chosen = commands_[std::size_t(command)];
     if (const auto* decision = std::get_if<Decide>(&chosen)) {
+        if (decision->action == wire::ManageAction::remove &&
+            asked_removal(now) != decision->person) {
+            removal_ = {decision->person, now};
+            return;
+        }
         participant_.manage(decision->action, decision->person, decision->role);
         return;
     }
@@ -518,11 +529,12 @@ Facts Viewer::facts(TimePoint now) {
         for (const room::RoomPerson& person : scene_.meeting().people())
             screens.names[person.id] = person.name;
         add_screen_panel(screens, panel);
-        panel = joined(std::move(panel),
-                       room_panel({scene_.meeting().room(), scene_.meeting().people(),
-                                   places_of(cameras()), followed_, role == wire::Role::operator_,
-                                   facts.visitors, session::may(role, session::Right::point),
-                                   is_calling(now), voices_.speaking, own_face_}));
+        panel =
+            joined(std::move(panel),
+                   room_panel({scene_.meeting().room(), scene_.meeting().people(),
+                               places_of(cameras()), followed_, role == wire::Role::operator_,
+                               facts.visitors, session::may(role, session::Right::point),
+                               is_calling(now), voices_.speaking, own_face_, asked_removal(now)}));
         add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,

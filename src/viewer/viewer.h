@@ -123,6 +123,8 @@ public:
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
+    // The person of whom "Remove" was pressed a moment ago.
+    std::optional<ParticipantId> asked_removal(TimePoint now) const;
     // The panel of people, places and sound is open.
     bool shows_panels() const { return shows_panels_; }
     // `before` with this person's newest choices.
@@ -225,6 +227,11 @@ private:
     bool sent_call_ = false;
     bool sent_pointing_ = false;
     bool sits_ = false;
+    struct Removal {
+        ParticipantId person{};
+        TimePoint asked;
+    };
+    std::optional<Removal> removal_;
     Voices voices_;
     OwnFace own_face_ = OwnFace::none;
     std::optional<bool> face_wish_;

@@ -311,7 +311,9 @@ class Window(unittest.TestCase):
             self.assertEqual(links.stat().st_mode & 0o777, 0o600)
             with Process("join", "--size", f"{WIDTH}x{HEIGHT}", "--renderer", "splat",
                          env={**self.screen.environment, "XDG_STATE_HOME": str(home)}) as again:
-                wait_until(lambda: title().startswith("Enter a session") and not self.has_main_button())
+                # Once the form is drawn, the field of the link has the keyboard.
+                wait_until(lambda: title().startswith("Enter a session") and self.has_color((52, 66, 84), 1000))
+                time.sleep(0.3)
                 type_in("key", "Down", "key", "space")
                 wait_until(self.has_main_button)
                 type_in("key", "Right", "key", "space")

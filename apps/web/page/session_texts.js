@@ -19,7 +19,7 @@ const german = {
         "Calls you (J: go there)": "Ruft Sie (J: hingehen)",
         "Go": "Hingehen", "Go to": "Hingehen", "Go there": "Hingehen", "Stay here": "Hierbleiben", "See through": "Mitsehen",
         "Let in": "Einlassen", "Refuse": "Abweisen", "Mute": "Stummschalten", "Unmute": "Sprechen lassen",
-        "Remove": "Entfernen", "Make expert": "Zum Experten machen", "Make observer": "Zum Beobachter machen",
+        "Remove": "Entfernen", "Really remove": "Wirklich entfernen", "Make expert": "Zum Experten machen", "Make observer": "Zum Beobachter machen",
         "Show my face": "Mein Gesicht zeigen", "Hide my face": "Mein Gesicht verbergen", "You are seen": "Sie werden gesehen",
         "Webcam": "Webcam", "you are seen": "Sie werden gesehen", "is being opened": "wird geöffnet",
         "Look back (you alone)": "Zurückblicken (nur Sie)", "The present": "Die Gegenwart", "Live": "Live",
