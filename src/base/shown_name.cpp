@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/basic_letters.h"
 #include "base/outside_text.h"
 
 namespace theatron {
@@ -42,14 +43,6 @@ bool is_space(char32_t c) {
            c == 0x205f || c == 0x2800 || c == 0x3000;
 }
 
-// From U+00C0 and from U+00E0 on, without accents; x for the two signs among them.
-constexpr std::string_view latin_1 = "aaaaaaaceeeeiiiidnoooooxouuuuyps";
-// From U+0100 on.
-constexpr std::string_view latin_extended =
-    "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkkllllllllllnnnnnnnnn"
-    "oooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
-static_assert(latin_1.size() == 0x20 && latin_extended.size() == 0x80);
-
 // Small letters of other alphabets that look like a Latin one, they or their capitals.
 struct Lookalike {
     char32_t letter;
@@ -77,12 +70,12 @@ char32_t small_letter(char32_t c) {
 char32_t look_of_letter(char32_t c) {
     if (is_within(c, 0xff01, 0xff5e))  // of full width
         c -= 0xfee0;
-    if (c == 0xff)
-        return 'y';
-    if (is_within(c, 0xc0, 0xff))
-        return char32_t(latin_1[c & 0x1f]);
-    if (is_within(c, 0x100, 0x17f))
-        return char32_t(latin_extended[c - 0x100]);
+    if (c == 0xd7 || c == 0xf7)  // multiplied, divided
+        return 'x';
+    if (c == 0xde || c == 0xfe)  // thorn
+        return 'p';
+    if (const char basic = basic_letter(c); basic != ' ')
+        return char32_t(basic);
     c = small_letter(c);
     const auto found = std::find_if(std::begin(lookalikes), std::end(lookalikes),
                                     [&](const Lookalike& known) { return known.letter == c; });

@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/basic_letters.h"
+
 namespace theatron::cases {
 namespace {
 
-// Basic letters of U+00C0 to U+017F; blank: none.
-constexpr std::string_view basic_letters =
-    "aaaaaaaceeeeiiiidnooooo ouuuuyts"
-    "aaaaaaaceeeeiiiidnooooo ouuuuyty"
-    "aaaaaaccccccccddddeeeeeeeeeegggg"
-    "gggghhhhiiiiiiiiiiiijjkkklllllll"
-    "lllnnnnnnnnnoooooooorrrrrrssssss"
-    "ssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
-static_assert(basic_letters.size() == 0x180 - 0xc0);
-
-// The same of U+1E00 to U+1EFF, with the letters of Vietnamese.
+// Basic letters of U+1E00 to U+1EFF, with those of Vietnamese; blank: none.
 constexpr std::string_view additional_letters =
     "aabbbbbbccddddddddddeeeeeeeeeeff"
     "gghhhhhhhhhhiiiikkkkkkllllllllmm"
@@ -29,7 +21,7 @@ constexpr std::string_view additional_letters =
     "oooouuuuuuuuuuuuuuyyyyyyyyllvvyy";
 static_assert(additional_letters.size() == 0x1f00 - 0x1e00);
 
-// Letters of names between these two blocks: Romanian, Vietnamese, and Chinese in Latin letters.
+// Letters of names between U+0180 and these: Romanian, Vietnamese, and Chinese in Latin letters.
 struct BasicLetter {
     std::uint32_t point;
     char basic;
@@ -92,15 +84,13 @@ bool is_accent(std::uint32_t point) {
 }
 
 // Blank: the letter has none.
-char basic_letter(std::uint32_t point) {
-    if (point >= 0xc0 && point < 0x180)
-        return basic_letters[point - 0xc0];
+char basic_letter_of(std::uint32_t point) {
     if (point >= 0x1e00 && point < 0x1f00)
         return additional_letters[point - 0x1e00];
     for (const BasicLetter& letter : single_letters)
         if (letter.point == point)
             return letter.basic;
-    return ' ';
+    return basic_letter(point);
 }
 
 // Greek and Cyrillic; the same code point for other letters.
@@ -124,7 +114,7 @@ std::string folded(std::uint32_t point, std::string_view bytes, Umlaut umlaut) {
             is_capital || (point >= '0' && point <= '9') || (point >= 'a' && point <= 'z');
         return is_kept ? std::string(1, char(is_capital ? point - 'A' + 'a' : point)) : "";
     }
-    if (const char basic = basic_letter(point); basic != ' ') {
+    if (const char basic = basic_letter_of(point); basic != ' ') {
         std::string letters(1, basic);
         if (point == 0xdf || point == 0x1e9e)
             letters += 's';

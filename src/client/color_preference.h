@@ -31,7 +31,7 @@ struct ColorMeasure {
 // Counts how often a decoder fails, whatever number of pictures it loses each time.
 class DecoderFailures {
 public:
-    // So many within this time are too many.
+    // A decoder with so many failures within this time is given up.
     static constexpr std::size_t most = 3;
     static constexpr Duration window = 30s;
 
