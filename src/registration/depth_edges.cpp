@@ -185,12 +185,15 @@ std::vector<float> edge_positions(const std::vector<DepthEdge>& edges, DepthView
         std::ptrdiff_t step = 0;
         const std::uint16_t* pixel = window_of(edge, depth, step);
         float near_sum = 0;
+        int measured = 0;
         bool is_known = true;
         for (int k = 0; k < window && is_known; ++k, pixel += step) {
             const auto share = near_share(*pixel, edge.near_units, edge.far_units);
             is_known = share.has_value();
             near_sum += share.value_or(0);
+            measured += *pixel != 0;
         }
+        is_known = is_known && measured > half_window;
         positions.push_back(is_known ? position_of(near_sum, edge.is_near_first) : no_position);
     }
     return positions;

@@ -48,7 +48,7 @@ private:
 };
 
 // DepthEdge::position of each edge in another image of the same camera; NaN where something else
-// than the two surfaces is in its window.
+// than the two surfaces is in its window, or most of it was not measured.
 std::vector<float> edge_positions(const std::vector<DepthEdge>& edges, DepthView depth);
 
 // The point of the edge where it is at `position`, at the depth of the near surface. False where

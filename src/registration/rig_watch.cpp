@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registration/rig_watch.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,6 +23,17 @@ constexpr double least_share = 0.5;
 constexpr int evaluations_to_clear = 3, evaluations_to_renew = 40, comparisons_to_alarm = 6;
 // People who lean slowly look like a motion for a second or two.
 constexpr Duration time_to_alarm = std::chrono::seconds(4);
+constexpr Duration time_to_lose = std::chrono::seconds(5), time_to_cover = std::chrono::seconds(8);
+// A place is gone if what is measured there is farther by this, and by this share of the distance.
+constexpr double gone_m = 0.1, gone_share_of_z = 0.05;
+// The camera may have been moved from these shares of the reference's surfaces on.
+constexpr double least_gone = 0.1, least_displaced = 0.3;
+// Surfaces nearer than this share of the reference's distance are of something that covers it.
+constexpr double nearest_displaced = 0.6;
+// The smallest eigenvalue of the mean of n n^T over the normals that agree: below, there is a
+// direction in which the camera can have moved.
+constexpr double least_spread = 0.03;
+constexpr double least_measured = 0.02;   // of the picture, of a camera that sees something
 constexpr double cleared_share = 0.6;     // of the alarm's size
 constexpr double overlap_reach_m = 0.15;  // larger distances are other surfaces
 constexpr double base_reach_m = 0.04;
@@ -48,6 +60,23 @@ struct Spread {
     double size() const { return highest - lowest; }
     double mean() const { return sum / count; }
 };
+
+// True if the points that lie on their planes after `motion` fix a camera in all directions.
+bool fixes_all_directions(const Pose& motion, const std::vector<PointOnPlane>& points) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    double count = 0;
+    for (const PointOnPlane& p : points) {
+        const Vec3 shift = motion * p.at - p.at;
+        if (std::abs(p.apart_m + dot(p.normal, shift)) >= on_plane_m)
+            continue;
+        const Eigen::Vector3d n(p.normal.x, p.normal.y, p.normal.z);
+        sum += n * n.transpose();
+        ++count;
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(sum, Eigen::EigenvaluesOnly);
+    return count > 0 && solver.eigenvalues()[0] >= least_spread * count;
+}
 
 // Root mean square of the lengths by which `motion` moves the points.
 double size_m(const Pose& motion, const std::vector<PointOnPlane>& points) {
@@ -109,8 +138,8 @@ RigWatch::RigWatch(const std::vector<Camera>& cameras)
                            {},
                            {},
                            {},
-                           {},
-                           {},
+                           0,
+                           0,
                            0,
                            0,
                            0,
@@ -132,8 +161,7 @@ void RigWatch::begin_reference(State& state) {
     state.reference.edge_sums.emplace(state.about.depth.size);
     state.base.clear();
     state.recent.clear();
-    state.newest_motion = {};
-    state.above = state.below = state.unclear = state.denied = 0;
+    state.above = state.below = state.matched = state.denied = state.gone = state.hidden = 0;
 }
 
 bool RigWatch::is_due(std::size_t camera, TimePoint captured) const {
@@ -181,7 +209,10 @@ void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoi
         return;
     reference.edges = reference.edge_sums->edges(state.surface, static_spread_m);
     reference.edge_sums.reset();
+    std::size_t surfaces = 0;
+    double measured = 0;  // cells, on average
     for (std::size_t i = 0; i < grid.size(); ++i) {
+        measured += double(reference.counts[i]) / reference_images;
         SurfacePoint& point = reference.points[i];
         const double n = std::max(1, reference.counts[i]);
         const Vec3 mean = point.at * (1 / n);
@@ -189,7 +220,16 @@ void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoi
         const bool is_static = reference.counts[i] >= least_reference_images &&
                                variance < static_spread_m * static_spread_m;
         point = is_static ? SurfacePoint{mean, normalized(point.normal)} : SurfacePoint{};
+        surfaces += is_static;
     }
+    // A camera that sees nothing has nothing to be compared with.
+    if (surfaces < least_points) {
+        const bool sees_nothing = measured < least_measured * double(grid.size());
+        begin_reference(state);
+        state.motion.is_covered = sees_nothing;
+        return;
+    }
+    state.motion.is_covered = false;
     note_base(camera);
 }
 
@@ -211,10 +251,10 @@ void RigWatch::correct_place(std::size_t camera, const Pose& room_from_camera) {
     State& corrected = states_[camera];
     if (!corrected.about.room_from_camera)
         return;
-    const Pose moved = inverse(*corrected.about.room_from_camera) *
-                       corrected.motion.room_from_camera.value_or(Pose{});
+    std::optional<Pose>& now = corrected.motion.room_from_camera;
+    if (now)
+        now = room_from_camera * (inverse(*corrected.about.room_from_camera) * *now);
     corrected.about.room_from_camera = room_from_camera;
-    corrected.motion.room_from_camera = room_from_camera * moved;
     for (std::size_t i = 0; i < states_.size(); ++i)
         if (states_[i].reference.images >= reference_images)
             note_base(i);
@@ -236,26 +276,24 @@ void RigWatch::compare_with_reference(std::size_t camera) {
     add_surface_changes(state, points);
     add_edge_changes(state, points);
     const SmallMotion found = fit_small_motion(points, on_plane_m);
-    motion.is_known = found.points >= least_points && found.share >= least_share;
-    if (!motion.is_known) {
-        // Too much of the scene has changed: what stands still now is the new reference.
-        if (++state.unclear >= evaluations_to_renew)
-            renew_reference(state);
-        return;
-    }
-    state.unclear = 0;
+    const Change change = change_of(state);
+    motion.is_known = found.points >= least_points && found.share >= least_share &&
+                      (change.gone < least_gone || fixes_all_directions(found.motion, points));
+    if (!motion.is_known)
+        return on_mismatch(state, change);
+    on_match(state);
     if (found.size_m >= alarm_m && !motion.is_alarm && overlaps_deny(camera, found.motion)) {
-        if (++state.denied >= evaluations_to_renew)
-            renew_reference(state);
+        if (++state.denied >= evaluations_to_renew) {
+            ++motion.renewals;
+            begin_reference(state);
+        }
         return;
     }
     state.denied = 0;
-    state.newest_motion = found.motion;
-    const Pose total = state.carried * found.motion;
-    motion.moved_m = size_m(total, points);
-    motion.turned_deg = angle_deg(total);
+    motion.moved_m = size_m(found.motion, points);
+    motion.turned_deg = angle_deg(found.motion);
     if (state.about.room_from_camera)
-        motion.room_from_camera = *state.about.room_from_camera * total;
+        motion.room_from_camera = *state.about.room_from_camera * found.motion;
     state.above = motion.moved_m >= alarm_m ? state.above + 1 : 0;
     state.below = motion.moved_m < cleared_share * alarm_m ? state.below + 1 : 0;
     if (state.above * period_ >= time_to_alarm)
@@ -264,9 +302,68 @@ void RigWatch::compare_with_reference(std::size_t camera) {
         motion.is_alarm = false;
 }
 
-// A camera that was moved stays moved.
-void RigWatch::renew_reference(State& state) {
-    state.carried = state.motion.is_alarm ? state.carried * state.newest_motion : Pose{};
+RigWatch::Change RigWatch::change_of(const State& state) {
+    const Size size = surface_grid_size(state.about.depth.size);
+    const DepthView depth = state.newest.view();
+    Change change;
+    double surfaces = 0;
+    for (std::size_t i = 0; i < state.reference.points.size(); ++i) {
+        const SurfacePoint& point = state.reference.points[i];
+        if (!point.is_valid())
+            continue;
+        ++surfaces;
+        const int x = int(i % std::size_t(size.width)), y = int(i / std::size_t(size.width));
+        const std::uint16_t units =
+            depth.row(y * surface_step + surface_step / 2)[x * surface_step + surface_step / 2];
+        const double z = units * state.about.depth_unit_mm / 1000;
+        change.gone += z > point.at.z + std::max(gone_m, gone_share_of_z * point.at.z);
+        Spread now;
+        for (const Observation& seen : state.recent)
+            if (seen.surface[i].is_valid())
+                now.add(seen.surface[i].at.z);
+        if (now.count < int(state.recent.size()) || now.size() > 3 * static_spread_m ||
+            now.mean() < nearest_displaced * point.at.z)
+            continue;
+        const double apart = dot(point.normal, state.recent.back().surface[i].at - point.at);
+        (std::abs(apart) < 2 * on_plane_m ? change.agreeing : change.displaced) += 1;
+    }
+    for (double* share : {&change.gone, &change.displaced, &change.agreeing})
+        *share /= std::max(1.0, surfaces);
+    return change;
+}
+
+void RigWatch::on_match(State& state) {
+    state.hidden = 0;
+    state.motion.is_covered = false;
+    if (++state.matched < evaluations_to_clear)
+        return;
+    state.motion.is_far = false;
+    state.gone = 0;
+}
+
+void RigWatch::on_mismatch(State& state, const Change& change) {
+    Motion& motion = state.motion;
+    state.below = state.matched = 0;
+    ++state.hidden;
+    const bool is_moved = change.gone >= least_gone || (change.displaced >= least_displaced &&
+                                                        change.displaced > change.agreeing);
+    state.above = is_moved ? state.above + 1 : 0;
+    state.gone = is_moved ? state.gone + 1 : std::max(0, state.gone - 1);
+    if (state.gone * period_ >= time_to_lose) {
+        motion.is_alarm = motion.is_far = true;
+        motion.moved_m = far_m;
+        motion.turned_deg = 0;
+        motion.room_from_camera.reset();
+    }
+    motion.is_covered = !motion.is_far && state.hidden * period_ >= time_to_cover;
+}
+
+void RigWatch::accept_place(std::size_t camera) {
+    State& state = states_[camera];
+    const int renewals = state.motion.renewals;
+    state.motion = {};
+    state.motion.renewals = renewals;
+    state.motion.room_from_camera = state.about.room_from_camera;
     begin_reference(state);
 }
 

@@ -9,6 +9,11 @@
 // if the camera was moved, and stay as they are if the scene was. The overlaps also give the figure
 // by which the cameras' places differ now, for each pair.
 //
+// A motion that is too large to be fitted shows places farther away than what stood there before:
+// nothing that comes before a camera can do that. Where all is nearer, or nothing is measured,
+// something covers the camera. The reference stays as it is in both cases, so that a camera that is
+// put back, or uncovered, is seen to be in its place.
+//
 // Pure and without threads. About 2 ms of work for each image.
 #pragma once
 
@@ -28,6 +33,8 @@ public:
     // Motions from here on raise the alarm, and the distance of overlaps from which the places are
     // wrong, metres: above the differences of good cameras' depth errors.
     static constexpr double alarm_m = 0.0035, wrong_apart_m = 0.012;
+    // Motions that are too large to be measured are larger than this.
+    static constexpr double far_m = 0.03;
 
     struct Camera {
         CameraModel depth;
@@ -48,12 +55,21 @@ public:
     // stays, and the distances of its overlaps begin anew.
     void correct_place(std::size_t camera, const Pose& room_from_camera);
 
+    // Somebody says that the camera's place is right as it is now: what it sees from now on is
+    // what it is compared with, and an alarm of its own picture ends.
+    void accept_place(std::size_t camera);
+
     struct Motion {
         bool is_known = false;  // enough of the picture stands still
         bool is_alarm = false;
-        double moved_m = 0, turned_deg = 0;  // since the watch began
-        // Where the camera is now; empty where its place was not known.
+        bool is_far = false;                 // too large to be measured; always an alarm
+        bool is_covered = false;             // nothing of the reference is seen, for some time
+        double moved_m = 0, turned_deg = 0;  // since the watch began; far_m and 0 if `is_far`
+        // Where the camera is now; empty where its place was not known, or is not any more.
         std::optional<Pose> room_from_camera;
+        // How often the scene has moved as one, so that the camera is compared with what it sees
+        // since then.
+        int renewals = 0;
     };
     const Motion& motion(std::size_t camera) const { return states_[camera].motion; }
 
@@ -97,15 +113,22 @@ private:
         Reference reference;
         std::vector<BaseOverlap> base;
         std::deque<Observation> recent;
-        Pose carried;        // from the reference's camera frame to that of the watch's begin
-        Pose newest_motion;  // from the camera's frame to the reference's
-        int above = 0, below = 0, unclear = 0, denied = 0;  // evaluations in a row
+        int above = 0, below = 0, matched = 0, hidden = 0, denied = 0;  // evaluations in a row
+        int gone = 0;  // unmatched evaluations that show a motion, less those that do not
         std::size_t next_other = 0;
         Motion motion;
     };
 
     static void begin_reference(State& state);
-    static void renew_reference(State& state);
+    // Shares of the reference's surfaces.
+    struct Change {
+        double gone = 0;       // something farther away is measured there now
+        double displaced = 0;  // a surface stands still there, elsewhere than it was
+        double agreeing = 0;   // stands where it was
+    };
+    static Change change_of(const State& state);
+    static void on_match(State& state);
+    void on_mismatch(State& state, const Change& change);
     void add_to_reference(std::size_t camera, const std::vector<SurfacePoint>& grid,
                           DepthView depth);
     static void add_surface_changes(const State& state, std::vector<PointOnPlane>& points);
