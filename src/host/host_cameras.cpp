@@ -47,12 +47,15 @@ std::optional<wire::Playback> Host::playback() const {
                           state.paused || state.at_end, ""};
 }
 
-// The watch compares the cameras where they are shown.
+// The watch compares the cameras where they are shown. An operator's word on where a camera is ends
+// the alarm of its own motion.
 void Host::Impl::carry_out(const session::action::Adjusted& a) {
     const session::CameraStreams* camera = session->streams().find(a.camera);
     if (!camera || camera->publisher() != session::host_publisher)
         return;
     correct_place(*camera);
+    if (a.states_place)
+        place_watch->accept_place(std::size_t(camera->description().id));
     crop(*camera);
 }
 

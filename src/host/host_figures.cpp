@@ -137,9 +137,12 @@ nlohmann::json to_json(const HostFigures& figures) {
         const PlaceWatch::Figures::Camera& place = figures.places.cameras[i];
         if (camera["problem"] == "")
             camera["problem"] = wire::english(place.problem);
+        if (place.has_place)
+            camera["covered"] = place.is_covered;
         if (place.is_watched)
             camera["place"] = {{"moved_mm", place.moved_mm},
                                {"turned_deg", place.turned_deg},
+                               {"far", place.is_far},
                                {"alarm", place.is_alarm}};
     }
     for (const auto& pair : figures.places.pairs)
@@ -295,18 +298,20 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_camera("recorded_pictures_lost_total", "counter",
                "Pictures of a damaged recording that cannot be played.",
                [](const Camera& c) { return double(c.lane.camera.lost_pictures); });
-    const auto per_place = [&](const char* name, const char* help,
+    const auto per_place = [&](const char* name, const char* help, bool Place::*has_value,
                                const std::function<double(const Place&)>& value) {
         out.family(name, "gauge", help);
         for (const HostFigures& figures : all)
             for (std::size_t i = 0; i < figures.places.cameras.size(); ++i)
-                if (figures.places.cameras[i].is_watched)
+                if (figures.places.cameras[i].*has_value)
                     out.value(labels(figures, i), value(figures.places.cameras[i]));
     };
     per_place("camera_moved_mm", "How far a camera was moved since the host began.",
-              [](const Place& p) { return p.moved_mm; });
+              &Place::is_watched, [](const Place& p) { return p.moved_mm; });
     per_place("camera_moved_alarm", "1 while a camera is not where it was registered.",
-              [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });
+              &Place::is_watched, [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });
+    per_place("camera_covered", "1 while a camera is covered, so that its place is not watched.",
+              &Place::has_place, [](const Place& p) { return p.is_covered ? 1.0 : 0.0; });
     out.family("overlap_apart_mm", "gauge",
                "Median distance of the surfaces that two cameras see, depth as measured.");
     for (const HostFigures& figures : all)

@@ -21,7 +21,7 @@ HostFigures full_figures() {
     figures.cameras.push_back(camera);
     figures.participants.emplace_back();
     figures.published.emplace_back();
-    figures.places.cameras.push_back({true, false, 0, 0, {}});
+    figures.places.cameras.push_back({true, true, false, false, false, 0, 0, {}});
     figures.places.pairs.push_back({0, 0, 0, false});
     figures.visitors.emplace_back();
     figures.certificates.emplace_back();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/fault.h"
+#include "base/log.h"
 #include "base/thread_name.h"
 
 namespace theatron::host {
@@ -45,8 +46,11 @@ PlaceWatch::PlaceWatch(const std::vector<capture::CameraInfo>& cameras, Alarm al
       watched_(with_place(cameras)),
       watch_(make_watch(cameras, watched_)),
       told_(watched_.size()),
+      renewals_(watched_.size()),
       taken_(watched_.size()) {
     figures_.cameras.resize(cameras.size());
+    for (const std::size_t i : watched_)
+        figures_.cameras[i].has_place = true;
     if (!watched_.empty())
         thread_ = std::thread([this] { run(); });
 }
@@ -61,29 +65,47 @@ PlaceWatch::~PlaceWatch() {
         thread_.join();
 }
 
-void PlaceWatch::offer(std::size_t camera, const FramePtr& frame) {
+std::optional<std::size_t> PlaceWatch::number_of(std::size_t camera) const {
     const auto found = std::lower_bound(watched_.begin(), watched_.end(), camera);
     if (found == watched_.end() || *found != camera)
+        return std::nullopt;
+    return std::size_t(found - watched_.begin());
+}
+
+void PlaceWatch::offer(std::size_t camera, const FramePtr& frame) {
+    const auto number = number_of(camera);
+    if (!number)
         return;
-    const auto number = std::size_t(found - watched_.begin());
     {
         const std::lock_guard lock(mutex_);
         const TimePoint captured = frame->times.captured;
-        if (captured - taken_[number] < watch_.period() && captured >= taken_[number])
+        TimePoint& taken = taken_[*number];
+        if (captured - taken < watch_.period() && captured >= taken)
             return;
-        taken_[number] = captured;
-        waiting_[number] = frame;
+        taken = captured;
+        waiting_[*number] = frame;
     }
     changed_.notify_one();
 }
 
 void PlaceWatch::correct_place(std::size_t camera, const Pose& room_from_camera) {
-    const auto found = std::lower_bound(watched_.begin(), watched_.end(), camera);
-    if (found == watched_.end() || *found != camera)
+    const auto number = number_of(camera);
+    if (!number)
         return;
     {
         const std::lock_guard lock(mutex_);
-        corrected_[std::size_t(found - watched_.begin())] = room_from_camera;
+        corrected_[*number] = room_from_camera;
+    }
+    changed_.notify_one();
+}
+
+void PlaceWatch::accept_place(std::size_t camera) {
+    const auto number = number_of(camera);
+    if (!number)
+        return;
+    {
+        const std::lock_guard lock(mutex_);
+        accepted_.insert(*number);
     }
     changed_.notify_one();
 }
@@ -101,15 +123,20 @@ void PlaceWatch::run() {
         FramePtr frame;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock,
-                          [this] { return stopping_ || !waiting_.empty() || !corrected_.empty(); });
+            changed_.wait(lock, [this] {
+                return stopping_ || !waiting_.empty() || !corrected_.empty() || !accepted_.empty();
+            });
             if (stopping_)
                 return;
-            if (!corrected_.empty()) {
+            if (!corrected_.empty() || !accepted_.empty()) {
                 const auto corrected = std::exchange(corrected_, {});
+                const auto accepted = std::exchange(accepted_, {});
                 lock.unlock();
                 for (const auto& [camera, pose] : corrected)
                     watch_.correct_place(camera, pose);
+                for (const std::size_t camera : accepted)
+                    if (watch_.motion(camera).is_alarm)
+                        watch_.accept_place(camera);
                 tell();
                 continue;
             }
@@ -132,8 +159,19 @@ void PlaceWatch::tell() {
     figures.cameras.resize(cameras_.size());
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         const RigWatch::Motion& motion = watch_.motion(i);
-        figures.cameras[watched_[i]] = {motion.is_known, motion.is_alarm, motion.moved_m * 1000,
-                                        motion.turned_deg, problem(i)};
+        figures.cameras[watched_[i]] = {true,
+                                        motion.is_known || motion.is_alarm,
+                                        motion.is_alarm,
+                                        motion.is_covered,
+                                        motion.is_far,
+                                        motion.moved_m * 1000,
+                                        motion.turned_deg,
+                                        problem(i)};
+        if (std::exchange(renewals_[i], motion.renewals) != motion.renewals)
+            log::info("place watch",
+                      "what the camera sees has moved as one, and the other cameras show that the "
+                      "camera has not: it is compared with what it sees now",
+                      {{"camera", int(watched_[i])}});
     }
     for (const RigWatch::Pair& pair : watch_.pairs())
         figures.pairs.push_back(
@@ -143,7 +181,7 @@ void PlaceWatch::tell() {
         figures_ = std::move(figures);
     }
     for (std::size_t i = 0; i < watched_.size(); ++i)
-        if (wire::Text now = problem(i); now.empty() != told_[i].empty()) {
+        if (wire::Text now = problem(i); now.code != told_[i].code) {
             told_[i] = now;
             alarm_(CameraId(watched_[i]), now);
         }
@@ -156,12 +194,15 @@ wire::Text PlaceWatch::problem(std::size_t number) const {
         return std::string(buffer);
     };
     const RigWatch::Motion& motion = watch_.motion(number);
+    if (motion.is_far)
+        return {wire::TextCode::camera_moved_far,
+                {text("%.0f", RigWatch::far_m * 1000), cameras_[watched_[number]].name}};
     if (motion.is_alarm)
         return {wire::TextCode::camera_moved,
                 {text("%.1f", motion.moved_m * 1000), text("%.2f", motion.turned_deg)}};
     const RigWatch::Pair* pair = watch_.wrong_pair(number);
     if (!pair)
-        return {};
+        return {motion.is_covered ? wire::TextCode::camera_covered : wire::TextCode::none, {}};
     const std::size_t other = pair->a == number ? pair->b : pair->a;
     return {wire::TextCode::cameras_apart,
             {cameras_[watched_[other]].name, text("%.0f", pair->apart_m * 1000)}};

@@ -7,6 +7,8 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -32,11 +34,17 @@ public:
 
     // From any thread: somebody has corrected the camera's place.
     void correct_place(std::size_t camera, const Pose& room_from_camera);
+    // From any thread: somebody has said that the camera is where it should be. If it has the alarm
+    // of a motion, that ends, and it is compared with what it sees from now on.
+    void accept_place(std::size_t camera);
 
     struct Figures {
         struct Camera {
-            bool is_watched = false;  // its place is known, and enough of its picture stands still
+            bool has_place = false;   // is known
+            bool is_watched = false;  // enough of its picture stands still, or it has the alarm
             bool is_alarm = false;
+            bool is_covered = false;              // so that it cannot be compared
+            bool is_far = false;                  // moved_mm is the least that it moved
             double moved_mm = 0, turned_deg = 0;  // since the host began
             wire::Text problem;                   // as in Alarm
         };
@@ -55,16 +63,19 @@ private:
     void look_at(std::size_t camera, const Frame& frame);
     void tell();
     wire::Text problem(std::size_t number) const;
+    std::optional<std::size_t> number_of(std::size_t camera) const;
 
     const std::vector<capture::CameraInfo> cameras_;
     const Alarm alarm_;
     std::vector<std::size_t> watched_;  // the host's cameras, by the watch's numbers
     registration::RigWatch watch_;      // the thread's only
     std::vector<wire::Text> told_;      // likewise; by the watch's numbers
+    std::vector<int> renewals_;         // likewise; that the log has
     mutable std::mutex mutex_;          // guards all below
     std::condition_variable changed_;
     std::map<std::size_t, FramePtr> waiting_;  // by the watch's numbers
     std::map<std::size_t, Pose> corrected_;    // likewise
+    std::set<std::size_t> accepted_;           // likewise
     std::vector<TimePoint> taken_;             // captured times of frames taken last
     Figures figures_;
     bool stopping_ = false;

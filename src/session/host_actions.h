@@ -83,6 +83,7 @@ struct SendContent {
 // A camera was adjusted; the session's description of it says how.
 struct Adjusted {
     CameraId camera{};
+    bool states_place = false;  // not a region of its picture: an operator says where it is
 };
 // Play the recording of the host's cameras so; then call HostSession::set_playback().
 struct Play {

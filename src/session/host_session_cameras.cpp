@@ -34,7 +34,7 @@ ManageRefusal HostSession::adjust(CameraId camera, const CameraAdjustment& adjus
     if (changes_region)
         look_back_.forget(camera, now);
     adjusted_[camera] = {by, now};
-    actions_.push_back(action::Adjusted{camera});
+    actions_.push_back(action::Adjusted{camera, !changes_region});
     return refusal;
 }
 

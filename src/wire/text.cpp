@@ -71,13 +71,20 @@ constexpr Row rows[] = {
      "shown."},
     {TextCode::camera_moved,
      "The camera was moved by {0} mm and {1} degrees. Put it back, or find its new place with "
-     "'theatron register LINK --refine PLACES --output NEW'."},
+     "'theatron register LINK --refine PLACES --output NEW'. A nudge says that it is right as it "
+     "is."},
     {TextCode::cameras_apart,
      "Surfaces that {0} sees, too, are {1} mm apart. Find the cameras' places again with 'theatron "
      "register LINK --output NEW' and the board."},
     {TextCode::camera_without_depth,
      "The camera {0} has no depth, which this version cannot show."},
     {TextCode::no_pictures_come, "Its pictures do not arrive any more."},
+    {TextCode::camera_moved_far,
+     "The camera was moved by more than {0} mm, or turned, so far that its picture cannot be "
+     "matched. Put it back, find its place with the board and 'theatron register LINK --output "
+     "NEW', or say that it is right as it is now: 'nudge {1} none'."},
+    {TextCode::camera_covered,
+     "It is covered, or sees nothing: the watch over its place cannot compare."},
 
     {TextCode::all_encodings_taken,
      "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},

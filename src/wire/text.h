@@ -56,6 +56,8 @@ enum class TextCode : std::uint16_t {
     cameras_apart = 214,            // {0}: another camera's name, {1}: mm
     camera_without_depth = 215,     // {0}: name
     no_pictures_come = 216,
+    camera_moved_far = 217,  // {0}: mm that it moved at least, {1}: its name
+    camera_covered = 218,
 
     // Notes to a participant.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for

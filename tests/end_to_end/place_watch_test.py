@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A camera that is knocked while it streams raises an alarm that host, monitoring and participants see."""
+"""A camera that is knocked or moved away while it streams raises an alarm that host, monitoring and participants see."""
 import json
 import pathlib
 import shutil
@@ -38,13 +38,13 @@ class PlaceWatch(unittest.TestCase):
     def tearDown(self):
         shutil.rmtree(self.folder)
 
-    def camera(self):
-        """It is moved forward by 8 mm after twelve seconds."""
+    def camera(self, forward=0.008):
+        """It is moved forward, by 8 mm, after twelve seconds."""
         depth = self.folder / "camera" / "depth"
         depth.mkdir(parents=True)
         (self.folder / "camera" / "calibration.json").write_text(json.dumps({"depth": {
             "width": WIDTH, "height": HEIGHT, "fx": FOCAL, "fy": FOCAL, "cx": 159.5, "cy": 143.5}}))
-        for name, forward in (("before.png", 0), ("after.png", 0.008)):
+        for name, forward in (("before.png", 0), ("after.png", forward)):
             write_frame(self.folder / name, forward)
         for n in range(BEFORE + AFTER):
             (depth / f"{n:05}.png").hardlink_to(self.folder / ("before.png" if n < BEFORE else "after.png"))
@@ -78,6 +78,24 @@ class PlaceWatch(unittest.TestCase):
             unchecked = ssl._create_unverified_context()
             metrics = urllib.request.urlopen(request, context=unchecked).read().decode()
             self.assertIn('theatron_camera_moved_alarm{camera="0",name="camera"} 1', metrics)
+
+    def test_a_camera_that_was_moved_far_keeps_its_alarm_until_an_operator_accepts_its_place(self):
+        with host(self.folder / "state", self.camera(forward=0.4)) as h:
+            def status():
+                code, out, errors = run("status", h.greeting["link"], "--json")
+                self.assertEqual(code, 0, errors)
+                return json.loads(out)["cameras"][0]
+
+            seen = wait_until(lambda: status() if status().get("place", {}).get("alarm") else None, timeout=60, every=1)
+            self.assertTrue(seen["place"]["far"])
+            self.assertFalse(seen["covered"])
+            self.assertIn("The camera was moved by more than 30 mm", seen["problem"])
+            self.assertIn("nudge camera none", seen["problem"])
+            h.say("crop camera 0:0:100x100")
+            wait_until(lambda: "region:" in status()["filter"])
+            self.assertTrue(status()["place"]["alarm"], "a region says nothing of the camera's place")
+            h.say("nudge camera none")
+            wait_until(lambda: status()["problem"] == "")
 
     def test_a_camera_of_unknown_place_has_none_to_lose(self):
         with host(self.folder / "state", self.camera().replace(",place=0:1.5:2", "")) as h:
