@@ -154,7 +154,7 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
         if (!must_draw && input.is_empty() && !form.is_animated())
             continue;
         const xr::EntryAnswer pressed =
-            form.draw(facts, input, window.pixels(), window.text_pixels());
+            form.draw(facts, input, window.pixels(), window.text_pixels(), steady_now());
         must_draw = false;
         if (pressed == xr::EntryAnswer::leave)
             break;

@@ -12,6 +12,7 @@
 #include "base/steady_clock.h"
 #include "cli/progress.h"
 #include "host/host_identity.h"
+#include "host/link_book.h"
 #include "region_text.h"
 
 namespace theatron::app {
@@ -138,8 +139,10 @@ void HostSessions::follow_folders() {
                                                   &host::KeptSession::name) == kept.end())
             gone.push_back(session->flags.options.name);
     for (const std::string& name : gone) {
+        const bool was_open = find(name)->was_open;
         end(name);
-        first_->note_deleted(name);
+        if (was_open)
+            first_->note_deleted(name);
     }
     open_next();
     first_->set_closed(closed());
@@ -156,15 +159,19 @@ std::vector<host::ClosedSession> HostSessions::closed() const {
 
 void HostSessions::take_kept(const host::KeptSession& kept) {
     if (kept.ends && kept.name != opening_name_) {
+        // One that could never be opened has nothing that is deleted.
+        const bool was_open = host::has_links(kept.folder);
         end(kept.name);
         host::forget_session(state_, kept.name);
-        first_->note_deleted(kept.name);
+        if (was_open)
+            first_->note_deleted(kept.name);
         return;
     }
     if (find(kept.name) || kept.ends || (!kept.words && kept.problem.empty()))
         return;
     auto session = std::make_unique<Further>();
     session->is_kept = true;
+    session->was_open = host::has_links(kept.folder);
     try {
         if (!kept.problem.empty())
             throw Error(kept.problem);
@@ -229,6 +236,7 @@ void HostSessions::take_opened() {
         log::error("host", "a session cannot be opened",
                    {{"session", name}, {"problem", opened.problem}});
     session->opened = std::move(opened);
+    session->was_open = session->was_open || session->opened.host;
     session->next_try = steady_now() + retry_interval;
     next_look_ = {};
 }

@@ -52,7 +52,8 @@ private:
     };
     struct Further {
         SessionFlags flags;
-        bool is_kept = false;  // not of the command line
+        bool is_kept = false;   // not of the command line
+        bool was_open = false;  // now or in an earlier run: it has links
         Opened opened;
         TimePoint next_try;
     };

@@ -116,10 +116,10 @@ bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           const std::string& line) {
     if (voice.obey(line) || obey_consent_line(participant, line) ||
-        obey_people_line(participant, line) || obey_camera_line(participant, line) ||
-        obey_playback_line(participant, line) || obey_look_back_line(participant, line) ||
-        obey_case_line(participant, line) || obey_mark_line(participant, line) ||
-        room.obey(line, participant))
+        obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
+        refuse_looking_back(participant, line) || obey_camera_line(participant, line) ||
+        obey_playback_line(participant, line) || obey_case_line(participant, line) ||
+        obey_mark_line(participant, line) || room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <sstream>
 
 #include "base/error.h"
@@ -93,6 +94,21 @@ bool obey_look_back_line(client::Participant& participant, const std::string& li
     else if (participant.look_back(seconds_to_duration(seconds)) == 0)
         log::say(participant.can_look_back() ? "You have not joined yet."
                                              : wire::text_of(wire::ManageRefusal::nothing_kept));
+    return true;
+}
+
+bool refuse_looking_back(const client::Participant& participant, const std::string& line) {
+    constexpr const char* changing[] = {"case",   "mark", "nudge", "crop",  "point",
+                                        "brick",  "grab", "move",  "width", "give",
+                                        "remove", "pin",  "unpin", "end"};
+    std::istringstream words(line);
+    std::string what;
+    words >> what;
+    if (!participant.looks_back() ||
+        std::find(std::begin(changing), std::end(changing), what) == std::end(changing))
+        return false;
+    log::say("'" + line.substr(0, 80) +
+             "': You look back and change nothing meanwhile; say 'live' to come back to now.");
     return true;
 }
 

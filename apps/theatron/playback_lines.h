@@ -26,6 +26,9 @@ bool obey_playback_line(client::Participant& participant, const std::string& lin
 // The same for "back SECONDS" and "live", with which this person alone looks back.
 const char* look_back_help();
 bool obey_look_back_line(client::Participant& participant, const std::string& line);
+// True if this participant looks back, and the line would change the room, its case or a camera,
+// which it sees as they were. A sentence says how to come back.
+bool refuse_looking_back(const client::Participant& participant, const std::string& line);
 bool obey_playback_line(host::Host& host, const std::string& line);
 
 }  // namespace theatron::app

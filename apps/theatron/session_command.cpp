@@ -107,14 +107,20 @@ void create(const Flags& flags) {
     if (is_answered && now->state == ToldSession::State::open)
         return print_created(flags, state, true);
     host::ask_for_end(state, flags.name);
+    // Its name is free when this returns; a camera that is still being opened may take long.
+    if (is_answered)
+        (void)wait_for(ending_patience, [&] {
+            return !fs::exists(host::session_folder(state, flags.name)) && !told(state, flags.name);
+        });
     throw Error("The session was not created. " +
                 (is_answered ? now->problem : "The host did not open it in time."));
 }
 
 // Without a host, which would write the audit log.
 void delete_session(const fs::path& state, const std::string& name) {
+    const bool was_open = host::has_links(host::session_folder(state, name));
     host::forget_session(state, name);
-    if (fs::exists(host::usual_audit_log(state)))
+    if (was_open && fs::exists(host::usual_audit_log(state)))
         host::AuditLog(host::usual_audit_log(state)).add(host::deletion_of(name), "", name);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "base/basic_letters.h"
 #include "base/outside_text.h"
@@ -42,6 +43,20 @@ bool is_space(char32_t c) {
     return c == ' ' || c == 0xa0 || c == 0x1680 || is_within(c, 0x2000, 0x200a) || c == 0x202f ||
            c == 0x205f || c == 0x2800 || c == 0x3000;
 }
+
+// Commas and semicolons of all alphabets, and what looks like one.
+bool is_comma(char32_t c) {
+    return c == ',' || c == ';' || c == 0x37e || c == 0x55d || c == 0x60c || c == 0x61b ||
+           c == 0x201a || c == 0x2e41 || c == 0x3001 || is_within(c, 0xfe10, 0xfe11) ||
+           is_within(c, 0xfe50, 0xfe51) || c == 0xff0c || c == 0xff1b || c == 0xff64;
+}
+
+constexpr std::u32string_view opening =
+    U"([{<\u2039\u2045\u207d\u208d\u2329\u2768\u276a\u27e8\u27ee"
+    U"\u3008\u3010\u3014\uff08\uff1c\uff3b\uff5b";
+constexpr std::u32string_view closing =
+    U")]}>\u203a\u2046\u207e\u208e\u232a\u2769\u276b\u27e9\u27ef"
+    U"\u3009\u3011\u3015\uff09\uff1e\uff3d\uff5d";
 
 // Small letters of other alphabets that look like a Latin one, they or their capitals.
 struct Lookalike {
@@ -104,6 +119,73 @@ std::string clean_name(std::string_view text, std::size_t max_characters) {
     }
     name = clean_text(name, max_characters);
     name.erase(name.find_last_not_of(' ') + 1);
+    return name;
+}
+
+namespace {
+
+// In brackets, whole or a word of it.
+bool has_fact(std::string_view inside, const std::vector<std::string>& facts) {
+    const auto is_fact = [&](const std::string& text) {
+        const std::string look = look_of(text);
+        return std::any_of(facts.begin(), facts.end(),
+                           [&](const std::string& fact) { return look == look_of(fact); });
+    };
+    std::string word;
+    for (const char c : inside) {
+        const bool is_letter = std::uint8_t(c) >= 0x80 || (c >= 'a' && c <= 'z') ||
+                               (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '|';
+        if (!is_letter && is_fact(std::exchange(word, {})))
+            return true;
+        if (is_letter)
+            word += c;
+    }
+    return is_fact(word) || is_fact(std::string(inside));
+}
+
+// `name` without its first brackets that have one of the facts; brackets that nothing closes end
+// with the name.
+std::string without_brackets(const std::string& name, const std::vector<std::string>& facts) {
+    std::string_view rest = name, bytes;
+    while (!rest.empty()) {
+        const std::size_t begin = name.size() - rest.size();
+        if (opening.find(take_letter(rest, bytes)) == opening.npos)
+            continue;
+        const std::size_t inside = name.size() - rest.size();
+        std::size_t inside_end = name.size(), end = name.size();
+        for (std::string_view after = rest; !after.empty();) {
+            const std::size_t here = name.size() - after.size();
+            if (closing.find(take_letter(after, bytes)) == closing.npos)
+                continue;
+            inside_end = here;
+            end = name.size() - after.size();
+            break;
+        }
+        if (has_fact(std::string_view(name).substr(inside, inside_end - inside), facts))
+            return clean_name(name.substr(0, begin), name.size()) + ' ' +
+                   clean_name(name.substr(end), name.size());
+    }
+    return name;
+}
+
+}  // namespace
+
+std::string person_name(std::string_view text, const std::vector<std::string>& facts,
+                        std::size_t max_characters) {
+    const std::string clean = clean_name(text, std::numeric_limits<std::size_t>::max());
+    std::string name;
+    std::string_view rest = clean, bytes;
+    while (!rest.empty()) {
+        const bool is_separator = is_comma(take_letter(rest, bytes));
+        if (!is_separator)
+            name += bytes;
+        else if (!name.ends_with(' ') && !rest.starts_with(' '))
+            name += ' ';
+    }
+    for (std::string before; before != name;) {
+        before = name;
+        name = clean_name(without_brackets(name, facts), max_characters);
+    }
     return name;
 }
 

@@ -13,6 +13,12 @@ namespace theatron {
 // bytes.
 std::string clean_name(std::string_view text, std::size_t max_characters);
 
+// As clean_name(), for names of people, behind which lists put facts in brackets, and commas
+// between them. A name imitates neither: it has spaces in place of commas, and no brackets with one
+// of `facts` among their words, in any letters that look_of() takes for the same.
+std::string person_name(std::string_view text, const std::vector<std::string>& facts,
+                        std::size_t max_characters);
+
 // Equal texts for names that are easily taken for each other: in capital or small letters, with or
 // without accents and spaces, with Cyrillic or Greek letters that look like Latin ones, or with 1
 // for l and 0 for O. For comparison, not to be shown. `name` is clean.

@@ -27,6 +27,28 @@ TEST(CleanName, IsCutToItsCharactersAfterCleaning) {
     EXPECT_EQ(clean_name("Ada Bee", 4), "Ada");
 }
 
+const std::vector<std::string> roles = {"operator", "recorded"};
+
+TEST(PersonName, HasNoBracketsWithAFactInThem) {
+    for (const char* name :
+         {"Ada (operator)", "Ada (Operator) ", "Ada [OPERATOR, muted]", "Ada (0perat0r)",
+          "Ada (o p e r a t o r)", "Ada \u3010operator\u3011", "Ada \uff08\uff4fperator\uff09",
+          "Ada (the operator", "(recorded) Ada", "Ada (operator) (recorded)",
+          "Ada (\u043ep\u0435rator)", "Ada, (operator)"})
+        EXPECT_EQ(person_name(name, roles, enough), "Ada") << name;
+    EXPECT_EQ(person_name("Ada ((operator) Bee)", roles, enough), "Ada Bee)");
+    EXPECT_EQ(person_name("(operator)", roles, enough), "");
+    for (const char* name : {"Ada (Bee)", "Ada (cooperators)", "Ada operator", "Ada (2)"})
+        EXPECT_EQ(person_name(name, roles, enough), name);
+}
+
+TEST(PersonName, HasNoCommasAndIsOnePersonInAList) {
+    EXPECT_EQ(person_name("Bee, Ada", roles, enough), "Bee Ada");
+    EXPECT_EQ(person_name("Bee,Ada;,\uff0cMD,", roles, enough), "Bee Ada MD");
+    EXPECT_EQ(person_name(",", roles, enough), "");
+    EXPECT_EQ(person_name("Bee,Ada", roles, 3), "Bee");
+}
+
 TEST(LookOf, IsEqualForNamesThatAreEasilyTakenForEachOther) {
     const auto look_alike = [](const char* a, const char* b) { return look_of(a) == look_of(b); };
     EXPECT_TRUE(look_alike("Ada", "ADA"));

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -23,12 +24,18 @@ namespace theatron::host {
 namespace {
 
 int open_to_append(const std::filesystem::path& path) {
-    return open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0600);
+    return open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0600);
 }
 
 std::size_t size_of(int file) {
     struct stat info {};
     return fstat(file, &info) == 0 ? std::size_t(info.st_size) : 0;
+}
+
+// The last line was cut off, by a full disk or the end of the program.
+bool ends_within_line(int file, std::size_t size) {
+    char last = '\n';
+    return size > 0 && pread(file, &last, 1, off_t(size - 1)) == 1 && last != '\n';
 }
 
 std::string left_out_line(const std::map<session::AuditEvent::What, std::size_t>& left_out) {
@@ -86,7 +93,6 @@ AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)
         throw Error("Cannot write the audit log '" + path_.string() + "': " + why +
                     "; name another file with --audit.");
     }
-    written_ = size_of(file_);
     thread_ = std::thread([this] {
         name_this_thread("audit");
         (void)contain("audit", [this] { run(); });
@@ -136,7 +142,7 @@ void AuditLog::run() {
             changed_.wait(lock,
                           [this] { return !waiting_.empty() || !left_out_.empty() || stopping_; });
         // More of them may follow, or a line.
-        if (waiting_.empty() && !left_out_.empty() && !is_failing)
+        if (waiting_.empty() && !left_out_.empty() && lines.empty())
             changed_.wait_for(lock, left_out_period,
                               [this] { return !waiting_.empty() || stopping_; });
         // Lines that could not be written are tried again before more are taken.
@@ -147,45 +153,84 @@ void AuditLog::run() {
             lines += left_out_line(std::exchange(left_out_, {})) + "\n";
         const bool stops = stopping_, is_last = stops && waiting_.empty();
         lock.unlock();
-        const bool was_failing = std::exchange(is_failing, !lines.empty() && !write(lines));
-        if (is_failing && !was_failing)
-            log::error("host", "the audit log cannot be written",
-                       {{"file", path_.string()}, {"why", std::strerror(errno)}});
+        is_failing = !lines.empty() && !write(lines);
+        note(is_failing ? std::strerror(errno) : "");
         if (!is_failing)
             lines.clear();
+        if (stops && is_failing)
+            log::error("host", "entries of the audit log are lost",
+                       {{"file", path_.string()},
+                        {"entries", std::ranges::count(lines, '\n') + waiting()}});
         if (is_last || (stops && is_failing))
             return;
     }
 }
 
+std::string AuditLog::problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_;
+}
+
+std::size_t AuditLog::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+}
+
+// Logged once, not at each trial.
+void AuditLog::note(const std::string& problem) {
+    std::string before;
+    {
+        const std::lock_guard lock(mutex_);
+        before = std::exchange(problem_, problem);
+    }
+    if (before.empty() && !problem.empty())
+        log::error("host", "the audit log cannot be written",
+                   {{"file", path_.string()}, {"why", problem}});
+    if (!before.empty() && problem.empty())
+        log::info("host", "the audit log is written again", {{"file", path_.string()}});
+}
+
 // All lines or none: what a full disk took of them is cut off again.
 bool AuditLog::write(const std::string& lines) {
-    if (written_ > 0 && written_ + lines.size() > max_bytes_)
-        rotate();
-    if (file_ < 0)
-        file_ = open_to_append(path_);
-    if (file_ < 0)
+    if (!reopen())
         return false;
+    if (const std::size_t size = size_of(file_); size > 0 && size + lines.size() > max_bytes_) {
+        rotate();
+        if (!reopen())
+            return false;
+    }
     const std::size_t before = size_of(file_);
+    const std::string bytes = (ends_within_line(file_, before) ? "\n" : "") + lines;
     std::size_t done = 0;
-    while (done < lines.size()) {
-        const ssize_t count = ::write(file_, lines.data() + done, lines.size() - done);
+    while (done < bytes.size()) {
+        const ssize_t count = ::write(file_, bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR)
             continue;
         if (count <= 0)
             break;
         done += std::size_t(count);
     }
-    if (done < lines.size() || fdatasync(file_) != 0) {
+    if (done < bytes.size() || fdatasync(file_) != 0) {
         const int why = errno;
         // If this fails, too, a line may be in the file twice.
-        if (ftruncate(file_, off_t(before)) == 0)
-            written_ = before;
+        (void)!ftruncate(file_, off_t(before));
         errno = why;
         return false;
     }
-    written_ = before + lines.size();
     return true;
+}
+
+// Lines in a file that was moved away or deleted would be lost.
+bool AuditLog::reopen() {
+    struct stat opened {
+    }, named{};
+    if (file_ >= 0 && fstat(file_, &opened) == 0 && lstat(path_.c_str(), &named) == 0 &&
+        opened.st_ino == named.st_ino && opened.st_dev == named.st_dev)
+        return true;
+    if (file_ >= 0)
+        close(file_);
+    file_ = open_to_append(path_);
+    return file_ >= 0;
 }
 
 void AuditLog::rotate() {
@@ -197,7 +242,6 @@ void AuditLog::rotate() {
     std::error_code ignored;
     for (int number = max_old_audits - 1; number >= 0; --number)
         std::filesystem::rename(numbered(number), numbered(number + 1), ignored);
-    written_ = 0;
 }
 
 }  // namespace theatron::host

@@ -29,7 +29,8 @@ session::AuditEvent deletion_of(const std::string& session);
 
 // An own thread writes each line to the disk before it takes the next ones. A slow or full disk
 // delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many
-// of each kind, at the latest after left_out_period and at the end.
+// of each kind, at the latest after left_out_period and at the end. A file that was moved away or
+// deleted is made anew.
 class AuditLog {
 public:
     // A file that has become larger is renamed to NAME.1, that one to NAME.2 and so on; the
@@ -50,20 +51,26 @@ public:
              const std::string& session = "");
     // Counts an event that was not added, for the line about those left out.
     void leave_out(session::AuditEvent::What what);
+    // Why the newest lines could not be written, in the words of the system; empty if they were.
+    // From any thread.
+    std::string problem() const;
 
 private:
     void run();
+    void note(const std::string& problem);
+    std::size_t waiting() const;
     bool write(const std::string& lines);
+    bool reopen();
     void rotate();
 
     const std::filesystem::path path_;
     const std::size_t max_bytes_;
-    int file_ = -1;            // the thread's
-    std::size_t written_ = 0;  // bytes of the file; likewise
-    std::mutex mutex_;
+    int file_ = -1;  // the thread's
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<std::string> waiting_;  // guarded by mutex_, as are the next two
+    std::deque<std::string> waiting_;  // guarded by mutex_, as are the next three
     std::map<session::AuditEvent::What, std::size_t> left_out_;
+    std::string problem_;
     bool stopping_ = false;
     std::thread thread_;
 };

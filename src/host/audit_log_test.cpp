@@ -2,10 +2,14 @@
 #include "host/audit_log.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/error.h"
 #include "testing/temporary_folder.h"
@@ -112,6 +116,85 @@ TEST(Audit, WhatWasLeftOutIsCountedAlsoWhereNoLineFollows) {
     }
     ASSERT_EQ(lines_of(path).size(), 1u);
     EXPECT_EQ(lines_of(path)[0]["events"]["waits"], 1);
+}
+
+// Until it is destroyed no file of this process becomes larger, as on a full disk.
+class FullDisk {
+public:
+    explicit FullDisk(std::size_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        handler_ = std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int) = nullptr;
+};
+
+bool wait_for(const std::function<bool()>& is_true) {
+    for (int i = 0; i < 1000 && !is_true(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return is_true();
+}
+
+TEST(Audit, AFullDiskIsAProblemUntilItHasRoomAgainAndNothingIsLost) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    AuditLog log(path);
+    log.add(event(), "");
+    ASSERT_TRUE(wait_for([&] { return std::filesystem::file_size(path) > 0; }));
+    constexpr std::size_t more = 20;  // lines than wait
+    {
+        const FullDisk disk(std::filesystem::file_size(path) + 10);
+        log.add(event(What::left), "");
+        ASSERT_TRUE(wait_for([&] { return !log.problem().empty(); }));
+        for (std::size_t i = 0; i < AuditLog::max_waiting_lines + more; ++i)
+            log.add(event(What::waits), "");
+        EXPECT_FALSE(log.problem().empty());
+    }
+    ASSERT_TRUE(wait_for([&] { return log.problem().empty(); }));
+    ASSERT_TRUE(wait_for([&] { return lines_of(path).size() == AuditLog::max_waiting_lines + 3; }));
+    const auto lines = lines_of(path);
+    EXPECT_EQ(lines[0]["event"], "joined");
+    EXPECT_EQ(lines[1]["event"], "left");
+    EXPECT_EQ(lines[2]["event"], "waits");
+    EXPECT_EQ(lines.back()["left_out"], more);
+}
+
+TEST(Audit, ALineThatWasCutOffEndsBeforeTheNextOne) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl";
+    const std::string half = R"({"time":"2026-11-22T20:15:00.250Z","eve)";
+    std::ofstream(path) << half;
+    {
+        AuditLog log(path);
+        log.add(event(), "");
+    }
+    std::ifstream in(path);
+    std::string line;
+    std::getline(in, line);
+    EXPECT_EQ(line, half);
+    std::getline(in, line);
+    EXPECT_EQ(nlohmann::json::parse(line)["event"], "joined");
+}
+
+TEST(Audit, AFileThatWasMovedAwayIsMadeAnew) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder.path() / "audit.jsonl", moved = folder.path() / "moved";
+    AuditLog log(path);
+    log.add(event(), "");
+    ASSERT_TRUE(wait_for([&] { return std::filesystem::file_size(path) > 0; }));
+    std::filesystem::rename(path, moved);
+    log.add(event(What::left), "");
+    ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(path) && !lines_of(path).empty(); }));
+    EXPECT_EQ(lines_of(path)[0]["event"], "left");
+    EXPECT_EQ(lines_of(moved).size(), 1u);
 }
 
 TEST(Audit, AFileThatCannotBeWrittenIsNamed) {

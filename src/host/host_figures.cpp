@@ -188,21 +188,23 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"expires", files::utc_text(certificate.ends)},
                                 {"seconds_left", seconds_left(figures, certificate)},
                                 {"problem", certificate.problem}});
-    return {{"name", figures.name},
-            {"utc", utc_text(figures.utc)},
-            {"session_us", to_us(figures.session_time)},
-            {"seconds", figures.seconds},
-            {"automatic_color", figures.automatic_color},
-            {"cameras", cameras},
-            {"participants", participants},
-            {"published", published},
-            {"overlaps", overlaps},
-            {"visitors", visitors},
-            {"past_bytes", figures.past_bytes},
-            {"turned_away", figures.turned_away},
-            {"faults", figures.faults},
-            {"page_problem", figures.page_problem},
-            {"certificates", certificates}};
+    return {
+        {"name", figures.name},
+        {"utc", utc_text(figures.utc)},
+        {"session_us", to_us(figures.session_time)},
+        {"seconds", figures.seconds},
+        {"automatic_color", figures.automatic_color},
+        {"cameras", cameras},
+        {"participants", participants},
+        {"published", published},
+        {"overlaps", overlaps},
+        {"visitors", visitors},
+        {"past_bytes", figures.past_bytes},
+        {"turned_away", figures.turned_away},
+        {"faults", figures.faults},
+        {"page_problem", figures.page_problem},
+        {"problems", {{"audit_log", figures.problems.audit_log}, {"room", figures.problems.room}}},
+        {"certificates", certificates}};
 }
 
 nlohmann::json to_json(const PortFigures& all) {
@@ -347,6 +349,13 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
                 [](const HostFigures& f) { return f.visitors.size(); });
     per_session("past_bytes", "Encoded pictures that are kept for looking back.",
                 [](const HostFigures& f) { return f.past_bytes; });
+    out.family("host_problem", "gauge",
+               "1 while the host cannot write its audit log or a session's room.");
+    for (const HostFigures& figures : all) {
+        const auto& [audit_log, room] = figures.problems;
+        for (const auto& [of, problem] : {std::pair("audit_log", audit_log), {"room", room}})
+            out.value(in_session(figures, "of=" + quoted(of)), problem.empty() ? 0 : 1);
+    }
     const HostFigures& host = all.front();
     out.family("strangers_turned_away_total", "counter",
                "Connections that showed no token in time.");
@@ -394,6 +403,10 @@ std::string to_table(const nlohmann::json& figures) {
     count("turned_away", "strangers turned away");
     if (const std::string problem = text(figures, "page_problem"); !problem.empty())
         table += problem + "\n";
+    if (figures.contains("problems") && figures["problems"].is_object())
+        for (const char* of : {"audit_log", "room"})
+            if (const std::string problem = text(figures["problems"], of); !problem.empty())
+                table += problem + "\n";
     for (const auto& certificate : list(figures, "certificates"))
         if (const std::string problem = text(certificate, "problem"); !problem.empty())
             table += problem + "\n";

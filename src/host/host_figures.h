@@ -63,6 +63,12 @@ struct HostFigures {
     std::string page_problem;                  // of the browser client (host/page.h); else empty
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
+    // Sentences about what the host cannot write, and operators must know; empty: all is well.
+    struct Problems {
+        std::string audit_log, room;
+    };
+    Problems problems;
+
     struct Certificate {
         std::string of;  // "host" or "proxy"
         std::string fingerprint;
@@ -89,7 +95,7 @@ struct PortFigures {
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
-// "page_problem","certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
+// "page_problem","problems":{"audit_log","room"},"certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // The same of the first session of a host; those of its further ones are in "sessions", and those
 // that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are

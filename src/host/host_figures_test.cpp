@@ -55,6 +55,18 @@ TEST(HostFigures, EveryFieldIsOnThePageOfMetrics) {
         EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
 }
 
+TEST(HostFigures, TellsWhatTheHostCannotWrite) {
+    HostFigures figures = full_figures();
+    EXPECT_NE(to_prometheus({{figures}, {}}).find("host_problem{of=\"audit_log\"} 0\n"),
+              std::string::npos);
+    figures.problems.audit_log = "The audit log cannot be written.";
+    const std::string metrics = to_prometheus({{figures}, {}});
+    EXPECT_NE(metrics.find("host_problem{of=\"audit_log\"} 1\n"), std::string::npos) << metrics;
+    EXPECT_NE(metrics.find("host_problem{of=\"room\"} 0\n"), std::string::npos) << metrics;
+    EXPECT_NE(to_table(to_json(figures)).find("\nThe audit log cannot be written.\n"),
+              std::string::npos);
+}
+
 TEST(HostFigures, EveryMetricIsOnThePageOfMetrics) {
     const std::string page = metrics_page();
     std::istringstream lines(to_prometheus({{full_figures()}, {{}}}));

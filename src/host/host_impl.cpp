@@ -75,6 +75,7 @@ net::Server::Handler Host::Impl::handler() {
     h.tick = [this] {
         measure_links();
         hold_lanes();
+        tell_problems();
         session->on_tick(steady_now());
         follow_playback("");
         carry_out();
@@ -482,6 +483,7 @@ HostFigures Host::Impl::figures() const {
     figures.turned_away = port->turned_away();
     figures.faults = fault_count();
     figures.page_problem = port->page_problem();
+    figures.problems = problems();
     return figures;
 }
 

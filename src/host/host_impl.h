@@ -74,6 +74,8 @@ struct Host::Impl {
     std::set<std::size_t> held;  // lanes; server's thread
     session::PoseBoard poses;    // server's thread
     session::VoiceFloor voices;  // server's thread
+    // Problems of the host that operators know, and when they were told; server's thread.
+    std::map<std::pair<ParticipantId, std::string>, TimePoint> told_problems;
     std::optional<StateLock> state_lock;
     std::unique_ptr<RoomFile> room_file;  // server's thread
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
@@ -193,6 +195,7 @@ struct Host::Impl {
                        const std::vector<session::PoseBoard::Entry>& entries);
     void measure_links();
     void note_participants();
+    void tell_problems();
 
     void note_left(net::PeerId peer);
 
@@ -212,6 +215,7 @@ struct Host::Impl {
     // True if somebody who came by the link of this token was removed and is kept out.
     bool is_held_back(const std::string& secret) const;
     HostFigures figures() const;
+    HostFigures::Problems problems() const;
 };
 
 }  // namespace theatron::host

@@ -14,6 +14,12 @@ namespace theatron::host {
 
 using What = session::AuditEvent::What;
 
+namespace {
+
+constexpr Duration problem_repeated_after = std::chrono::seconds(60);
+
+}  // namespace
+
 std::vector<session::Admission::Token> Host::Impl::load_tokens() {
     const KnownLinks book = load_links(state_folder);
     for (const std::string& problem : book.problems)
@@ -94,6 +100,39 @@ void Host::Impl::audit_beginning() {
     audit->add({What::began, {}, "", {}, {}, "", "", name}, "");
     for (const wire::Camera& camera : session->streams().cameras())
         audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
+}
+
+HostFigures::Problems Host::Impl::problems() const {
+    HostFigures::Problems problems;
+    if (const std::string why = audit ? audit->problem() : ""; !why.empty())
+        problems.audit_log = "The audit log cannot be written: " + why +
+                             ". Its entries wait until it can, and those too many are counted.";
+    if (!room_file->problem().empty())
+        problems.room =
+            "The room cannot be saved and would be lost with the host; its log says why.";
+    return problems;
+}
+
+// An operator is told when it begins, when it lasts, and when it comes into a session that has one.
+void Host::Impl::tell_problems() {
+    const HostFigures::Problems now = problems();
+    const TimePoint time = steady_now();
+    for (const std::string& problem : {now.audit_log, now.room})
+        for (const auto& [id, participant] : session->participants()) {
+            if (problem.empty() || !participant.may(session::Right::manage))
+                continue;
+            const auto [told, is_new] = told_problems.try_emplace({id, problem}, time);
+            if (!is_new && time - told->second < problem_repeated_after)
+                continue;
+            told->second = time;
+            server->send_control(net::PeerId(std::uint32_t(id)),
+                                 wire::encode(wire::Settings{{}, wire::as_written(problem)}));
+        }
+    std::erase_if(told_problems, [&](const auto& entry) {
+        const auto& [id, problem] = entry.first;
+        return (problem != now.audit_log && problem != now.room) ||
+               !session->participants().contains(id);
+    });
 }
 
 // A guest that comes and goes all the time must not push everything else out of the log, nor hide

@@ -19,6 +19,7 @@ public:
         log_.add(event, address, session_);
     }
     void leave_out(session::AuditEvent::What what) { log_.leave_out(what); }
+    std::string problem() const { return log_.problem(); }
 
 private:
     AuditLog& log_;

@@ -11,12 +11,13 @@ namespace {
 
 using wire::TextCode;
 
-// Without the mark of people in a replay, who are not there.
+// Nobody gives himself a role, or the mark of people in a replay, who are not there.
 std::string name_of_guest(const std::string& given) {
-    constexpr std::string_view replayed = "(recorded)";
-    std::string name = clean_name(given, wire::max_name);
-    while (name.ends_with(replayed))
-        name = clean_name(name.substr(0, name.size() - replayed.size()), wire::max_name);
+    std::vector<std::string> facts{"recorded", "recorder", "records",    "host",      "muted",
+                                   "you",      "Experte",  "Beobachter", "Gastgeber", "stumm"};
+    for (const Role role : wire::roles)
+        facts.push_back(wire::text_of(role));
+    const std::string name = person_name(given, facts, wire::max_name);
     return name.empty() ? "guest" : name;
 }
 

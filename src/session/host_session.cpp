@@ -386,6 +386,8 @@ void HostSession::end(wire::TextCode reason) {
     for (auto& [id, participant] : admission_.participants()) {
         if (!participant.takes_part() && !participant.waits())
             continue;
+        if (participant.waits())
+            audit(AuditEvent::What::left, id);
         unshare(id, streams_.of(id));
         participant.closing = true;
         room_.leave(id);

@@ -32,7 +32,10 @@ TEST_F(Host, ANameHasNoMarkOfAReplayAndNoSpacesAroundIt) {
         say(id, hello);
         return session.participants().at(id).name;
     };
-    EXPECT_EQ(shown(alice, "  Ben (recorded) "), "Ben");
+    for (const char* name : {"  Ben (recorded) ", "Ben (operator)", "Ben [Beobachter]", "Ben,"}) {
+        session.on_closed(alice);
+        EXPECT_EQ(shown(alice, name), "Ben") << name;
+    }
     EXPECT_EQ(shown(bob, "(recorded)(recorded)"), "guest");
     EXPECT_EQ(shown(carol, "Dr. Ada  Bee"), "Dr. Ada  Bee");
     EXPECT_EQ(shown(dave, "   "), "guest (2)");

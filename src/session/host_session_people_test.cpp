@@ -389,6 +389,16 @@ TEST_F(AskedPeople, AnOperatorWhoComesLaterSeesWhoWaitsAndALeaverWaitsNoMore) {
     EXPECT_EQ(to<wire::Visitors>(dave).at(0).visitors.size(), 1u);
 }
 
+TEST_F(AskedPeople, WhoWaitsWhenTheSessionEndsHasLeftInTheAuditLog) {
+    come(bob, "secret");
+    session_->end();
+    taken = session_->take_actions();
+    EXPECT_EQ(audited(), std::vector{What::left});
+    session_->on_closed(bob);
+    taken = session_->take_actions();
+    EXPECT_TRUE(audited().empty()) << "once";
+}
+
 TEST_F(AskedPeople, TooManyVisitorsAreRefused) {
     for (std::uint32_t i = 1; i <= wire::max_visitors + 1; ++i)
         come(ParticipantId{i}, "secret");

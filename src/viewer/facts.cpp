@@ -142,7 +142,9 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
             line.push_back({"Webcam", "you are seen", true});
         if (facts.own_face == OwnFace::opening)
             line.push_back({"Webcam", "is being opened"});
-        line.push_back(cameras_fact(cameras));
+        // No camera's present state beside pictures of the past.
+        line.push_back(facts.past.empty() ? cameras_fact(cameras)
+                                          : xr::Fact{"Cameras", facts.past, true});
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())
             line.push_back(age);

@@ -52,6 +52,8 @@ TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
     facts.past = "NOT LIVE: 23 s ago";
     facts.age_ms = 23'000;
     EXPECT_EQ(overlay(facts).warning, "NOT LIVE: 23 s ago. End: live again");
+    EXPECT_EQ(fact(overlay(facts), "Cameras").value, "NOT LIVE: 23 s ago");
+    EXPECT_TRUE(fact(overlay(facts), "Cameras").warning);
     facts.frozen = true;
     EXPECT_THAT(overlay(facts).warning, HasSubstr("NOT LIVE: 23 s ago, frozen"));
 }

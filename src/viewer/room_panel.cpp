@@ -19,14 +19,12 @@ std::optional<session::PersonFacts> facts_of(const client::Participant::Room& ro
     return std::nullopt;
 }
 
-// "observer, muted, records, holds 2 objects".
+// "observer, muted, records, holds 2 objects"; never empty for a person whose role is known, so
+// that rows keep their height when somebody begins to speak.
 std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
     std::string text;
-    if (const auto level = facts.speaking.find(person.id); level != facts.speaking.end())
-        add(text, "speaks " + meter_text(level->second));
     if (const auto known = facts_of(facts.room, person.id)) {
-        if (known->role != wire::Role::expert)
-            add(text, wire::text_of(known->role));
+        add(text, wire::text_of(known->role));
         if (known->muted)
             add(text, "muted");
         if (known->records)
@@ -34,6 +32,8 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
         if (known->voice_recorded)
             add(text, "voice may be recorded");
     }
+    if (const auto level = facts.speaking.find(person.id); level != facts.speaking.end())
+        add(text, "speaks " + meter_text(level->second));
     int held = 0;
     for (const auto& [number, object] : facts.room.objects)
         held += object.kind != session::ObjectKind::person && object.grip.holder == person.id;
@@ -61,16 +61,6 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
     using Action = wire::ManageAction;
-    if (facts.is_operator && !facts.visitors.empty()) {
-        xr::Panel door{"At the door", {}};
-        for (const wire::Visitor& visitor : facts.visitors)
-            door.rows.push_back(
-                {visitor.name,
-                 wire::text_of(visitor.role),
-                 {button("Let in", Decide{Action::admit, visitor.participant, {}}),
-                  button("Refuse", Decide{Action::turn_away, visitor.participant, {}})}});
-        panel.panels.push_back(std::move(door));
-    }
     xr::Panel who{"People", {}};
     for (const room::RoomPerson& person : facts.people) {
         xr::PanelRow row{person.name, doing(facts, person), {}};
@@ -105,12 +95,23 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
     else if (facts.own_face != OwnFace::none)
         who.rows.push_back({"", "You are seen", {button("Hide my face", ShowFace{false})}});
     panel.panels.push_back(std::move(who));
-    if (facts.places.empty())
-        return panel;
-    xr::Panel where{"Places", {}};
-    for (const Place& place : facts.places)
-        where.rows.push_back({place.name, "", {button("Go", GoToPlace{place})}});
-    panel.panels.push_back(std::move(where));
+    if (!facts.places.empty()) {
+        xr::Panel where{"Places", {}};
+        for (const Place& place : facts.places)
+            where.rows.push_back({place.name, "", {button("Go", GoToPlace{place})}});
+        panel.panels.push_back(std::move(where));
+    }
+    // Below the others: they stay in their places when somebody knocks.
+    if (facts.is_operator && !facts.visitors.empty()) {
+        xr::Panel door{"At the door", {}};
+        for (const wire::Visitor& visitor : facts.visitors)
+            door.rows.push_back(
+                {visitor.name,
+                 wire::text_of(visitor.role),
+                 {button("Let in", Decide{Action::admit, visitor.participant, {}}),
+                  button("Refuse", Decide{Action::turn_away, visitor.participant, {}})}});
+        panel.panels.push_back(std::move(door));
+    }
     return panel;
 }
 

@@ -516,9 +516,10 @@ Facts Viewer::facts(TimePoint now) {
         facts.notice = notice_;
     facts.help = help_;
     facts.frozen = frozen_;
-    RoomPanel panel = call_panel(callers());
+    RoomPanel panel;
     facts.past = past(now);
-    // The way back to the present comes first, the offer to look back last.
+    // The way back to the present comes first. Panels that others bring about come last: those
+    // above stay where they are.
     if (!facts.past.empty())
         looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
                                 now, panel);
@@ -528,7 +529,6 @@ Facts Viewer::facts(TimePoint now) {
         ScreenPanelFacts screens{&room.objects, room.self, role, {}};
         for (const room::RoomPerson& person : scene_.meeting().people())
             screens.names[person.id] = person.name;
-        add_screen_panel(screens, panel);
         panel =
             joined(std::move(panel),
                    room_panel({scene_.meeting().room(), scene_.meeting().people(),
@@ -539,7 +539,9 @@ Facts Viewer::facts(TimePoint now) {
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
                                     now, panel);
+        add_screen_panel(screens, panel);
     }
+    panel = joined(std::move(panel), call_panel(callers()));
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);

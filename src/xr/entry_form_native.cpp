@@ -82,6 +82,13 @@ struct EntryForm::Parts {
     std::string hidden_link;  // is shown without its letters while the field holds it
     std::vector<EntryRecent> recents;
     std::optional<RecentAnswer> recent;
+    struct Asked {
+        std::size_t index = 0;
+        bool by_mouse = false;
+        TimePoint at;
+    };
+    std::optional<Asked> asked_forget;  // pressed once
+    TimePoint now;
     render::PictureTexture picture;
     std::deque<FormKeyPress> keys;  // one for each picture, as ImGui sees levels
     std::optional<int> held;        // the key that is down in ImGui
@@ -261,8 +268,18 @@ void EntryForm::Parts::recent_list(float width) {
         if (ImGui::Button(line.c_str(), {width - forget - ImGui::GetStyle().ItemSpacing.x, 0}))
             recent = RecentAnswer{i, false};
         ImGui::SameLine();
-        if (ImGui::Button("Forget", {forget, 0}))
+        const bool is_asked = asked_forget && asked_forget->index == i;
+        // One id, so that the second press is one on the same button.
+        const bool pressed =
+            ImGui::Button(is_asked ? "Sure?###forget" : "Forget###forget", {forget, 0});
+        if (pressed && is_asked)
             recent = RecentAnswer{i, true};
+        const bool is_there =
+            is_asked && (asked_forget->by_mouse ? ImGui::IsItemHovered() : ImGui::IsItemFocused());
+        if (pressed && !is_asked)
+            asked_forget = Asked{i, ImGui::IsItemHovered(), now};
+        else if (is_asked && (pressed || !is_there || now - asked_forget->at > sure_within))
+            asked_forget.reset();
         ImGui::PopID();
     }
     ImGui::PopStyleVar(2);
@@ -325,6 +342,7 @@ EntryForm::~EntryForm() = default;
 
 void EntryForm::set_recents(std::vector<EntryRecent> recents) {
     parts_->recents = std::move(recents);
+    parts_->asked_forget.reset();
 }
 
 void EntryForm::set_hidden_link(const std::string& link) {
@@ -341,8 +359,9 @@ void EntryForm::set_picture(ColorView picture) {
 }
 
 EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Size window,
-                            double text_pixels) {
+                            double text_pixels, TimePoint now, unsigned framebuffer) {
     Parts& p = *parts_;
+    p.now = now;
     ImGui::SetCurrentContext(p.context);
     if (p.text_pixels != text_pixels)
         p.make_fonts(text_pixels);
@@ -355,11 +374,11 @@ EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Siz
     p.has_focus = ImGui::GetIO().WantTextInput;
     p.fresh = std::min(p.fresh + 1, 3);
     ImGui::Render();
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, window.width, window.height);
     const ImVec4 behind = ImGui::ColorConvertU32ToFloat4(colors::ground);
     glClearBufferfv(GL_COLOR, 0, &behind.x);
-    p.pass.draw(*ImGui::GetDrawData());
+    p.pass.draw(*ImGui::GetDrawData(), render::DrawTarget{framebuffer, 0, 0, window});
     if (escape)
         answer = EntryAnswer::leave;
     return answer;
@@ -367,7 +386,7 @@ EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Siz
 
 bool EntryForm::is_animated() const {
     const Parts& p = *parts_;
-    return p.fresh < 3 || !p.keys.empty() || p.held || p.was_down || p.has_focus;
+    return p.fresh < 3 || !p.keys.empty() || p.held || p.was_down || p.has_focus || p.asked_forget;
 }
 
 const EntryFields& EntryForm::fields() const {

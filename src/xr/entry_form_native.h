@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/time.h"
 #include "image/image.h"
 #include "image/view.h"
 #include "xr/form_input.h"
@@ -73,10 +74,14 @@ public:
     // A small picture of the session; an empty view removes it.
     void set_picture(ColorView picture);
 
-    // Takes the input and draws into the window's framebuffer. `text_pixels` is the height of a
-    // normal text.
+    // A session is forgotten by a second press on its button within this time, before the mouse
+    // leaves it: the first one may be meant for something else.
+    static constexpr Duration sure_within = std::chrono::seconds(3);
+
+    // Takes the input and draws into the framebuffer, usually the window's. `text_pixels` is the
+    // height of a normal text.
     EntryAnswer draw(const EntryFacts& facts, const FormInput& input, Size window,
-                     double text_pixels);
+                     double text_pixels, TimePoint now, unsigned framebuffer = 0);
     // True while the input is not used up, or a text cursor blinks: draw() must follow soon.
     bool is_animated() const;
     const EntryFields& fields() const;

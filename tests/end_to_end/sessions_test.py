@@ -162,7 +162,10 @@ class Sessions(unittest.TestCase):
             # A session that cannot be opened is not created.
             errors = self.refusal("session", "create", "OR 5", "--camera", "folder:nowhere", "--state", self.state)
             self.assertIn("nowhere", errors)
-            wait_until(lambda: [s["name"] for s in self.command("session", "list")] == ["OR 3"], 20)
+            self.assertEqual([s["name"] for s in self.command("session", "list")], ["OR 3"])
+            # Its name is free at once, and the audit log knows of no session that was deleted.
+            self.assertIn("nowhere", self.refusal("session", "create", "OR 5", "--camera", "folder:nowhere", "--state", self.state))
+            self.assertNotIn("OR 5", [e.get("detail") for e in self.audited()])
             self.assertIn("There is a session 'OR 3'",
                           self.refusal("session", "create", "OR 3", "--state", self.state))
 
