@@ -76,27 +76,42 @@ std::size_t find_part(const client::Participant& participant, const std::string&
                 "; it has " + names + ".");
 }
 
+// One of `count` things of this kind, from 1.
+std::size_t chosen_number(const std::string& text, std::size_t count, const std::string& kind) {
+    if (count == 0)
+        throw Error("The open case has no " + (kind == "series" ? "series of images" : kind + "s") +
+                    ".");
+    const bool is_number =
+        !text.empty() && text.size() < 6 &&
+        std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const std::size_t number = is_number ? std::size_t(std::stoi(text)) : 0;
+    if (number >= 1 && number <= count)
+        return number;
+    throw Error((text.empty() ? "The line names no " + kind
+                              : "The open case has no " + kind + " '" + text + "'") +
+                (count == 1 ? "; it has one, which is number 1."
+                            : "; it has " + std::to_string(count) + ", from 1."));
+}
+
 // "slice axial", "slice 12.5", "window liver", "window 60 400", "series 2", "picture 1".
 bool change_screen(client::Participant& participant, const std::string& what, std::istream& words) {
     std::uint64_t version = 0;
     const auto open = participant.open_case(version);
     const auto room = session::case_in_room(participant.room().objects);
-    if (!open || !room || !room->screen)
+    if (!open || !room)
         return false;
+    if (!room->screen)
+        throw Error("The open case has neither images nor pictures.");
     session::CaseScreen screen = room->screen->facts;
     std::string which;
     words >> which;
     if (what == "picture" || what == "series") {
         const std::size_t count = what == "picture" ? open->pictures.size() : open->volumes.size();
-        if (count == 0)
-            return false;
-        std::istringstream number(which);
-        const int chosen = int(read_number(number, 1, double(count), "The number"));
+        const std::size_t chosen = chosen_number(which, count, what);
         if (what == "picture")
             screen.picture = std::uint16_t(chosen - 1);
         else
-            screen =
-                viewer::of_series(screen, chosen - 1, open->volumes[std::size_t(chosen - 1)].get());
+            screen = viewer::of_series(screen, int(chosen) - 1, open->volumes[chosen - 1].get());
     } else if (what == "slice") {
         const auto volume =
             screen.series < open->volumes.size() ? open->volumes[screen.series] : nullptr;
@@ -206,7 +221,10 @@ bool obey_case_line(client::Participant& participant, const std::string& line) {
         return false;
     try {
         if (!carry_out(participant, what, words))
-            log::say("'" + line + "': No case is open, or it has no such part, or no images.");
+            log::say("'" + line + "': " +
+                     (session::case_in_room(participant.room().objects)
+                          ? "The open case has not come yet."
+                          : "No case is open."));
     } catch (const Error& error) {
         log::say("'" + line + "': " + error.what());
     }

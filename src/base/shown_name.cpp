@@ -2,26 +2,22 @@
 #include "base/shown_name.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "base/basic_letters.h"
 #include "base/outside_text.h"
+#include "base/utf8.h"
 
 namespace theatron {
 namespace {
 
-// Removes the first character of valid UTF-8, which is not empty, and returns it.
+// Removes the first character of `text`, which is not empty, and returns it.
 char32_t take_letter(std::string_view& text, std::string_view& bytes) {
-    const auto lead = std::uint8_t(text[0]);
-    const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    char32_t code = length == 1 ? lead : lead & (0x7fu >> length);
-    for (std::size_t i = 1; i < length; ++i)
-        code = code << 6 | (std::uint8_t(text[i]) & 0x3f);
-    bytes = text.substr(0, length);
-    text.remove_prefix(length);
-    return code;
+    const Utf8Character first = first_character(text);
+    bytes = text.substr(0, first.bytes);
+    text.remove_prefix(first.bytes);
+    return first.code;
 }
 
 bool is_within(char32_t c, char32_t first, char32_t last) {
@@ -69,18 +65,9 @@ constexpr Lookalike lookalikes[] = {
     {0x3c5, 'y'}, {0x3c7, 'x'},  // Greek
     {0x430, 'a'}, {0x432, 'b'}, {0x435, 'e'}, {0x43a, 'k'}, {0x43c, 'm'}, {0x43d, 'h'},
     {0x43e, 'o'}, {0x440, 'p'}, {0x441, 'c'}, {0x442, 't'}, {0x443, 'y'}, {0x445, 'x'},
-    {0x450, 'e'}, {0x451, 'e'}, {0x455, 's'}, {0x456, 'i'}, {0x457, 'i'}, {0x458, 'j'},
-    {0x4bb, 'h'}, {0x501, 'd'}, {0x51b, 'q'}, {0x51d, 'w'},  // Cyrillic
+    {0x450, 'e'}, {0x455, 's'}, {0x456, 'i'}, {0x457, 'i'}, {0x458, 'j'}, {0x4bb, 'h'},
+    {0x501, 'd'}, {0x51b, 'q'}, {0x51d, 'w'},  // Cyrillic
 };
-
-char32_t small_letter(char32_t c) {
-    if (is_within(c, 'A', 'Z') || is_within(c, 0x391, 0x3a9) || is_within(c, 0x410, 0x42f))
-        return c + 0x20;
-    if (is_within(c, 0x400, 0x40f))
-        return c + 0x50;
-    // The other Cyrillic letters of the table above stand behind their capitals.
-    return c == 0x4ba || c == 0x500 || c == 0x51a || c == 0x51c ? c + 1 : c;
-}
 
 char32_t look_of_letter(char32_t c) {
     if (is_within(c, 0xff01, 0xff5e))  // of full width
@@ -91,7 +78,7 @@ char32_t look_of_letter(char32_t c) {
         return 'p';
     if (const char basic = basic_letter(c); basic != ' ')
         return char32_t(basic);
-    c = small_letter(c);
+    c = small_basic_letter(c >= 'A' && c <= 'Z' ? c + 0x20 : c);
     const auto found = std::find_if(std::begin(lookalikes), std::end(lookalikes),
                                     [&](const Lookalike& known) { return known.letter == c; });
     return found == std::end(lookalikes) ? c : char32_t(found->latin);

@@ -60,7 +60,8 @@ TEST(LookOf, IsEqualForNamesThatAreEasilyTakenForEachOther) {
     EXPECT_TRUE(look_alike("Łukasz", "łukasz"));
     EXPECT_TRUE(look_alike("Ольга", "ОЛЬГА"));
     EXPECT_TRUE(look_alike("Ёлка", "ёлка"));
-    EXPECT_TRUE(look_alike("Γιώργος", "ΓΙώΡΓΟς"));
+    EXPECT_TRUE(look_alike("Γιώργος", "ΓΙΏΡΓΟΣ"));
+    EXPECT_TRUE(look_alike("Γιώργος", "ΓΙΩΡΓΟΣ"));
     EXPECT_TRUE(look_alike("Dr. Ada", "Dr.  Ada"));
     EXPECT_TRUE(look_alike("OR 10", "OR lO"));
     for (const auto& [a, b] : {std::pair("Ada", "Ida"), std::pair("Ada", "Ada B"),

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "cases/patient_texts.h"
 #include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
@@ -61,11 +62,6 @@ std::string litres(double mm3) {
     char text[32];
     std::snprintf(text, sizeof(text), mm3 < 1e5 ? "%.1f ml" : "%.0f ml", mm3 * 1e-3);
     return text;
-}
-
-bool overlap(const medical::Box& a, const medical::Box& b) {
-    return a.low_mm.x <= b.high_mm.x && b.low_mm.x <= a.high_mm.x && a.low_mm.y <= b.high_mm.y &&
-           b.low_mm.y <= a.high_mm.y && a.low_mm.z <= b.high_mm.z && b.low_mm.z <= a.high_mm.z;
 }
 
 class Check {
@@ -156,20 +152,14 @@ private:
             remark("The shell '" + part.name + "' holds " + litres(shape.volume_mm3) +
                    ", more than livers do.");
         if (!boxes_.empty() && std::none_of(boxes_.begin(), boxes_.end(), [&](const auto& images) {
-                return overlap(images, box);
+                return medical::overlap(images, box);
             }))
             problem("The part '" + part.name +
                     "' lies outside of all images: their axes or units differ.");
     }
 
     void check_identifiers() {
-        std::error_code failed;
-        const fs::file_status status = fs::status(folder_ / identifiers_name, failed);
-        const fs::perms others = fs::perms::group_all | fs::perms::others_all;
-        if (!failed && fs::exists(status) && (status.permissions() & others) != fs::perms::none)
-            problem(
-                "The file 'identifiers.json' names the patient and can be read by other users: "
-                "take their rights away with chmod 600.");
+        attempt([&] { (void)read_patient_texts(folder_); });
     }
 
     void check_other_files() {

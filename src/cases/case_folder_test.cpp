@@ -13,9 +13,11 @@
 namespace theatron::cases {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 medical::Mesh tetrahedron() {
@@ -98,11 +100,19 @@ TEST_F(CaseFolder, LinksAreNotFollowed) {
 }
 
 TEST_F(CaseFolder, IdentifiersThatOthersCanReadAreAProblem) {
-    std::ofstream(folder() / "identifiers.json") << "{}";
+    std::ofstream(folder() / "identifiers.json") << R"({"series": []})";
     fs::permissions(folder() / "identifiers.json", fs::perms(0644));
     EXPECT_THAT(check_case(folder()).problems, ElementsAre(HasSubstr("chmod 600")));
     fs::permissions(folder() / "identifiers.json", fs::perms(0600));
     EXPECT_THAT(check_case(folder()).problems, IsEmpty());
+}
+
+TEST_F(CaseFolder, IdentifiersThatAreDamagedAreAProblem) {
+    std::ofstream(folder() / "identifiers.json") << R"({"series": [{"PatientName": "Doe^)";
+    fs::permissions(folder() / "identifiers.json", fs::perms(0600));
+    EXPECT_THAT(
+        check_case(folder()).problems,
+        ElementsAre(AllOf(HasSubstr("identifiers.json' is not what"), Not(HasSubstr("Doe")))));
 }
 
 TEST_F(CaseFolder, PartsThatLieBesideTheImagesAreAProblem) {

@@ -3,6 +3,7 @@
 // untrusted.
 #include <gdcmAttribute.h>
 #include <gdcmImageReader.h>
+#include <gdcmReader.h>
 #include <gdcmStringFilter.h>
 #include <gdcmTrace.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <streambuf>
 
+#include "cases/dicom_identifiers.h"
 #include "cases/dicom_slice.h"
 #include "cases/foreign_answer.h"
 #include "cases/foreign_files.h"
@@ -76,31 +78,7 @@ private:
 
 using gdcm::Tag;
 
-constexpr struct {
-    const char* name;
-    std::uint16_t group, element;
-} identifying[] = {{"PatientName", 0x0010, 0x0010},
-                   {"PatientID", 0x0010, 0x0020},
-                   {"PatientBirthDate", 0x0010, 0x0030},
-                   {"PatientSex", 0x0010, 0x0040},
-                   {"PatientAge", 0x0010, 0x1010},
-                   {"OtherPatientIDs", 0x0010, 0x1000},
-                   {"OtherPatientNames", 0x0010, 0x1001},
-                   {"PatientAddress", 0x0010, 0x1040},
-                   {"PatientBirthName", 0x0010, 0x1005},
-                   {"PatientMotherBirthName", 0x0010, 0x1060},
-                   {"PatientTelephoneNumbers", 0x0010, 0x2154},
-                   {"PerformingPhysicianName", 0x0008, 0x1050},
-                   {"OperatorsName", 0x0008, 0x1070},
-                   {"StudyDate", 0x0008, 0x0020},
-                   {"StudyDescription", 0x0008, 0x1030},
-                   {"SeriesDescription", 0x0008, 0x103e},
-                   {"AccessionNumber", 0x0008, 0x0050},
-                   {"InstitutionName", 0x0008, 0x0080},
-                   {"ReferringPhysicianName", 0x0008, 0x0090},
-                   {"StudyInstanceUID", 0x0020, 0x000d},
-                   {"SeriesInstanceUID", 0x0020, 0x000e},
-                   {"FrameOfReferenceUID", 0x0020, 0x0052}};
+const Tag pixel_data(0x7fe0, 0x0010);
 
 class Tags {
 public:
@@ -171,7 +149,6 @@ void read_tags(const Tags& tags, DicomSlice& slice) {
     slice.series_uid = tags.text(0x0020, 0x000e, max_dicom_text);
     slice.frame_uid = tags.text(0x0020, 0x0052, max_dicom_text);
     slice.modality = tags.text(0x0008, 0x0060, 16);
-    slice.charset = tags.text(0x0008, 0x0005, max_dicom_text);
     slice.deidentified = tags.text(0x0012, 0x0062) == "YES";
     slice.slope = tags.number(0x0028, 0x1053, 1);
     slice.intercept = tags.number(0x0028, 0x1052, 0);
@@ -181,9 +158,6 @@ void read_tags(const Tags& tags, DicomSlice& slice) {
     if (!slice.has_window)
         slice.window = {};
     read_place(tags, slice);
-    for (const auto& tag : identifying)
-        if (std::string value = tags.text(tag.group, tag.element, max_dicom_text); !value.empty())
-            slice.identifiers.push_back({tag.name, std::move(value)});
 }
 
 // Copies the stored values, which have type T, out of the library's buffer.
@@ -248,7 +222,24 @@ bool is_known_compression(const gdcm::FileMetaInformation& header) {
            gdcm::TransferSyntax::GetTSType(syntax.c_str()) != gdcm::TransferSyntax::TS_END;
 }
 
+// Reads the texts that identify the patient, also of files that are no slices. Returns true for
+// colours that are numbers in a table: where the table is not there, the library ends the process.
+bool has_palette(int descriptor, DicomSlice& slice) {
+    DescriptorBuffer buffer(descriptor);
+    std::istream stream(&buffer);
+    gdcm::Reader reader;
+    reader.SetStream(stream);
+    if (!reader.ReadUpToTag(pixel_data))
+        return false;
+    const Tags tags(reader.GetFile().GetDataSet());
+    slice.charset = tags.text(0x0008, 0x0005, max_dicom_text);
+    slice.identifiers = identifiers_in(reader.GetFile().GetDataSet());
+    return tags.text(0x0028, 0x0004).starts_with("PALETTE");
+}
+
 Answer read(int descriptor, DicomSlice& slice) {
+    if (has_palette(descriptor, slice))
+        return Answer::color;
     DescriptorBuffer buffer(descriptor);
     std::istream stream(&buffer);
     gdcm::ImageReader reader;
@@ -272,9 +263,8 @@ Answer read(int descriptor, DicomSlice& slice) {
         return Answer::no_scale;
     gdcm::Image& image = reader.GetImage();
     // The library fills up missing pixels without an error, as it does with missing bytes.
-    const gdcm::ByteValue* pixels = tags.has(0x7fe0, 0x0010)
-                                        ? data.GetDataElement(Tag(0x7fe0, 0x0010)).GetByteValue()
-                                        : nullptr;
+    const gdcm::ByteValue* pixels =
+        tags.has(0x7fe0, 0x0010) ? data.GetDataElement(pixel_data).GetByteValue() : nullptr;
     const bool is_plain = !image.GetTransferSyntax().IsEncapsulated();
     if (is_plain && (!pixels || pixels->GetLength() < image.GetBufferLength()))
         return Answer::cut_off;
@@ -300,7 +290,7 @@ void serve_dicom(sandbox::Inside& inside) {
         if (result == Answer::content)
             answer(inside, encode(slice));
         else
-            answer(inside, result);
+            answer(inside, result, encode_identifiers(slice));
     }
 }
 

@@ -47,6 +47,28 @@ Vec3 get_vec3(ByteReader& reader) {
     return {x, y, z};
 }
 
+void put_identifiers(ByteWriter& writer, const DicomSlice& slice) {
+    put_text(writer, slice.charset);
+    const std::size_t count = std::min(slice.identifiers.size(), max_identifiers);
+    writer.put(std::uint8_t(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        put_text(writer, slice.identifiers[i].name);
+        put_text(writer, slice.identifiers[i].value);
+    }
+}
+
+void get_identifiers(ByteReader& reader, DicomSlice& slice, bool& good) {
+    slice.charset = get_text(reader, good);
+    const std::size_t count = reader.get<std::uint8_t>();
+    for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+        Identifier identifier;
+        identifier.name = get_text(reader, good);
+        identifier.value =
+            clean_text(utf8_of_dicom(get_raw_text(reader, good), slice.charset), max_dicom_text);
+        slice.identifiers.push_back(std::move(identifier));
+    }
+}
+
 bool is_within(double value, double low, double high) {
     return value >= low && value <= high;
 }
@@ -81,13 +103,7 @@ Bytes encode(const DicomSlice& slice) {
     for (const double v : {slice.column_spacing_mm, slice.row_spacing_mm, slice.slope,
                            slice.intercept, slice.window.center, slice.window.width})
         writer.put_f64(v);
-    put_text(writer, slice.charset);
-    const std::size_t count = std::min(slice.identifiers.size(), max_identifiers);
-    writer.put(std::uint8_t(count));
-    for (std::size_t i = 0; i < count; ++i) {
-        put_text(writer, slice.identifiers[i].name);
-        put_text(writer, slice.identifiers[i].value);
-    }
+    put_identifiers(writer, slice);
     const std::size_t head = out.size();
     out.resize(head + 2 * slice.samples.size());
     for (std::size_t i = 0; i < slice.samples.size(); ++i)
@@ -115,17 +131,7 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
     for (double* v : {&slice.column_spacing_mm, &slice.row_spacing_mm, &slice.slope,
                       &slice.intercept, &slice.window.center, &slice.window.width})
         *v = reader.get_f64();
-    slice.charset = get_text(reader, good);
-    const std::size_t identifiers = reader.get<std::uint8_t>();
-    if (identifiers > max_identifiers)
-        return Status::malformed;
-    for (std::size_t i = 0; i < identifiers; ++i) {
-        Identifier identifier;
-        identifier.name = get_text(reader, good);
-        identifier.value =
-            clean_text(utf8_of_dicom(get_raw_text(reader, good), slice.charset), max_dicom_text);
-        slice.identifiers.push_back(std::move(identifier));
-    }
+    get_identifiers(reader, slice, good);
     if (!reader.ok())
         return Status::truncated;
     const bool is_side = slice.columns >= 1 && slice.columns <= medical::max_volume_side &&
@@ -144,6 +150,25 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
     for (std::size_t i = 0; i < count; ++i)
         slice.samples[i] = load_le<std::int16_t>(reader.rest().data() + 2 * i);
     return slice;
+}
+
+Bytes encode_identifiers(const DicomSlice& slice) {
+    Bytes out;
+    ByteWriter writer(out);
+    put_identifiers(writer, slice);
+    return out;
+}
+
+Result<std::vector<Identifier>> decode_identifiers(ByteView bytes) {
+    ByteReader reader(bytes);
+    DicomSlice slice;
+    bool good = true;
+    get_identifiers(reader, slice, good);
+    if (!reader.ok())
+        return Status::truncated;
+    if (!good)
+        return Status::malformed;
+    return reader.rest().empty() ? Result(std::move(slice.identifiers)) : Status::trailing_bytes;
 }
 
 }  // namespace theatron::cases

@@ -16,14 +16,14 @@
 
 namespace theatron::cases {
 
-inline constexpr std::size_t max_dicom_text = 250;    // bytes of a text; a name has three spellings
-inline constexpr std::size_t max_identifiers = 32;    // texts that identify
-inline constexpr std::size_t max_slice_head = 16384;  // bytes of an encoded slice but its samples
+inline constexpr std::size_t max_dicom_text = 250;   // bytes of a text; a name has three spellings
+inline constexpr std::size_t max_identifiers = 255;  // texts that identify
+inline constexpr std::size_t max_slice_head = 131072;  // bytes of an encoded slice but its samples
 
 // A text that may identify the patient, under DICOM's name for it ("PatientName").
 struct Identifier {
     std::string name, value;
-    bool operator==(const Identifier&) const = default;
+    auto operator<=>(const Identifier&) const = default;
 };
 
 struct DicomSlice {
@@ -49,5 +49,9 @@ struct DicomSlice {
 Bytes encode(const DicomSlice& slice);
 // Identifiers are in UTF-8 then.
 Result<DicomSlice> decode_dicom_slice(ByteView bytes);
+
+// The charset and the identifiers alone, of a file that is no slice.
+Bytes encode_identifiers(const DicomSlice& slice);
+Result<std::vector<Identifier>> decode_identifiers(ByteView bytes);
 
 }  // namespace theatron::cases

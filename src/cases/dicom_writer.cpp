@@ -85,6 +85,10 @@ Bytes write_dicom(const DicomSlice& slice, const DicomTexts& texts) {
     e.text(0x0008, 0x103e, "LO", texts.series_description);
     e.text(0x0010, 0x0010, "PN", texts.patient_name);
     e.text(0x0010, 0x0020, "LO", texts.patient_id);
+    if (!texts.birth_date.empty())
+        e.text(0x0010, 0x0030, "DA", texts.birth_date);
+    if (!texts.birth_name.empty())
+        e.text(0x0010, 0x1005, "PN", texts.birth_name);
     e.text(0x0012, 0x0062, "CS", slice.deidentified ? "YES" : "NO");
     e.text(0x0020, 0x000d, "UI", texts.study_uid);
     e.text(0x0020, 0x000e, "UI", slice.series_uid);

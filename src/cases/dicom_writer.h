@@ -14,7 +14,8 @@ namespace theatron::cases {
 
 struct DicomTexts {
     std::string instance_uid, study_uid, series_description, patient_name, patient_id;
-    int instance = 1;  // its number in the series
+    std::string birth_date, birth_name;  // of the patient; empty: not in the file
+    int instance = 1;                    // its number in the series
 };
 
 // The samples of `slice` are stored as they are, signed. It must have a place.

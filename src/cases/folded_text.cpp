@@ -2,9 +2,9 @@
 #include "cases/folded_text.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/basic_letters.h"
+#include "base/utf8.h"
 
 namespace theatron::cases {
 namespace {
@@ -23,7 +23,7 @@ static_assert(additional_letters.size() == 0x1f00 - 0x1e00);
 
 // Letters of names between U+0180 and these: Romanian, Vietnamese, and Chinese in Latin letters.
 struct BasicLetter {
-    std::uint32_t point;
+    char32_t point;
     char basic;
 };
 constexpr BasicLetter single_letters[] = {
@@ -33,39 +33,15 @@ constexpr BasicLetter single_letters[] = {
     {0x1db, 'u'}, {0x1dc, 'u'}, {0x218, 's'}, {0x219, 's'}, {0x21a, 't'}, {0x21b, 't'},
 };
 
-struct SmallLetter {
-    std::uint32_t point, small;
-};
-// Greek letters with accents, and the other small sigma.
-constexpr SmallLetter greek_letters[] = {
-    {0x386, 0x3b1}, {0x388, 0x3b5}, {0x389, 0x3b7}, {0x38a, 0x3b9}, {0x38c, 0x3bf}, {0x38e, 0x3c5},
-    {0x38f, 0x3c9}, {0x390, 0x3b9}, {0x3aa, 0x3b9}, {0x3ab, 0x3c5}, {0x3ac, 0x3b1}, {0x3ad, 0x3b5},
-    {0x3ae, 0x3b7}, {0x3af, 0x3b9}, {0x3b0, 0x3c5}, {0x3c2, 0x3c3}, {0x3ca, 0x3b9}, {0x3cb, 0x3c5},
-    {0x3cc, 0x3bf}, {0x3cd, 0x3c5}, {0x3ce, 0x3c9},
-};
-
-// One code point of UTF-8; a byte that is none counts as itself.
-std::uint32_t next_code_point(std::string_view text, std::size_t& at) {
-    const auto byte = [&](std::size_t i) { return std::uint8_t(text[i]); };
-    const std::uint8_t first = byte(at++);
-    const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-    if (first < 0x80 || more == 0 || at + std::size_t(more) > text.size())
-        return first;
-    std::uint32_t point = first & (0x3fu >> more);
-    for (int i = 0; i < more; ++i)
-        point = point << 6 | (byte(at++) & 0x3f);
-    return point;
-}
-
-bool has_two_letters(std::uint32_t point) {
-    constexpr std::uint32_t umlauts[] = {0xc4, 0xd6, 0xdc, 0xe4, 0xf6, 0xfc,  0xc5,
-                                         0xe5, 0xc6, 0xe6, 0xd8, 0xf8, 0x152, 0x153};
+bool has_two_letters(char32_t point) {
+    constexpr char32_t umlauts[] = {0xc4, 0xd6, 0xdc, 0xe4, 0xf6, 0xfc,  0xc5,
+                                    0xe5, 0xc6, 0xe6, 0xd8, 0xf8, 0x152, 0x153};
     return std::find(std::begin(umlauts), std::end(umlauts), point) != std::end(umlauts);
 }
 
 enum class Kind { other, digit, small, capital };
 
-Kind kind_of(std::uint32_t point) {
+Kind kind_of(char32_t point) {
     if (point >= '0' && point <= '9')
         return Kind::digit;
     if ((point >= 'A' && point <= 'Z') || (point >= 0xc0 && point <= 0xde))
@@ -79,12 +55,12 @@ bool is_change(Kind before, Kind next) {
            (before == Kind::small && next == Kind::capital);
 }
 
-bool is_accent(std::uint32_t point) {
+bool is_accent(char32_t point) {
     return point >= 0x300 && point < 0x370;
 }
 
 // Blank: the letter has none.
-char basic_letter_of(std::uint32_t point) {
+char basic_letter_of(char32_t point) {
     if (point >= 0x1e00 && point < 0x1f00)
         return additional_letters[point - 0x1e00];
     for (const BasicLetter& letter : single_letters)
@@ -93,21 +69,8 @@ char basic_letter_of(std::uint32_t point) {
     return basic_letter(point);
 }
 
-// Greek and Cyrillic; the same code point for other letters.
-std::uint32_t small_letter(std::uint32_t point) {
-    for (const SmallLetter& letter : greek_letters)
-        if (letter.point == point)
-            return letter.small;
-    constexpr std::uint32_t io = 0x401, small_io = 0x451, small_ie = 0x435;  // both written as "е"
-    if (point == io || point == small_io)
-        return small_ie;
-    if ((point >= 0x391 && point < 0x3aa) || (point >= 0x410 && point < 0x430))
-        return point + 0x20;
-    return point >= 0x400 && point < 0x410 ? point + 0x50 : point;
-}
-
 // A letter or digit in small basic letters. Empty: a separator.
-std::string folded(std::uint32_t point, std::string_view bytes, Umlaut umlaut) {
+std::string folded(char32_t point, std::string_view bytes, Umlaut umlaut) {
     if (point < 0x80) {
         const bool is_capital = point >= 'A' && point <= 'Z';
         const bool is_kept =
@@ -122,8 +85,8 @@ std::string folded(std::uint32_t point, std::string_view bytes, Umlaut umlaut) {
             letters += point == 0xc5 || point == 0xe5 ? 'a' : 'e';
         return letters;
     }
-    if (point >= 0x370 && point < 0x460) {
-        const std::uint32_t small = small_letter(point);
+    if (point >= 0x370 && point < 0x530) {
+        const char32_t small = small_basic_letter(point);
         return {char(0xc0 | small >> 6), char(0x80 | (small & 0x3f))};
     }
     const bool is_letter = point >= 0x180 && point != 0x2013 && point != 0x2014 && point != 0x3000;
@@ -136,15 +99,17 @@ std::vector<std::string> folded_words(std::string_view text, Umlaut umlaut, Spli
     std::vector<std::string> words(1);
     Kind before = Kind::other;
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t begin = at;
-        const std::uint32_t point = next_code_point(text, at);
+        const Utf8Character character = first_character(text.substr(at));
+        const char32_t point = character.code;
+        const std::string_view bytes = text.substr(at, character.bytes);
+        at += character.bytes;
         // An accent that follows its letter, as some systems write file names.
         if (is_accent(point)) {
             if (point == 0x308 && umlaut == Umlaut::as_two_letters)
                 words.back() += 'e';
             continue;
         }
-        const std::string letters = folded(point, text.substr(begin, at - begin), umlaut);
+        const std::string letters = folded(point, bytes, umlaut);
         const Kind kind = kind_of(point);
         const bool ends =
             letters.empty() || (split == Split::at_changes && is_change(before, kind));

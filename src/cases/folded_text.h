@@ -2,7 +2,7 @@
 // Words without the differences with which programs write the same name: "MÜLLER^Anna", "Müller,
 // Anna" and "Mueller Anna".
 //
-// Pure functions on UTF-8. Safe for any bytes; a byte that is no character stays as it is.
+// Pure functions on UTF-8. Safe for any bytes; those that are no character stay as they are.
 #pragma once
 
 #include <string>

@@ -41,6 +41,7 @@ TEST(FoldedText, ANameIsTheSameHoweverItIsWritten) {
 TEST(FoldedText, BytesThatAreNoTextDoNoHarm) {
     for (const char* text : {"\xff\xfe", "a\xc3", "\xe1\xba", "\xf0\x9f"})
         EXPECT_FALSE(is_same_name(text, "b")) << "damaged text";
+    EXPECT_FALSE(is_same_name("\xff", "ÿ")) << "a byte is no letter";
 }
 
 }  // namespace

@@ -31,11 +31,14 @@ inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) 
 }
 
 // Copies content into the shared memory and answers; too_large if it does not fit.
-inline void answer(sandbox::Inside& inside, ByteView content) {
+inline void answer(sandbox::Inside& inside, Answer what, ByteView content) {
     if (content.size() > inside.area().size())
         return answer(inside, Answer::too_large);
     std::copy(content.begin(), content.end(), inside.area().begin());
-    answer(inside, Answer::content, content.size());
+    answer(inside, what, content.size());
+}
+inline void answer(sandbox::Inside& inside, ByteView content) {
+    answer(inside, Answer::content, content);
 }
 
 }  // namespace theatron::cases

@@ -172,6 +172,7 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         throw Error(quoted_path(file) +
                     " is too short for a DICOM file; take it out of the folder.");
     input_->load(file);
+    identifiers_.clear();
     try {
         if (!child_) {
             sandbox::Limits limits;
@@ -183,18 +184,26 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
         const std::byte request{1};
         child_->send({&request, 1});
         const Reply reply = reply_of(*child_);
+        // The child can still change the shared memory: a copy is checked, not the memory itself.
+        const Bytes copy(reply.content.begin(), reply.content.end());
+        if (reply.what != Answer::content && !copy.empty()) {
+            Result<std::vector<Identifier>> identifiers = decode_identifiers(copy);
+            if (!identifiers)
+                child_->refuse("impossible texts");
+            identifiers_ = std::move(*identifiers);
+        }
         if (reply.what == Answer::no_image)
             return std::nullopt;
         if (reply.what == Answer::color || reply.what == Answer::many_frames)
             throw NoSlice(quoted_path(file) + " " + reason_of(reply.what) + ".");
         if (reply.what != Answer::content)
             throw Error(quoted_path(file) + " " + reason_of(reply.what) + ".");
-        const Bytes copy(reply.content.begin(), reply.content.end());
         Result<DicomSlice> slice = decode_dicom_slice(copy);
         if (!slice)
             throw Error(quoted_path(file) +
                         " describes an image with an impossible size, place or scale of values; "
                         "export it again.");
+        identifiers_ = slice->identifiers;
         return std::move(*slice);
     } catch (const Error& error) {
         // The child does not know which file it had.

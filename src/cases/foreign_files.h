@@ -45,10 +45,14 @@ public:
     // NoSlice, or Error where the file is damaged.
     std::optional<DicomSlice> read(const std::filesystem::path& file);
 
+    // The texts that identify, in the file that was read last, also where it is no slice.
+    const std::vector<Identifier>& identifiers() const { return identifiers_; }
+
 private:
     class Input;
     std::unique_ptr<Input> input_;
     std::unique_ptr<sandbox::Child> child_;
+    std::vector<Identifier> identifiers_;
 };
 
 // True if the file begins as DICOM does (PS3.10), or if its beginning belongs to no other known

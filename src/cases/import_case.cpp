@@ -14,6 +14,7 @@
 #include "cases/quoted_path.h"
 #include "files/file_bytes.h"
 #include "files/private_file.h"
+#include "medical/mesh_measures.h"
 #include "medical/picture.h"
 
 namespace theatron::cases {
@@ -28,7 +29,7 @@ void write_identifiers(const fs::path& folder, const std::vector<ImportedSeries>
     for (const ImportedSeries& series : all_series) {
         nlohmann::ordered_json one{{"file", series.series.file}};
         for (const Identifier& identifier : series.identifiers) {
-            one[identifier.name] = identifier.value;
+            one.emplace(identifier.name, identifier.value);  // the first one of a name
             any = true;
         }
         list.push_back(std::move(one));
@@ -118,6 +119,22 @@ void make_regions_translucent(std::vector<ImportedPart>& parts) {
             one.part.opacity = std::min(one.part.opacity, region_opacity);
 }
 
+// Surfaces of another program or patient, or with a wrong unit or wrong axes.
+void remark_on_places(const std::vector<ImportedPart>& parts,
+                      const std::vector<ImportedSeries>& all_series,
+                      std::vector<std::string>& remarks) {
+    for (const ImportedPart& one : parts) {
+        const medical::Box box = medical::box_of(one.mesh);
+        const auto is_there = [&](const ImportedSeries& series) {
+            return medical::overlap(medical::box_of(series.volume.grid), box);
+        };
+        if (!all_series.empty() && std::none_of(all_series.begin(), all_series.end(), is_there))
+            remarks.push_back("The part '" + one.part.name +
+                              "' lies outside of all images; check the surfaces' axes (--axes) and "
+                              "unit (--unit).");
+    }
+}
+
 // Throws Error if a text that was given for everybody to see has the patient's name in it.
 void require_silent(const ImportOptions& options, const PatientWords& words) {
     const auto require = [&](const std::string& text, const char* option) {
@@ -149,7 +166,9 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     std::vector<ImportedPart> parts = parts_of(files, manifest, options, report.remarks, progress);
     if (!manifest)
         make_regions_translucent(parts);
-    std::vector<ImportedSeries> all_series = import_series(files.images, report.remarks, progress);
+    std::set<Identifier> identifiers;
+    std::vector<ImportedSeries> all_series =
+        import_series(files.images, identifiers, report.remarks, progress);
     std::vector<ImportedPicture> pictures =
         import_pictures(files.pictures, manifest, report.remarks, progress);
     if (parts.empty() && all_series.empty() && pictures.empty())
@@ -159,9 +178,8 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
 
     Case& result = report.manifest;
     PatientWords words;
-    for (const ImportedSeries& series : all_series)
-        for (const Identifier& identifier : series.identifiers)
-            words.add(identifier);
+    for (const Identifier& identifier : identifiers)
+        words.add(identifier);
     require_silent(options, words);
     fs::path shown = folder;
     if (shown.filename().empty())
@@ -207,6 +225,7 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
         files::write_file(target.path() / part.file, medical::encode_mesh(parts[i].mesh));
         result.parts.push_back(part);
     }
+    remark_on_places(parts, all_series, report.remarks);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         medical::CasePicture& picture = pictures[i].picture;
         if (words.occur_in(picture.name)) {

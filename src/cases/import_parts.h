@@ -24,7 +24,10 @@ struct ImportedSeries {
     bool deidentified = false;
 };
 
+// Adds the texts that identify patients in any of the files, also in those that are left out, to
+// `identifiers`.
 std::vector<ImportedSeries> import_series(const std::vector<std::filesystem::path>& files,
+                                          std::set<Identifier>& identifiers,
                                           std::vector<std::string>& remarks,
                                           const Progress& progress);
 

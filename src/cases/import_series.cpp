@@ -85,8 +85,20 @@ std::string files_that(std::size_t count, const char* one_does, const char* seve
            (count == 1 ? one_does : several_do);
 }
 
-SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::string>& remarks,
-                           const Progress& progress) {
+// A folder of one patient has fewer.
+constexpr std::size_t max_texts_of_patients = 100'000;
+
+void add_identifiers(const fs::path& file, const std::vector<Identifier>& of_file,
+                     std::set<Identifier>& identifiers) {
+    identifiers.insert(of_file.begin(), of_file.end());
+    if (identifiers.size() > max_texts_of_patients)
+        throw Error("The DICOM files hold more than " + std::to_string(max_texts_of_patients) +
+                    " texts about patients, from " + quoted_path(file) +
+                    " on; import the images of one patient.");
+}
+
+SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::set<Identifier>& identifiers,
+                           std::vector<std::string>& remarks, const Progress& progress) {
     SlicesOfSeries series;
     std::optional<DicomSlice> first;  // without its samples
     fs::path first_file;
@@ -99,10 +111,12 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
         try {
             slice = reader.read(files[i]);
         } catch (const NoSlice& error) {
+            add_identifiers(files[i], reader.identifiers(), identifiers);
             if (no_slices++ == 0)
                 no_slice = error.what();
             continue;
         }
+        add_identifiers(files[i], reader.identifiers(), identifiers);
         if (!slice) {
             ++without_image;
             continue;
@@ -140,12 +154,13 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::vector<std::
 }  // namespace
 
 std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
+                                          std::set<Identifier>& identifiers,
                                           std::vector<std::string>& remarks,
                                           const Progress& progress) {
     std::vector<ImportedSeries> imported;
     std::vector<std::string> problems;
     std::map<std::string, int> count;
-    for (auto& [uid, read] : read_slices(files, remarks, progress)) {
+    for (auto& [uid, read] : read_slices(files, identifiers, remarks, progress)) {
         std::vector<DicomSlice>& slices = read.slices;
         const std::string begins = " The series begins with " + quoted_path(read.first) + ".";
         ImportedSeries one;

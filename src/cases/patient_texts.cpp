@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t max_patient_characters = 200;  // of one text, as on the wire
-// Each of 16 series has at most 32 texts of 64 bytes.
+// Each of 16 series has at most 23 texts of 250 bytes.
 constexpr std::size_t max_identifiers_bytes = 256 * 1024;
 
 std::string without_blanks(std::string text) {
@@ -50,7 +50,7 @@ std::string readable_date(const std::string& date) {
 
 std::string text_of(const json& series, const char* name) {
     const auto found = series.find(name);
-    return found != series.end() && found->is_string()
+    return found != series.end()
                ? without_blanks(clean_text(found->get<std::string>(), max_patient_characters))
                : "";
 }
@@ -59,21 +59,31 @@ int texts_in(const PatientTexts& patient) {
     return int(!patient.name.empty()) + int(!patient.birth_date.empty()) + int(!patient.id.empty());
 }
 
+// True for a list of series with texts, which import writes.
+bool is_well_formed(const json& all) {
+    if (!all.is_object() || !all.contains("series") || !all["series"].is_array())
+        return false;
+    const auto is_series = [](const json& one) {
+        return one.is_object() && std::all_of(one.begin(), one.end(),
+                                              [](const json& text) { return text.is_string(); });
+    };
+    return std::all_of(all["series"].begin(), all["series"].end(), is_series);
+}
+
 }  // namespace
 
 std::optional<PatientTexts> parse_patient_texts(const std::string& text) {
     const json all = json::parse(text, nullptr, false);
-    if (!all.is_object() || !all.contains("series") || !all["series"].is_array())
+    if (!is_well_formed(all))
         return std::nullopt;
     PatientTexts fullest;
-    for (const json& series : all["series"])
-        if (series.is_object()) {
-            PatientTexts one{readable_name(text_of(series, "PatientName")),
-                             readable_date(text_of(series, "PatientBirthDate")),
-                             text_of(series, "PatientID")};
-            if (texts_in(one) > texts_in(fullest))
-                fullest = std::move(one);
-        }
+    for (const json& series : all["series"]) {
+        PatientTexts one{readable_name(text_of(series, "PatientName")),
+                         readable_date(text_of(series, "PatientBirthDate")),
+                         text_of(series, "PatientID")};
+        if (texts_in(one) > texts_in(fullest))
+            fullest = std::move(one);
+    }
     return fullest == PatientTexts{} ? std::nullopt : std::optional(std::move(fullest));
 }
 
@@ -89,8 +99,7 @@ std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& fold
                                                max_identifiers_bytes);
     if (!text)
         return std::nullopt;
-    const json all = json::parse(*text, nullptr, false);
-    if (!all.is_object() || !all.contains("series"))
+    if (!is_well_formed(json::parse(*text, nullptr, false)))
         throw Error("'" + clean_text((folder / identifiers_name).string(), 300) +
                     "' is not what `theatron case import` writes; import the case anew, or remove "
                     "the file.");

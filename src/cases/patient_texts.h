@@ -17,7 +17,8 @@ struct PatientTexts {
 };
 
 // The content of the file: the texts of one of its series, the first that has most of them, since
-// another one could be of another patient. nullopt: it names no patient. Safe for untrusted input.
+// another one could be of another patient. nullopt: it names no patient, or is not what import
+// writes. Safe for untrusted input.
 std::optional<PatientTexts> parse_patient_texts(const std::string& json);
 
 // nullopt if the case has no such file, or it names no patient. Throws Error with one sentence, in

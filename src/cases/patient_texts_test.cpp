@@ -32,11 +32,10 @@ TEST(PatientTexts, AreReadable) {
 }
 
 TEST(PatientTexts, AreOfOneSeriesTheFirstOfThoseThatSayMost) {
-    EXPECT_EQ(
-        of_series(
-            R"({"PatientName": "", "PatientID": 7}, 5, {"PatientName": "Doe", "PatientID": "1"},
+    EXPECT_EQ(of_series(
+                  R"({"PatientName": "", "PatientID": ""}, {"PatientName": "Doe", "PatientID": "1"},
                      {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
-        (PatientTexts{"Doe", "", "1"}))
+              (PatientTexts{"Doe", "", "1"}))
         << "Doe is not born when Roe is";
     EXPECT_EQ(of_series(R"({"PatientID": "1"},
                            {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
@@ -64,7 +63,9 @@ TEST(PatientTexts, AreReadFromAFileOfThisUserAlone) {
         }
         return "";
     };
-    for (const char* damaged : {"", "{", "7", "[]", R"({"name": "Doe^Jane"})"}) {
+    for (const char* damaged :
+         {"", "{", "7", "[]", R"({"name": "Doe^Jane"})", R"({"series": {"PatientName": "Doe"}})",
+          R"({"series": ["Doe^Jane"]})", R"({"series": [{"PatientName": ["Doe^Jane"]}]})"}) {
         std::ofstream(file) << damaged;
         EXPECT_THAT(refusal(), ::testing::HasSubstr("import the case anew")) << damaged;
     }

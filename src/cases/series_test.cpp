@@ -133,5 +133,18 @@ TEST(DicomSlice, ComesBackAsItWasSentAndEveryTruncationIsRefused) {
         EXPECT_FALSE(decode_dicom_slice(ByteView(bytes).first(n))) << n;
 }
 
+TEST(DicomSlice, IdentifiersComeBackWithoutAnImage) {
+    DicomSlice slice;
+    slice.charset = "ISO_IR 100";
+    slice.identifiers = {{"PatientName", "M\xfcller^Anna"}, {"PatientID", "4711"}};
+    const Bytes bytes = encode_identifiers(slice);
+    const Result<std::vector<Identifier>> read = decode_identifiers(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_THAT(*read, ElementsAre(Identifier{"PatientName", "Müller^Anna"},
+                                   Identifier{"PatientID", "4711"}));
+    for (std::size_t n = 0; n < bytes.size(); ++n)
+        EXPECT_FALSE(decode_identifiers(ByteView(bytes).first(n))) << n;
+}
+
 }  // namespace
 }  // namespace theatron::cases

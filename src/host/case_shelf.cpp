@@ -102,7 +102,7 @@ void CaseShelf::run() {
 void CaseShelf::look() {
     std::set<std::string> names;
     std::error_code failed;
-    bool too_many = false;
+    bool is_beyond = false;
     for (fs::directory_iterator entry(directory_, failed), end; !failed && entry != end;
          entry.increment(failed)) {
         std::error_code ignored;
@@ -112,30 +112,35 @@ void CaseShelf::look() {
             names.insert(std::move(name));
         if (names.size() > max_folders) {
             names.erase(std::prev(names.end()));
-            too_many = true;
+            is_beyond = true;
         }
     }
-    if (too_many && !said_too_many_)
+    if (is_beyond && !has_too_many_)
         log::say("The folder of cases '" + clean_text(directory_.string(), 300) +
                  "' holds more than " + std::to_string(max_folders) +
                  " folders; only the first ones by name are read.");
-    said_too_many_ = too_many;
     const std::string problem = failed ? failed.message() : "";
     if (!problem.empty() && problem != listing_problem_)
         log::warning("host", "the folder of cases cannot be read",
                      {{"folder", directory_.string()}, {"why", problem}});
+    bool changed = is_beyond != has_too_many_ || problem != listing_problem_;
+    has_too_many_ = is_beyond;
     listing_problem_ = problem;
-    if (failed)
+    if (failed) {
+        if (changed)
+            publish();
         return;
-    bool changed = false;
+    }
     for (auto folder = folders_.begin(); folder != folders_.end();) {
         const bool is_gone = !names.contains(folder->first);
-        changed = changed || (is_gone && folder->second.shared);
+        changed = changed || (is_gone && (folder->second.shared || folder->second.is_refused));
         folder = is_gone ? folders_.erase(folder) : std::next(folder);
     }
     for (const std::string& name : names)
         changed = look_at(name, folders_[name]) || changed;
-    if (changed)
+    constexpr int reading_look = 2;
+    looks_ = std::min(looks_ + 1, reading_look + 1);
+    if (changed || looks_ == reading_look)
         publish();
 }
 
@@ -152,11 +157,12 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
     if (folder.is_read)
         return false;
     folder.is_read = true;
-    const bool was_offered = folder.shared.has_value();
+    const bool was_told = folder.shared || folder.is_refused;
     folder.shared.reset();
     folder.patient.reset();
+    folder.is_refused = folder.hides_its_patient = false;
     if (folder.signature.empty())
-        return was_offered;
+        return was_told;
     std::uint64_t taken = 0;
     for (const auto& [other, known] : folders_)
         taken += known.shared ? known.shared->bytes : 0;
@@ -170,10 +176,11 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
                    {"bytes", folder.shared->bytes}});
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " This case is not offered.");
+        folder.is_refused = true;
     }
     if (folder.shared)
         read_patient(path, folder);
-    return was_offered || folder.shared;
+    return true;
 }
 
 void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
@@ -181,6 +188,7 @@ void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
         folder.patient = cases::read_patient_texts(path);
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " Nobody is told who the patient is.");
+        folder.hides_its_patient = true;
     }
 }
 
@@ -202,6 +210,26 @@ void CaseShelf::add_patient(const Folder& folder, std::vector<wire::Patient>& pa
         *known = {known->of_case, {}, {}, {}};
 }
 
+std::vector<std::string> CaseShelf::problems() const {
+    constexpr const char* more = "; the host's log says why.";
+    std::vector<std::string> problems;
+    if (!listing_problem_.empty())
+        problems.push_back(std::string("The folder of cases cannot be read") + more);
+    if (has_too_many_)
+        problems.push_back("The folder of cases holds more than " + std::to_string(max_folders) +
+                           " folders; only the first ones by name are read.");
+    const auto refused = std::count_if(folders_.begin(), folders_.end(),
+                                       [](const auto& folder) { return folder.second.is_refused; });
+    if (refused > 0)
+        problems.push_back(std::to_string(refused) + (refused == 1 ? " case is" : " cases are") +
+                           " not offered" + more);
+    for (const auto& [name, folder] : folders_)
+        if (folder.hides_its_patient)
+            problems.push_back("Nobody is told who the patient of the case '" +
+                               folder.shared->description.name + "' is" + more);
+    return problems;
+}
+
 void CaseShelf::publish() {
     Offer offer;
     std::vector<session::CaseFacts>& offered = offer.cases;
@@ -217,6 +245,7 @@ void CaseShelf::publish() {
             content.insert(folder.shared->content.begin(), folder.shared->content.end());
             add_patient(folder, offer.patients);
         }
+    offer.problems = problems();
     {
         const std::lock_guard lock(mutex_);
         content_ = std::move(content);

@@ -30,12 +30,16 @@ public:
     // Folders of the directory that are read; the first ones by name.
     static constexpr std::size_t max_folders = 64;
 
-    // The cases, and their patients as far as they are known.
+    // The cases, their patients as far as they are known, and a sentence for each thing that the
+    // operator of the host should mend. Sentences name no folder, since folders are often named
+    // after patients; the log does.
     struct Offer {
         std::vector<session::CaseFacts> cases;
         std::vector<wire::Patient> patients;
+        std::vector<std::string> problems;
     };
-    // Other cases are offered from now on. From the thread of the shelf.
+    // This is offered from now on: once the folders were read for the first time, and after each
+    // change. From the thread of the shelf.
     using Changed = std::function<void(Offer)>;
 
     // Throws Error with one sentence if there is no such directory.
@@ -51,9 +55,12 @@ private:
         bool is_read = false;   // in this state of its files
         std::optional<cases::ShareableCase> shared;
         std::optional<cases::PatientTexts> patient;
+        bool is_refused = false;         // it cannot be offered
+        bool hides_its_patient = false;  // its file of identifiers cannot be read
     };
     void run();
     void look();
+    std::vector<std::string> problems() const;
     // True if what is offered changes.
     bool look_at(const std::string& name, Folder& folder);
     static void read_patient(const std::filesystem::path& path, Folder& folder);
@@ -64,7 +71,8 @@ private:
     const Changed changed_;
     std::map<std::string, Folder> folders_;  // the thread's only; by name
     std::string listing_problem_;            // likewise
-    bool said_too_many_ = false;             // likewise
+    bool has_too_many_ = false;              // likewise
+    int looks_ = 0;                          // likewise; the second one reads
     mutable std::mutex mutex_;               // guards all below
     std::condition_variable stop_;
     std::map<ContentHash, std::shared_ptr<const Bytes>> content_;

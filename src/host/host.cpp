@@ -163,10 +163,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
         crop(*session->streams().find(camera));
     if (!options.cases.empty())
         cases = std::make_unique<CaseShelf>(options.cases, [this](CaseShelf::Offer offer) {
-            server->post([this, offer = std::move(offer)] {
-                session->set_cases(offer.cases, offer.patients);
-                carry_out();
-            });
+            server->post([this, offer = std::move(offer)] { take_cases(offer); });
         });
     server->begin();
     if (has_room)

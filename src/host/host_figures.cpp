@@ -199,6 +199,7 @@ nlohmann::json to_json(const HostFigures& figures) {
         {"published", published},
         {"overlaps", overlaps},
         {"visitors", visitors},
+        {"case_problems", figures.case_problems},
         {"past_bytes", figures.past_bytes},
         {"turned_away", figures.turned_away},
         {"faults", figures.faults},
@@ -410,6 +411,9 @@ std::string to_table(const nlohmann::json& figures) {
     for (const auto& certificate : list(figures, "certificates"))
         if (const std::string problem = text(certificate, "problem"); !problem.empty())
             table += problem + "\n";
+    for (const auto& problem : list(figures, "case_problems"))
+        if (problem.is_string())
+            table += problem.get<std::string>() + "\n";
     std::snprintf(line, sizeof(line), "%-24s %-7s %6s %8s %8s %8s %8s %8s  %s\n", "camera", "state",
                   "fps", "age ms", "lane ms", "p99 ms", "dropped", "reopens", "filter");
     table += line;

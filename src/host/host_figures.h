@@ -58,6 +58,7 @@ struct HostFigures {
     PlaceWatch::Figures places;                // whether cameras stay where they were registered
     bool has_ended = false;                    // the session
     std::vector<wire::Visitor> visitors;       // who wait for admission
+    std::vector<std::string> case_problems;    // sentences on the folder of cases
     std::size_t past_bytes = 0;                // encoded pictures that are kept for looking back
     std::uint64_t turned_away = 0;             // strangers, since the host began
     std::string page_problem;                  // of the browser client (host/page.h); else empty
@@ -94,8 +95,9 @@ struct PortFigures {
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"past_bytes","turned_away","faults",
-// "page_problem","problems":{"audit_log","room"},"certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
+// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"case_problems":[…],"past_bytes","turned_away",
+// "faults","page_problem","problems":{"audit_log","room"},
+// "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // The same of the first session of a host; those of its further ones are in "sessions", and those
 // that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are

@@ -477,6 +477,7 @@ HostFigures Host::Impl::figures() const {
     if (place_watch)
         figures.places = place_watch->figures();
     figures.visitors = visitor_figures;
+    figures.case_problems = case_problem_figures;
     figures.certificates = port->certificates();
     figures.has_ended = ended_figure;
     figures.past_bytes = past_figure;

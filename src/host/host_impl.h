@@ -87,6 +87,7 @@ struct Host::Impl {
     std::vector<HostFigures::Published> published_figures;
     std::map<CameraId, session::CameraAdjustment> adjusted_figures;
     std::vector<wire::Visitor> visitor_figures;
+    std::vector<std::string> case_problem_figures;
     bool ended_figure = false;
     std::size_t past_figure = 0;
     std::vector<std::string> tokens_held_back;
@@ -108,8 +109,10 @@ struct Host::Impl {
     std::map<CameraId, PlayedCamera> played_cameras;  // server's thread
     // That was told, with the transport's changes and rounds; server's thread.
     std::optional<capture::Transport::State> told_playback;
-    std::unique_ptr<RoomReplay> replay;  // uses the lanes and the server
-    std::unique_ptr<CaseShelf> cases;    // its thread posts to the server; may be null
+    std::unique_ptr<RoomReplay> replay;             // uses the lanes and the server
+    std::unique_ptr<CaseShelf> cases;               // its thread posts to the server; may be null
+    std::optional<CaseShelf::Offer> offered_cases;  // the newest; server's thread
+    std::string said_lost_case;                     // likewise
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
@@ -194,6 +197,10 @@ struct Host::Impl {
     void send_poses_to(ParticipantId receiver,
                        const std::vector<session::PoseBoard::Entry>& entries);
     void measure_links();
+    void take_cases(const CaseShelf::Offer& offer);
+    // A sentence if the open case is not offered any more; else empty.
+    std::string lost_case() const;
+    std::vector<std::string> case_problems() const;
     void note_participants();
     void tell_problems();
 

@@ -62,7 +62,9 @@ void Host::Impl::note_participants() {
                                  dropped_slow[camera.id], camera.frame == wire::CameraFrame::face,
                                  received[camera.id]});
         }
+    std::vector<std::string> problems_of_cases = case_problems();
     const std::lock_guard lock(figures_mutex);
+    case_problem_figures = std::move(problems_of_cases);
     participant_figures = std::move(list);
     visitor_figures = session->visitors();
     tokens_held_back = session->tokens_of_removed();

@@ -124,4 +124,9 @@ Box box_of(const Mesh& mesh) {
     return box;
 }
 
+bool overlap(const Box& a, const Box& b) {
+    return a.low_mm.x <= b.high_mm.x && b.low_mm.x <= a.high_mm.x && a.low_mm.y <= b.high_mm.y &&
+           b.low_mm.y <= a.high_mm.y && a.low_mm.z <= b.high_mm.z && b.low_mm.z <= a.high_mm.z;
+}
+
 }  // namespace theatron::medical

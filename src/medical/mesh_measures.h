@@ -17,5 +17,6 @@ MeshShape shape_of(const Mesh& mesh);
 
 // The box around all positions; empty at the origin without any.
 Box box_of(const Mesh& mesh);
+bool overlap(const Box& a, const Box& b);
 
 }  // namespace theatron::medical

@@ -69,7 +69,7 @@ def write_case(folder, name="Made liver", tumour=True, more_parts=0, pictures=()
     for i, color in enumerate(pictures):
         (folder / f"{i}.thpicture").write_bytes(picture(color))
     (folder / "ct.thvolume").write_bytes(images())
-    (folder / "identifiers.json").write_text('{"name": "Doe^Jane"}')
+    (folder / "identifiers.json").write_text('{"series": [{"PatientName": "Doe^Jane"}]}')
     (folder / "identifiers.json").chmod(0o600)
     (folder / "case.json").write_text(json.dumps(manifest))
     return folder
@@ -105,6 +105,11 @@ class Case(unittest.TestCase):
         self.cases = self.folder / "cases"
         self.cases.mkdir()
         self.start = case_host(self.folder, self.cases)
+
+    def case_problems(self, h):
+        code, out, errors = run("status", h.greeting["links"]["operator"], "--json")
+        self.assertEqual(code, 0, errors)
+        return json.loads(out)["case_problems"]
 
     def test_a_case_dropped_in_is_opened_by_one_and_had_by_three(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, \
@@ -186,6 +191,36 @@ class Case(unittest.TestCase):
                                   ("case what", "There is no such line on cases")):
                 anna.say(line)
                 self.wait_for_error(anna, problem)
+
+    def test_an_open_case_whose_folder_is_moved_away_stays_and_the_operator_is_told(self):
+        write_case(self.cases / "liver")
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna:
+            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.say("case picture 1")
+            self.wait_for_error(anna, "'case picture 1': No case is open.")
+            anna.say("case open Made liver")
+            anna.wait_for(has_all, 10)
+            anna.say("case picture 1")
+            self.wait_for_error(anna, "'case picture 1': The open case has no pictures.")
+            self.assertEqual(self.case_problems(h), [])
+            (self.cases / "liver").rename(self.folder / "away")
+            anna.wait_for(lambda f: not f["cases"]["offered"], 10)
+            self.wait_for_error(h, "The open case is not in the folder of cases any more as it was opened")
+            wait_until(lambda: "as it was opened" in "".join(self.case_problems(h)), 10, 0.1)
+            self.assertTrue(has_all(anna.newest_json()), "who has it keeps it")
+            # Back, with damaged texts on the patient: it can be shown, and the operator is told.
+            (self.folder / "away/identifiers.json").write_text('{"series": [{"PatientName": "Doe^')
+            (self.folder / "away").rename(self.cases / "liver")
+            anna.wait_for(lambda f: f["cases"]["offered"], 10)
+            self.wait_for_error(h, "identifiers.json' is not what `theatron case import` writes")
+            wait_until(lambda: self.case_problems(h) == [
+                "Nobody is told who the patient of the case 'Made liver' is; the host's log says why."], 10, 0.1)
+            self.assertNotIn("Doe", "".join(h.errors))
+            # Status is read from elsewhere: the name of a folder is in the log alone.
+            (self.cases / "Doe Jane").mkdir()
+            (self.cases / "Doe Jane/case.json").write_text("{")
+            wait_until(lambda: self.case_problems(h)[0] == "1 case is not offered; the host's log says why.", 10, 0.1)
+            self.assertNotIn("Doe", "".join(self.case_problems(h)))
 
     def test_what_names_the_patient_leaves_the_folder_nowhere(self):
         write_case(self.cases / "liver")
@@ -294,7 +329,8 @@ class Case(unittest.TestCase):
                         for is_it in tests]
 
             self.assertGreater(count("red.png", lambda r, g, b: r > 150 and g < 60 and b < 60)[0], 500)
-            for line, problem in (("case picture 3", "The number is a number from 1 to 2"), ("case series 1", "no images")):
+            for line, problem in (("case picture 3", "has no picture '3'; it has 2, from 1."), ("case picture", "The line names no picture; it has 2"),
+                                  ("case series 1", "The open case has no series of images.")):
                 ben.say(line)
                 self.wait_for_error(ben, problem)
             ben.say("case picture 2")
@@ -313,6 +349,8 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"], 10)
             anna.say("case open Made liver")
             ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] is None, 20)
+            ben.say("case series 99")
+            self.wait_for_error(ben, "The open case has no series '99'; it has one, which is number 1.")
             ben.say("case picture 1")
             anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 1, 10)
             anna.say("case slice coronal")
