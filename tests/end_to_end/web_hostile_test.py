@@ -12,7 +12,7 @@ import unittest
 import theatron_process
 from browser import CHROMIUM, Browser
 from guests_test import raw_color, raw_depth, read_on
-from raw_peer import BINARY, CONTROL, TEXT, VOICE, FakeHost, Link, calibration, camera, media_message
+from raw_peer import BINARY, CONTROL, TEXT, VOICE, FakeHost, Link, calibration, camera, control_message, media_message
 from theatron_process import host
 
 PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
@@ -123,6 +123,29 @@ class HostileHost(unittest.TestCase):
         self.picture()
         self.assertLessEqual(self.page.evaluate("theatron.voice.speakers.size"), MOST_SPEAKERS)
         self.assertLess(self.page.evaluate("made_speakers"), 10 * MOST_SPEAKERS)
+        self.assertEqual(self.page.problems, [])
+
+    def test_masses_of_cameras_and_pictures_of_absurd_sizes_are_passed_over(self):
+        before = self.page.evaluate("theatron.memory()")
+        small = calibration(64, 48, 64, 48)
+        # A baseline JPEG that claims 65535 x 65535 pixels.
+        absurd = bytes.fromhex("ffd8ffc0001108ffffffff03012200021101031101ffda000c03010002110311003f00") + bytes(2000) + b"\xff\xd9"
+
+        def script(guest):
+            honest(guest)
+            masses = [control_message("ToParticipant", "CamerasAdded", cameras=[camera(i, "x" * 200, small) for i in range(1, 60)]),
+                      control_message("ToParticipant", "CamerasRemoved", cameras=list(range(1, 60))),
+                      control_message("ToParticipant", "CamerasAdded", cameras=[camera(1, "x" * 60_000, small)]),
+                      control_message("ToParticipant", "CamerasRemoved", cameras=[1])]
+            guest.send_bytes(b"".join(guest.frame(bytes([CONTROL]) + message) for message in masses) * 100)
+            guest.settings("raw", "jpeg:quality=85", number=6)
+            for frame in range(1, 100):
+                guest.send_media(media_message(absurd, codec=66, stream=1, setting=6, frame=frame))
+                guest.send_media(media_message(raw_depth(8, 8).replace(bytes([8, 0]), b"\xff\xff"), codec=1, stream=0, setting=6, frame=frame))
+
+        self.enter(script)
+        self.picture()
+        self.assertLess(self.page.evaluate("theatron.memory()") - before, 64 << 20)
         self.assertEqual(self.page.problems, [])
 
 
