@@ -27,6 +27,20 @@ EM_JS(unsigned, theatron_headset_framebuffer, (unsigned name), {
     return name;
 });
 
+// Emscripten 3.1 never gives a name of GL twice, and its tables of objects keep a place for each
+// name of any kind: they would grow with each visit. The first free place of a table is taken
+// instead.
+EM_JS(void, theatron_reuse_gl_names, (), {
+    GL.getNewId = function(table) {
+        if (!table.length)
+            table.push(null);  // 0 is no name
+        const free = table.indexOf(null, 1);
+        const name = free < 0 ? table.length : free;
+        GL.counter = Math.max(GL.counter, name + 1);  // above all names
+        return name;
+    };
+});
+
 namespace theatron::web {
 namespace {
 
@@ -74,6 +88,7 @@ void open_context() {
     const auto context = emscripten_webgl_create_context("#view", &attributes);
     if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS)
         throw Error("This browser has no WebGL 2; use a newer one, or theatron join.");
+    theatron_reuse_gl_names();
     page().context = context;
 }
 
@@ -146,8 +161,8 @@ void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
     page().input = {};
     visit.viewer.on_headset(frame, now);
     (void)visit.viewer.step(any, now);
-    const unsigned framebuffer = visit.headset_framebuffer =
-        theatron_headset_framebuffer(visit.headset_framebuffer);
+    const unsigned framebuffer = page().headset_framebuffer =
+        theatron_headset_framebuffer(page().headset_framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);

@@ -32,8 +32,7 @@ struct Visit {
     client::Participant participant;
     viewer::Viewer viewer;
     xr::ScaledPicture picture;
-    unsigned headset_framebuffer = 0;  // its name, once it was used
-    PictureFence drawing;              // of the newest picture
+    PictureFence drawing;  // of the newest picture
     TimePoint drawing_began;
 };
 
@@ -55,12 +54,13 @@ struct FlatVisit {
 // page is closed.
 struct Page {
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
-    std::unique_ptr<Visit> visit;     // this
-    std::unique_ptr<FlatVisit> flat;  // or this, or none
-    xr::InputQueue input;             // since the last picture
-    std::string problem;              // why the visit ended; a sentence
-    std::string text;                 // that the last function returned
-    Bytes bytes;                      // that the script writes for the next function
+    unsigned headset_framebuffer = 0;  // its name, once it was used
+    std::unique_ptr<Visit> visit;      // this
+    std::unique_ptr<FlatVisit> flat;   // or this, or none
+    xr::InputQueue input;              // since the last picture
+    std::string problem;               // why the visit ended; a sentence
+    std::string text;                  // that the last function returned
+    Bytes bytes;                       // that the script writes for the next function
 
     void leave() {
         visit.reset();

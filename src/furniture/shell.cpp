@@ -16,6 +16,9 @@ constexpr double panel_m = 1.2, joint_m = 0.008;
 constexpr double rail_low_m = 0.98, rail_high_m = 1.12;
 constexpr double skirting_m = 0.12;
 constexpr double tile_m = 0.6;
+constexpr double light_step_m = 0.1;
+// A step of so many takes some milliseconds, also in a browser.
+constexpr int points_at_once = 1000, pixels_at_once = 100'000;
 
 // The frame of a side: its picture's left upper corner, and the edges along u and v.
 struct Frame {
@@ -138,25 +141,6 @@ Vec3 ceiling_color(Vec3 p, double texel) {
     return Vec3{0.82, 0.83, 0.82} * (1 - 0.3 * joint);
 }
 
-// Calls work(x, y, place, colour) for each picture element.
-template <class Work>
-void paint(const Extent& e, Side side, const Work& work) {
-    const Frame f = frame_of(e, side);
-    const Size size = picture_size(side);
-    const double tx = f.width / size.width, ty = f.height / size.height;
-    const double texel = std::max(tx, ty);
-    // Joints count from the wall's middle.
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            const double u = (x + 0.5) * tx, v = (y + 0.5) * ty;
-            const Vec3 p = f.corner + f.along * u + f.down * v;
-            work(x, y, p,
-                 side == Side::floor     ? floor_color(p, texel)
-                 : side == Side::ceiling ? ceiling_color(p, texel)
-                                         : wall_color(side, u - f.width / 2, p.y, tx, ty));
-        }
-}
-
 std::uint8_t encoded(double c) {
     return std::uint8_t(std::lround(255 * std::pow(std::clamp(c, 0.0, 1.0), 1 / 2.2)));
 }
@@ -189,39 +173,62 @@ MeshData side_mesh(const Extent& e, Side side) {
     return mesh;
 }
 
-ColorImage side_picture(const Extent& e, Side side) {
-    ColorImage image(picture_size(side));
-    paint(e, side, [&](int x, int y, Vec3, Vec3 color) {
-        image.view().row(y)[x] = {encoded(color.x), encoded(color.y), encoded(color.z)};
-    });
-    return image;
+SidePicture::SidePicture(const Extent& extent, Side side, const BakedLight* light)
+    : extent_(extent), side_(side), light_(light), image_(picture_size(side)) {
+    const Frame f = frame_of(extent, side);
+    if (light)
+        grid_.resize({std::max(2, int(f.width / light_step_m)) + 1,
+                      std::max(2, int(f.height / light_step_m)) + 1});
 }
 
-ColorImage lit_side_picture(const Extent& e, Side side, const BakedLight& light) {
-    // Light changes slowly: it is computed at a coarse grid and interpolated.
-    constexpr double step_m = 0.1;
-    const Frame f = frame_of(e, side);
-    const int columns = std::max(2, int(f.width / step_m)),
-              rows = std::max(2, int(f.height / step_m));
-    Image<float> grid({columns + 1, rows + 1});
-    for (int j = 0; j <= rows; ++j)
+bool SidePicture::step() {
+    if (lit_rows_ < grid_.size.height)
+        light_points();
+    else
+        paint_rows();
+    return painted_rows_ == image_.size.height;
+}
+
+void SidePicture::light_points() {
+    const Frame f = frame_of(extent_, side_);
+    const int columns = grid_.size.width - 1, rows = grid_.size.height - 1;
+    const int end = std::min(lit_rows_ + points_at_once / (columns + 1) + 1, rows + 1);
+    for (int& j = lit_rows_; j < end; ++j)
         for (int i = 0; i <= columns; ++i) {
             const double u = f.width * i / columns, v = f.height * j / rows;
-            grid.view().row(j)[i] =
-                float(light.at(f.corner + f.along * u + f.down * v + f.inwards * 0.001, f.inwards));
+            grid_.view().row(j)[i] = float(
+                light_->at(f.corner + f.along * u + f.down * v + f.inwards * 0.001, f.inwards));
         }
-    ColorImage image(picture_size(side));
-    paint(e, side, [&](int x, int y, Vec3, Vec3 color) {
-        const double gx = (x + 0.5) / image.size.width * columns,
-                     gy = (y + 0.5) / image.size.height * rows;
-        const int i = int(gx), j = int(gy);
-        const double a = gx - i, b = gy - j;
-        const auto row0 = grid.view().row(j), row1 = grid.view().row(j + 1);
-        const double l = (row0[i] * (1 - a) + row0[i + 1] * a) * (1 - b) +
-                         (row1[i] * (1 - a) + row1[i + 1] * a) * b;
-        image.view().row(y)[x] = shown(color * l);
-    });
-    return image;
+}
+
+double SidePicture::lightness(int x, int y) const {
+    const double gx = (x + 0.5) / image_.size.width * (grid_.size.width - 1),
+                 gy = (y + 0.5) / image_.size.height * (grid_.size.height - 1);
+    const int i = int(gx), j = int(gy);
+    const double a = gx - i, b = gy - j;
+    const auto row0 = grid_.view().row(j), row1 = grid_.view().row(j + 1);
+    return (row0[i] * (1 - a) + row0[i + 1] * a) * (1 - b) +
+           (row1[i] * (1 - a) + row1[i + 1] * a) * b;
+}
+
+void SidePicture::paint_rows() {
+    const Frame f = frame_of(extent_, side_);
+    const Size size = image_.size;
+    const double tx = f.width / size.width, ty = f.height / size.height;
+    const double texel = std::max(tx, ty);
+    const int end = std::min(painted_rows_ + pixels_at_once / size.width + 1, size.height);
+    for (int& y = painted_rows_; y < end; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const double u = (x + 0.5) * tx, v = (y + 0.5) * ty;
+            const Vec3 p = f.corner + f.along * u + f.down * v;
+            // Joints count from the wall's middle.
+            const Vec3 c = side_ == Side::floor ? floor_color(p, texel)
+                           : side_ == Side::ceiling
+                               ? ceiling_color(p, texel)
+                               : wall_color(side_, u - f.width / 2, p.y, tx, ty);
+            image_.view().row(y)[x] =
+                light_ ? shown(c * lightness(x, y)) : Rgb{encoded(c.x), encoded(c.y), encoded(c.z)};
+        }
 }
 
 double roughness_of(Side side) {

@@ -16,6 +16,16 @@
 // Emscripten 3.1 keeps sockets that were deleted (it deletes another key of its table).
 EM_JS(void, theatron_forget_socket, (int socket), { WS.sockets[socket] = null; });
 
+// Emscripten copies a message of any size into the program's memory, which never shrinks again. The
+// program gets `most` bytes and one more of a larger message, and refuses it.
+EM_JS(void, theatron_bound_messages, (int socket, unsigned most), {
+    const take = WS.sockets[socket].onmessage;
+    WS.sockets[socket].onmessage = function(event) {
+        const size = event.data.byteLength || event.data.length;
+        take(size > most ? ({data : event.data.slice(0, most + 1)}) : event);
+    };
+});
+
 namespace theatron::net {
 namespace {
 
@@ -218,6 +228,7 @@ struct Client::Impl {
         }
         emscripten_websocket_set_onopen_callback(socket, this, on_open);
         emscripten_websocket_set_onmessage_callback(socket, this, on_message);
+        theatron_bound_messages(socket, unsigned(wire::max_envelope_size));
         emscripten_websocket_set_onclose_callback(socket, this, on_close);
         interval = emscripten_set_interval(
             [](void* data) { static_cast<Impl*>(data)->on_event([] {}); }, tick_ms, this);

@@ -95,9 +95,16 @@ struct VirtualRoom::Meshes {
         if (!light) {
             light.emplace(extent, pieces);
         } else if (sides_done < std::size(furniture::all_sides)) {
-            const furniture::Side side = furniture::all_sides[sides_done++];
+            const furniture::Side side = furniture::all_sides[sides_done];
             // Nothing throws a shadow on the ceiling.
-            add_side(extent, side, low || side == furniture::Side::ceiling ? &*light : nullptr);
+            const bool is_lit = low || side == furniture::Side::ceiling;
+            if (!picture)
+                picture.emplace(extent, side, is_lit ? &*light : nullptr);
+            if (picture->step()) {
+                add_side(extent, side, is_lit);
+                picture.reset();
+                ++sides_done;
+            }
         } else if (low && pieces_done < pieces.size()) {
             furniture::append_baked(baked, pieces[pieces_done++], *light);
         } else {
@@ -114,6 +121,7 @@ struct VirtualRoom::Meshes {
 private:
     // While they are made:
     std::optional<furniture::BakedLight> light;
+    std::optional<furniture::SidePicture> picture;  // of the next side
     std::size_t sides_done = 0, pieces_done = 0;
     MeshData baked;
 
@@ -125,16 +133,13 @@ private:
     void add(const MeshData& mesh, const render::SurfaceLook& look, bool casts_shadow) {
         surfaces.push_back({render::SceneMesh(mesh), std::nullopt, look, false, casts_shadow});
     }
-    void add_side(const RoomExtent& extent, furniture::Side side,
-                  const furniture::BakedLight* light) {
-        const ColorImage picture = light ? furniture::lit_side_picture(extent, side, *light)
-                                         : furniture::side_picture(extent, side);
+    void add_side(const RoomExtent& extent, furniture::Side side, bool is_lit) {
         render::SurfaceLook look = baked_look();
-        if (!light)
+        if (!is_lit)
             look = {{1, 1, 1}, 0, furniture::roughness_of(side)};
         surfaces.push_back({render::SceneMesh(furniture::side_mesh(extent, side)),
-                            render::SceneTexture(picture.size), look, true, false});
-        surfaces.back().texture->set(picture.view());
+                            render::SceneTexture(picture->image().size), look, true, false});
+        surfaces.back().texture->set(picture->image().view());
     }
     // One mesh of each material.
     void add_materials(const std::vector<furniture::Piece>& pieces) {

@@ -49,7 +49,8 @@ def likeness(h, video, folder, camera):
     pictures = sorted((folder / "png").rglob("color/*.jpg"))
     best = []
     for picture in pictures[10::25][:4]:
-        done = subprocess.run(["ffmpeg", "-v", "error", "-loop", "1", "-i", picture, "-i", video, "-lavfi",
+        # At the source's rate: at the usual one of 25 a second, one in six of its pictures is compared with none.
+        done = subprocess.run(["ffmpeg", "-v", "error", "-framerate", "30", "-loop", "1", "-i", picture, "-i", video, "-lavfi",
                                "[0]scale=out_range=tv:out_color_matrix=bt709,format=yuv420p[a];[a][1]ssim=stats_file=-:shortest=1", "-f", "null", "-"],
                               capture_output=True, text=True)
         best.append(max((float(x) for x in re.findall(r"All:([\d.]+)", done.stdout)), default=0))

@@ -20,6 +20,16 @@ PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the
 CAMERAS = tuple(f"synthetic:seconds=2,fps=10,quality=quick,camera={i},loop=1" for i in (0, 1))
 SIZE = (960, 540)
 
+# The highest name that Emscripten gave an object of WebGL.
+NOTE_NAMES = """globalThis.highest_name = 0;
+for (const bind of ["bindBuffer", "bindTexture", "bindFramebuffer"]) {
+    const before = WebGL2RenderingContext.prototype[bind];
+    WebGL2RenderingContext.prototype[bind] = function (target, object) {
+        highest_name = Math.max(highest_name, object?.name ?? 0);
+        return before.call(this, target, object);
+    };
+}"""
+
 
 def get(link, path, headers=None, body=True):
     """The answer to a request, and its content if it has to be read."""
@@ -135,6 +145,20 @@ class Web(unittest.TestCase):
             self.assertLess(page.bytes, 1_000_000)
             page.evaluate("document.getElementById('leave').click()")
             ben.wait_for(lambda f: [person["name"] for person in f["room"]["people"]] == ["Ben"], 20)
+
+    def test_visits_use_the_names_of_gl_again(self):
+        page = self.browser.open("about:blank", (320, 180))
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=NOTE_NAMES)
+        page.call("Page.navigate", url=self.link)
+        highest = []
+        for visit in range(4):
+            page.enter(way="room")
+            page.wait_for("theatron.state.phase === 'joined' && theatron.state.has_picture && theatron.state.pictures > 3")
+            highest.append(page.evaluate("highest_name"))
+            self.leave(page)
+        # Places in tables of Emscripten, which never become shorter.
+        self.assertLessEqual(highest[-1], highest[0] + 50, highest)
+        self.assertEqual(page.problems, [])
 
     def test_a_page_without_workers_decodes_by_itself_and_says_so(self):
         page = self.enter(self.link + "&decoding=page", "Ada")

@@ -9,6 +9,8 @@ const speech_db = -50;              // a frame of this level counts as speech
 const hang_over_ms = 400;           // speech goes on for so long behind the last such frame
 const release_ms = 200;             // the key of push to talk is released before the last word ends
 const most_speakers = 32;           // the one that was silent for longest makes room for another
+const least_silence_ms = 1000;      // of one that makes room
+const most_waiting = 50;            // frames in a speaker's decoder; more come faster than anybody speaks
 const longest_silence_ms = 60_000;  // of a speaker that is kept
 
 // The header of a packet, and its Opus frame; null if it is none.
@@ -65,6 +67,13 @@ class Speaker {
 
     put({ opus, ...header }) {
         this.newest_ms = performance.now();
+        // Behind a fault a browser closes a decoder first, and says so later.
+        if (this.decoder.state === "closed" || this.decoder.decodeQueueSize >= most_waiting)
+            return;
+        if (this.waiting.length >= 2 * most_waiting) {
+            this.decoder.close();
+            this.begin_decoder();
+        }
         this.waiting.push(header);
         this.decoder.decode(new EncodedAudioChunk({
             type: "key", timestamp: header.number * header.frame_ms * 1000, data: opus }));
@@ -119,27 +128,38 @@ export class Voice {
         await Promise.all([resumed, this.loaded]);
     }
 
+    // Throws nothing: the program that calls it would lose its place.
     hear(id, bytes) {
         if (!this.program)
             return;
-        const packet = parse_packet(bytes);
-        if (!packet) {
+        try {
+            const packet = parse_packet(bytes);
+            if (packet)
+                this.speaker(id)?.put(packet);
+            else
+                ++this.unreadable;
+        } catch {
             ++this.unreadable;
-            return;
         }
-        let speaker = this.speakers.get(id);
-        if (!speaker) {
-            this.forget_one(most_speakers - 1);
-            this.speakers.set(id, speaker = new Speaker(this.context, this.program));
-        }
-        speaker.put(packet);
     }
 
-    // Keeps at most so many, those that spoke last.
-    forget_one(most) {
-        const by_age = [...this.speakers].sort(([, a], [, b]) => a.newest_ms - b.newest_ms);
-        for (const [id, speaker] of by_age.slice(0, Math.max(0, by_age.length - most)))
-            this.forget(id, speaker);
+    // Nothing if there is no room for another.
+    speaker(id) {
+        let speaker = this.speakers.get(id);
+        if (!speaker && this.make_room())
+            this.speakers.set(id, speaker = new Speaker(this.context, this.program));
+        return speaker;
+    }
+
+    // Nobody who speaks makes room. So speakers are not made and forgotten with each packet, however many there are.
+    make_room() {
+        if (this.speakers.size < most_speakers)
+            return true;
+        const [[id, oldest]] = [...this.speakers].sort(([, a], [, b]) => a.newest_ms - b.newest_ms);
+        if (performance.now() - oldest.newest_ms < least_silence_ms)
+            return false;
+        this.forget(id, oldest);
+        return true;
     }
     forget(id, speaker) {
         speaker.end();
