@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
+.PHONY: help setup program build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
 
 help:
 	@echo "make demo               install what is needed, build, and meet two people in a streamed room"
@@ -23,13 +23,16 @@ help:
 setup:
 	@tools/setup.sh
 
-build: setup
+program: setup
 	@cmake --preset release > /dev/null
-	@cmake --build --preset release --target theatron theatron_bench
+	@cmake --build --preset release --target theatron
 	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
 	else echo "build: em++ is missing, so the host has no browser client"; fi
 
-demo: build
+build: program
+	@cmake --build --preset release --target theatron_bench
+
+demo: program
 	@test -e demo/case || build/release/apps/theatron/theatron case synth demo/case --dicom demo/ct
 	@build/release/apps/theatron/theatron demo $(SECONDS_OF_DEMO)
 
