@@ -15,16 +15,22 @@ constexpr const char* plain_answer =
     "This is a Theatron host. Join it with: theatron join LINK\n"
     "It was built without the browser client, so a browser cannot join.\n";
 
+constexpr const char* must_knock =
+    "This link's people are let in one by one, so it shows nothing of the session; use an "
+    "operator's link, or the host's metrics.token.\n";
+
 }  // namespace
 
-net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
+net::HttpAnswer answer_http(const net::HttpRequest& request, MayRead may_read,
                             const std::function<PortFigures()>& figures) {
     const std::string_view path = net::path_of(request.target);
     if (path == "/")
         return {.body = plain_answer};
     if (path != "/status" && path != "/metrics")
         return {.status = 404, .body = "There is nothing here.\n"};
-    if (!may_read)
+    if (may_read == MayRead::must_knock)
+        return {.status = 401, .body = must_knock};
+    if (may_read == MayRead::no)
         return {.status = 401, .body = "Show the token: docs/metrics.md\n"};
     if (path == "/status")
         return {.type = "application/json", .body = files::json_text(to_json(figures())) + "\n"};
@@ -65,6 +71,8 @@ void require_known_token(const net::HttpsAnswer& answer) {
         throw Error(
             "Somebody who came by this link was removed from the session, so it shows nothing of "
             "it until the session ends; ask for another link.");
+    if (answer.status == 401 && answer.body == must_knock)
+        throw Error(answer.body.substr(0, answer.body.find('\n')));
     if (answer.status == 401)
         throw Error("The host does not know the link's token; ask for its current link.");
 }

@@ -14,9 +14,13 @@
 
 namespace theatron::host {
 
-// `may_read`: the request shows a token that opens the figures. `figures`: those of all sessions
-// that it opens, at least one.
-net::HttpAnswer answer_http(const net::HttpRequest& request, bool may_read,
+enum class MayRead {
+    yes,         // the request shows a token that opens the figures
+    no,          // it does not
+    must_knock,  // its token is known, but people who come by it see nothing before they are let in
+};
+// `figures`: those of all sessions that the token opens, at least one.
+net::HttpAnswer answer_http(const net::HttpRequest& request, MayRead may_read,
                             const std::function<PortFigures()>& figures);
 
 // Asks a host, perhaps on another machine, for /status: see to_json(). Its texts are clean

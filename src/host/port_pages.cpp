@@ -26,6 +26,13 @@ bool is_held_back(const std::string& secret, const SessionSwitch::Sessions& sess
         sessions, [&](const auto& entry) { return entry.second.is_held_back(secret); });
 }
 
+bool must_knock(const std::string& secret, const SessionSwitch::Sessions& sessions) {
+    return std::ranges::any_of(sessions, [&](const auto& entry) {
+        const auto token = entry.second.find_token(secret);
+        return token && entry.second.must_ask(token->role);
+    });
+}
+
 // The sessions whose figures a token opens.
 struct Opened {
     std::vector<const PortSession*> sessions;
@@ -71,7 +78,10 @@ net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
         return {.status = 403,
                 .body = "Somebody who came by this link was removed: docs/room.md\n"};
     const Opened opened = opened_by(secret, sessions);
-    return answer_http(request, !opened.sessions.empty(), [&] {
+    const MayRead may_read = !opened.sessions.empty()       ? MayRead::yes
+                             : must_knock(secret, sessions) ? MayRead::must_knock
+                                                            : MayRead::no;
+    return answer_http(request, may_read, [&] {
         PortFigures figures;
         for (const PortSession* session : opened.sessions)
             figures.sessions.push_back(session->figures());

@@ -8,6 +8,7 @@
 #include "xr/imgui_fonts_native.h"
 #include "xr/overlay_pictures_native.h"
 #include "xr/panel_colors_native.h"
+#include "xr/panel_heights.h"
 #include "xr/window_input.h"
 
 namespace theatron::xr {
@@ -21,18 +22,6 @@ constexpr float panels_beside_pictures = 0.5f;
 constexpr float rounding = 1;
 // In half text heights.
 constexpr float panel_padding = 1.4f, slider_units = 22;
-
-// The largest height for each such that all of them, cut to it, have this height together.
-float largest_share(std::vector<float> heights, float together) {
-    std::sort(heights.begin(), heights.end());
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        const float share = together / float(heights.size() - i);
-        if (heights[i] > share)
-            return share;
-        together -= heights[i];
-    }
-    return heights.empty() ? 0 : heights.back();
-}
 
 }  // namespace
 
@@ -315,17 +304,17 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
     }
     const float gaps = unit * float(shown.size() - 1);
     const float least = frame + highest_row + small->FontSize;
-    const float share = largest_share(heights, free.to.y - free.from.y - gaps);
+    const float together = free.to.y - free.from.y - gaps;
     // Where there is no space for all, the first ones have what they need.
-    const bool is_for_all =
-        share >= std::min(least, *std::max_element(heights.begin(), heights.end()));
+    const std::vector<float> shares = panel_heights(heights, least, together);
+    const bool is_for_all = !shares.empty();
     const float line = small->FontSize + 2 * unit;
     float top = free.from.y, right_edge = 0;
     for (std::size_t n = 0; n < shown.size(); ++n) {
         const Panel& panel = shown[n];
         const bool is_last = n + 1 == shown.size();
         const float height_left = free.to.y - top - (is_last ? 0 : line);
-        const float most = is_for_all ? share : height_left;
+        const float most = is_for_all ? shares[n] : height_left;
         if (!is_for_all && height_left < std::min(least, heights[n])) {
             const std::string more = std::to_string(shown.size() - n) +
                                      (is_last ? " more panel" : " more panels") +

@@ -246,7 +246,8 @@ class People(unittest.TestCase):
             self.assertIn("gives no picture", errors)
             self.assertIn("people", lobby(h.greeting["links"]["operator"])["sessions"][0])
             code, _, errors = run("status", h.greeting["link"])
-            self.assertIn("does not know the link's token", errors)
+            self.assertEqual(code, 1)
+            self.assertIn("let in one by one", errors)
 
     def test_a_hostile_member_is_refused_and_counted_and_harms_nobody(self):
         with contextlib.ExitStack() as stack:

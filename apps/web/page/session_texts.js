@@ -97,6 +97,10 @@ const german = {
         [/^You have not let in (.+)$/, "Sie haben $1 nicht eingelassen"],
         [/^You see through the eyes of (.+)$/, "Sie sehen mit den Augen von $1"],
         [/^Camera (.+)$/, "Kamera $1"],
+        [/^The audit log cannot be written: (.+)\. Its entries wait until it can, and those too many are counted\.$/,
+            "Das Protokoll kann nicht geschrieben werden: $1. Seine Einträge warten, bis es geht, und überzählige werden gezählt."],
+        [/^The room cannot be saved and would be lost with the host; its log says why\.$/,
+            "Der Raum kann nicht gesichert werden und ginge mit dem Gastgeber verloren; dessen Log sagt den Grund."],
         [/^View of (.+)$/, "Ansicht von $1"],
     ],
 };
