@@ -43,9 +43,11 @@ class Letters {
 public:
     // False once all are there.
     bool step() {
-        for (int i = 0; i < letters_at_once && next_ <= last_glyph; ++i, ++next_)
-            if (is_in_atlas(next_))
+        for (int drawn = 0; drawn < letters_at_once && next_ <= last_glyph; ++next_)
+            if (is_in_atlas(next_)) {
                 add(next_);
+                ++drawn;
+            }
         if (next_ <= last_glyph)
             return true;
         if (!atlas_)

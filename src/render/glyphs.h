@@ -9,10 +9,14 @@ namespace theatron::render {
 
 // Height of the letters that are drawn for the atlas, pixels of an em.
 inline constexpr int glyph_pixels = 40;
-// The letters of an atlas.
-inline constexpr char32_t first_glyph = 0x20, last_glyph = 0x17f;
+// In place of letters that the atlas lacks: a hollow box.
+inline constexpr char32_t unknown_glyph = 0x25a1;
+// The letters of an atlas: Latin, Greek and Cyrillic.
+inline constexpr char32_t first_glyph = 0x20, last_glyph = unknown_glyph;
 constexpr bool is_in_atlas(char32_t letter) {
-    return letter >= first_glyph && letter <= last_glyph && (letter < 0x7f || letter >= 0xa0);
+    return (letter >= first_glyph && letter < 0x180 && (letter < 0x7f || letter >= 0xa0)) ||
+           (letter >= 0x384 && letter < 0x3cf) || (letter >= 0x400 && letter < 0x460) ||
+           letter == unknown_glyph;
 }
 
 // Makes an atlas of letters.

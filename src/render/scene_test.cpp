@@ -177,6 +177,22 @@ TEST_F(SceneTest, TextsAreReadWhereTheyStand) {
     EXPECT_LT(at(picture, {-0.29, 0.95, 0.1}).r, 100);
 }
 
+TEST_F(SceneTest, LettersThatTheAtlasLacksAreHollowBoxes) {
+    if (!std::filesystem::exists(font))
+        GTEST_SKIP() << "fonts-dejavu-core is not installed";
+    std::ifstream file(font, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    const FontAtlas atlas = load_font_atlas(std::as_bytes(std::span(bytes)));
+    for (const char32_t letter : {U'A', U'ü', U'Ж', U'ω', U'□'})
+        EXPECT_TRUE(atlas.glyphs.contains(letter)) << std::uint32_t(letter);
+    const auto drawn = [&](const char* text) {
+        frame.texts = {{text, {Quat{0, 1, 0, 0}, {-0.35, 0.9, 0.1}}, 0.1, {255, 255, 0}}};
+        return draw({320, 240}, &atlas).color;
+    };
+    EXPECT_EQ(drawn("山田"), drawn("□□"));
+    EXPECT_NE(drawn("山田"), drawn(""));
+}
+
 // A panel in front of the eye, whose four quarters have colours of their own.
 TEST_F(SceneTest, APanelShowsItsTextureAsItIs) {
     constexpr Rgb red{200, 20, 30}, green{20, 200, 30}, blue{30, 20, 200}, white{250, 250, 250};

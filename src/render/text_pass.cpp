@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/text_pass.h"
 
+#include "base/utf8.h"
+#include "render/glyphs.h"
 #include "render/matrix.h"
 
 namespace theatron::render {
 namespace {
 
 constexpr int atlas_unit = 2;
-
-// The next code point of UTF-8; a damaged byte sequence becomes a question mark.
-char32_t take_letter(const std::string& text, std::size_t& at) {
-    const auto byte = [&](std::size_t i) { return std::uint8_t(text[i]); };
-    const std::uint8_t first = byte(at++);
-    if (first < 0x80)
-        return first;
-    const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-    if (more == 0 || at + std::size_t(more) > text.size())
-        return U'?';
-    char32_t letter = first & (0x3fu >> more);
-    for (int i = 0; i < more; ++i)
-        letter = letter << 6 | (byte(at++) & 0x3fu);
-    return letter;
-}
 
 }  // namespace
 
@@ -56,8 +43,13 @@ void TextPass::draw(const std::vector<SceneText>& texts, const CameraView& view)
         const double scale = text.height_m / atlas_.capital_height;
         std::vector<float> corners;
         double pen = 0;
-        for (std::size_t at = 0; at < text.utf8.size();) {
-            const auto known = atlas_.glyphs.find(take_letter(text.utf8, at));
+        std::string_view rest = text.utf8;
+        while (!rest.empty()) {
+            const Utf8Character letter = first_character(rest);
+            rest.remove_prefix(letter.bytes);
+            auto known = atlas_.glyphs.find(letter.code);
+            if (known == atlas_.glyphs.end())
+                known = atlas_.glyphs.find(unknown_glyph);
             if (known == atlas_.glyphs.end()) {
                 pen += 0.5 * atlas_.capital_height;
                 continue;

@@ -22,6 +22,8 @@ constexpr float panels_beside_pictures = 0.5f;
 constexpr float rounding = 1;
 // In half text heights.
 constexpr float panel_padding = 1.4f, slider_units = 22;
+// A longer text of a panel, perhaps a name that somebody gave, has several lines.
+constexpr float longest_line_units = 70;
 
 }  // namespace
 
@@ -248,13 +250,16 @@ float Overlay::Parts::controls_width(const PanelRow& row) const {
     return width;
 }
 
-// The width of a panel without its edges that breaks no text.
+// The width of a panel without its edges that breaks no text of usual length.
 float Overlay::Parts::wanted_width(const Panel& panel) const {
+    const auto line = [&](ImFont* font, const std::string& text) {
+        return std::min(measure(font, text).x, longest_line_units * unit);
+    };
     float width = measure(normal, panel.title).x;
     for (const PanelRow& row : panel.rows)
-        width = std::max(
-            {width, measure(normal, row.text).x + controls_width(row) + 2 * panel_padding * unit,
-             measure(small, row.detail).x});
+        width = std::max({width,
+                          line(normal, row.text) + controls_width(row) + 2 * panel_padding * unit,
+                          line(small, row.detail)});
     return width;
 }
 
