@@ -98,29 +98,28 @@ GLuint begin_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
     return shader;
 }
 
-void require_compiled(GLuint shader, const std::vector<ShaderPart>& parts) {
+// Empty where the shader compiles.
+std::string compile_problem(GLuint shader, const std::vector<ShaderPart>& parts) {
     GLint compiled = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled)
-        return;
+        return {};
     const std::string log = info_log(
         shader, [](auto... a) { glGetShaderiv(a...); },
         [](auto... a) { glGetShaderInfoLog(a...); });
-    throw Error("The shader " + std::string(parts.back().name) +
-                " does not compile on this driver: " + with_file_names(log, parts));
+    return "The shader " + std::string(parts.back().name) +
+           " does not compile on this driver: " + with_file_names(log, parts);
 }
 
 }  // namespace
 
 GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
     const GLuint shader = begin_shader(kind, parts);
-    try {
-        require_compiled(shader, parts);
-    } catch (...) {
-        glDeleteShader(shader);
-        throw;
-    }
-    return shader;
+    const std::string problem = compile_problem(shader, parts);
+    if (problem.empty())
+        return shader;
+    glDeleteShader(shader);
+    throw Error(problem);
 }
 
 // Asks for nothing before both shaders are on their way: each question waits for the driver, which
@@ -135,20 +134,27 @@ Program::Program(ShaderFiles vertex, ShaderFiles fragment) {
             parts.push_back(find_part(file));
         shaders.emplace_back(begin_shader(kind, parts), parts);
         glAttachShader(name(), shaders.back().first);
-        glDeleteShader(shaders.back().first);  // lives on as long as the program
     }
     glLinkProgram(name());
     GLint linked = 0;
     glGetProgramiv(name(), GL_LINK_STATUS, &linked);
-    if (linked)
-        return;
+    std::string problem;
+    if (!linked) {
+        for (const auto& [shader, parts] : shaders)
+            if (problem.empty())
+                problem = compile_problem(shader, parts);
+        if (problem.empty())
+            problem = "The shaders " + std::string(*(vertex.end() - 1)) + " and " +
+                      std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
+                      info_log(
+                          name(), [](auto... a) { glGetProgramiv(a...); },
+                          [](auto... a) { glGetProgramInfoLog(a...); });
+    }
+    // They live on as long as the program. Not earlier: a browser's client knows no deleted shader.
     for (const auto& [shader, parts] : shaders)
-        require_compiled(shader, parts);
-    throw Error("The shaders " + std::string(*(vertex.end() - 1)) + " and " +
-                std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
-                info_log(
-                    name(), [](auto... a) { glGetProgramiv(a...); },
-                    [](auto... a) { glGetProgramInfoLog(a...); }));
+        glDeleteShader(shader);
+    if (!problem.empty())
+        throw Error(problem);
 }
 
 GLint Program::uniform(const char* uniform_name) const {
