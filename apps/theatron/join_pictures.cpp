@@ -16,6 +16,8 @@ namespace {
 
 // Mean distance of an adult's eyes.
 constexpr double eye_distance_m = 0.063;
+// Heads look along -z with y up, eyes along +z with y down; the same the other way round.
+constexpr Pose eye_from_head{Quat{0, 1, 0, 0}, {}};
 
 }  // namespace
 
@@ -50,11 +52,13 @@ OffscreenPicture::OffscreenPicture(ViewPicture wanted)
 
 void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
     scene_.take(participant);
-    if (scene_.can_draw(wanted_.view) && !stands_) {
-        room.stand(scene_.view(wanted_.view, wanted_.size).room_from_eye *
-                   Pose{Quat{0, 1, 0, 0}, {}});
-        stands_ = true;
+    if (scene_.can_draw(wanted_.view) && !first_head_) {
+        first_head_ = scene_.view(wanted_.view, wanted_.size).room_from_eye * eye_from_head;
+        if (!room.head())
+            room.stand(*first_head_);
     }
+    if (room.head() != first_head_)
+        stood_at_ = room.head();
     if (const auto command = participant.take_renderer_command())
         if (const std::string problem = viewer::follow_host(renderer_, *command); !problem.empty())
             std::fprintf(stderr, "%s\n", problem.c_str());
@@ -68,9 +72,11 @@ std::string OffscreenPicture::drawn_with() const {
 void OffscreenPicture::write() {
     if (!scene_.can_draw())
         throw Error("No picture came from the host, so none was written.");
-    viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}};
+    viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}, {}};
     if (wanted_.stereo)
         wish.eye_distance_m = eye_distance_m;
+    if (stood_at_)
+        wish.room_from_eye = *stood_at_ * eye_from_head;
     if (!wanted_.color_file.empty())
         files::write_png(wanted_.color_file, scene_.picture(wish).view());
     if (!wanted_.depth_file.empty())

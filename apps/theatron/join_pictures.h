@@ -42,8 +42,8 @@ struct ViewPicture {
 class OffscreenPicture : public JoinPicture {
 public:
     explicit OffscreenPicture(ViewPicture wanted);
-    // The picture's viewpoint is this person's head for others. Follows the host's renderer
-    // command.
+    // The picture's viewpoint is this person's head for others, and a head that a line `stand` has
+    // placed is the picture's viewpoint. Follows the host's renderer command.
     void take(client::Participant& participant, RoomLines& room) override;
     void write() override;
 
@@ -53,7 +53,8 @@ private:
     const ViewPicture wanted_;
     session::RendererChoice renderer_;
     viewer::OffscreenView scene_;
-    bool stands_ = false;
+    // Heads: of the viewpoint, which is shown to others; of a line `stand` that came later.
+    std::optional<Pose> first_head_, stood_at_;
 };
 
 }  // namespace theatron::app

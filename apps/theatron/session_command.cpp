@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/shown_name.h"
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/json_text.h"
@@ -46,6 +47,18 @@ std::optional<ToldSession> told(const fs::path& state, const std::string& name) 
         if (session.name == name)
             return session;
     return std::nullopt;
+}
+
+// A name that is easily taken for that of another session, which somebody would then enter or end
+// by mistake: that session's name, else empty.
+std::string look_alike(const fs::path& state, const std::string& name) {
+    std::vector<std::string> names;
+    for (const ToldSession& session : host::told_sessions(state))
+        names.push_back(session.name);
+    for (const host::KeptSession& session : host::kept_sessions(state))
+        names.push_back(session.name);
+    const auto found = std::ranges::find(names, look_of(name), look_of);
+    return found == names.end() ? "" : *found;
 }
 
 // True once `is_done` is, false after `patience`.
@@ -92,6 +105,8 @@ void create(const Flags& flags) {
     if (told(state, flags.name) || fs::exists(host::session_folder(state, flags.name)))
         throw Error("There is a session '" + flags.name +
                     "' already; end it first, or take another name.");
+    if (const std::string other = look_alike(state, flags.name); !other.empty())
+        throw Error("The session '" + other + "' has nearly the same name; take another one.");
     if (host::kept_sessions(state).size() + 1 >= host::max_sessions)
         throw Error("A host has at most " + std::to_string(host::max_sessions) +
                     " sessions; end one with 'theatron session end'.");

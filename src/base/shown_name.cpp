@@ -47,6 +47,11 @@ bool is_comma(char32_t c) {
            is_within(c, 0xfe50, 0xfe51) || c == 0xff0c || c == 0xff1b || c == 0xff64;
 }
 
+// Lines of operators name people by number, as in "#58".
+bool is_number_sign(char32_t c) {
+    return c == '#' || c == 0xfe5f || c == 0xff03;
+}
+
 constexpr std::u32string_view opening =
     U"([{<\u2039\u2045\u207d\u208d\u2329\u2768\u276a\u27e8\u27ee"
     U"\u3008\u3010\u3014\uff08\uff1c\uff3b\uff5b";
@@ -163,7 +168,8 @@ std::string person_name(std::string_view text, const std::vector<std::string>& f
     std::string name;
     std::string_view rest = clean, bytes;
     while (!rest.empty()) {
-        const bool is_separator = is_comma(take_letter(rest, bytes));
+        const char32_t letter = take_letter(rest, bytes);
+        const bool is_separator = is_comma(letter) || is_number_sign(letter);
         if (!is_separator)
             name += bytes;
         else if (!name.ends_with(' ') && !rest.starts_with(' '))

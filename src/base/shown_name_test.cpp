@@ -46,6 +46,8 @@ TEST(PersonName, HasNoCommasAndIsOnePersonInAList) {
     EXPECT_EQ(person_name("Bee, Ada", roles, enough), "Bee Ada");
     EXPECT_EQ(person_name("Bee,Ada;,\uff0cMD,", roles, enough), "Bee Ada MD");
     EXPECT_EQ(person_name(",", roles, enough), "");
+    EXPECT_EQ(person_name("#58", roles, enough), "58");
+    EXPECT_EQ(person_name("\uff03 #58#9", roles, enough), "58 9");
     EXPECT_EQ(person_name("Bee,Ada", roles, 3), "Bee");
 }
 

@@ -193,10 +193,12 @@ void PatientWords::add_birth_date(const std::string& value) {
 
 void PatientWords::add(const Identifier& identifier) {
     if (identifier.name == "PatientName" || identifier.name == "OtherPatientNames" ||
-        identifier.name == "PatientBirthName" || identifier.name == "PatientMotherBirthName")
+        identifier.name == "PatientBirthName" || identifier.name == "PatientMotherBirthName" ||
+        identifier.name == "ResponsiblePerson")
         add_name(identifier.value);
     else if (identifier.name == "PatientID" || identifier.name == "OtherPatientIDs" ||
-             identifier.name == "AccessionNumber")
+             identifier.name == "AccessionNumber" || identifier.name == "AdmissionID" ||
+             identifier.name == "PatientAddress" || identifier.name == "PatientTelephoneNumbers")
         add_identifier(identifier.value);
     else if (identifier.name == "PatientBirthDate")
         add_birth_date(identifier.value);

@@ -12,7 +12,7 @@ namespace theatron::cases {
 
 class PatientWords {
 public:
-    // Takes names, numbers and the date of birth; other identifiers are ignored.
+    // Takes names, numbers, addresses and the date of birth; other identifiers are ignored.
     void add(const Identifier& identifier);
 
     // True if one of them occurs in `text` (UTF-8), also with other capitals, accents, umlauts

@@ -94,11 +94,33 @@ TEST(PatientWords, OfOtherScriptsAreFoundAsTheyAre) {
     EXPECT_TRUE(words_of({{"PatientName", "李^明"}}).occur_in("肝李明"));
 }
 
+TEST(PatientWords, OfAddressesAndGuardiansAreFound) {
+    const PatientWords words = words_of({{"PatientAddress", "Lindenstrasse 17"},
+                                         {"PatientTelephoneNumbers", "0171-2345678"},
+                                         {"ResponsiblePerson", "Vormund^Vera"},
+                                         {"AdmissionID", "ADM332211"}});
+    for (const char* text : {"Lindenstraße 17", "0171 2345678", "Liver of Vormund", "adm332211"})
+        EXPECT_TRUE(words.occur_in(text)) << text;
+    EXPECT_FALSE(words.occur_in("Liver 17"));
+}
+
 TEST(DicomText, IsReadInItsCharacterSet) {
     EXPECT_EQ(utf8_of_dicom("M\xfcller", "ISO_IR 100"), "Müller");
     EXPECT_EQ(utf8_of_dicom("M\xfcller", "ISO 2022 IR 100\\ISO 2022 IR 87"), "Müller");
     EXPECT_EQ(utf8_of_dicom("\xbe\xf3\xb3\xe6", "ISO_IR 101 "), "žółć");
     EXPECT_EQ(utf8_of_dicom("Müller", "ISO_IR 192"), "Müller");
+    // Escape sequences of several sets.
+    EXPECT_EQ(utf8_of_dicom("Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B", "\\ISO 2022 IR 87"),
+              "Yamada^Tarou=山田^太郎");
+    EXPECT_EQ(utf8_of_dicom("\xd4\xcf\xc0\xde^\xc0\xdb\xb3=\x1b$B;3ED\x1b(J",
+                            "ISO 2022 IR 13\\ISO 2022 IR 87"),
+              "ﾔﾏﾀﾞ^ﾀﾛｳ=山田");
+    EXPECT_EQ(utf8_of_dicom("\xd4\xcf\xc0\xde", "ISO_IR 13"), "ﾔﾏﾀﾞ");
+    EXPECT_EQ(
+        utf8_of_dicom("Hong^Gildong=\x1b$)C\xfb\xf3^\x1b$)C\xd1\xce\xd4\xd7", "\\ISO 2022 IR 149"),
+        "Hong^Gildong=洪^吉洞");
+    EXPECT_EQ(utf8_of_dicom("Wang=\x1b$)A\xcd\xf5", "\\ISO 2022 IR 58"), "Wang=王");
+    EXPECT_EQ(utf8_of_dicom("a\x1b$Bz", ""), "a\x1b$Bz");
     // Without a set, or with bytes that are not of it.
     EXPECT_EQ(utf8_of_dicom("Müller", ""), "Müller");
     EXPECT_EQ(utf8_of_dicom("M\xfcller", ""), "Müller");

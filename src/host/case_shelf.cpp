@@ -230,18 +230,36 @@ std::vector<std::string> CaseShelf::problems() const {
     return problems;
 }
 
+void CaseShelf::name_offers() {
+    std::erase_if(offered_names_, [&](const auto& known) {
+        const auto folder = folders_.find(known.first);
+        return folder == folders_.end() || !folder->second.shared ||
+               folder->second.shared->description.name != known.second.own;
+    });
+    const auto is_taken = [&](const std::string& text) {
+        return std::any_of(offered_names_.begin(), offered_names_.end(),
+                           [&](const auto& known) { return known.second.offered == text; });
+    };
+    for (const auto& [name, folder] : folders_) {
+        if (!folder.shared || offered_names_.contains(name))
+            continue;
+        const std::string& own = folder.shared->description.name;
+        std::string offered = own;
+        for (int number = 2; is_taken(offered); ++number)
+            offered = own + " (" + std::to_string(number) + ")";
+        offered_names_[name] = {own, offered};
+    }
+}
+
 void CaseShelf::publish() {
+    name_offers();
     Offer offer;
     std::vector<session::CaseFacts>& offered = offer.cases;
-    std::map<std::string, int> times;  // that a name was offered
     std::map<ContentHash, std::shared_ptr<const Bytes>> content;
     for (const auto& [name, folder] : folders_)
         if (folder.shared) {
             offered.push_back(facts_of(*folder.shared));
-            // People choose by name.
-            const std::string& own = offered.back().name;
-            if (const int before = times[own]++; before > 0)
-                offered.back().name = own + " (" + std::to_string(before + 1) + ")";
+            offered.back().name = offered_names_.at(name).offered;
             content.insert(folder.shared->content.begin(), folder.shared->content.end());
             add_patient(folder, offer.patients);
         }

@@ -65,15 +65,22 @@ private:
     bool look_at(const std::string& name, Folder& folder);
     static void read_patient(const std::filesystem::path& path, Folder& folder);
     static void add_patient(const Folder& folder, std::vector<wire::Patient>& patients);
+    // Gives each offered folder a name of its own, since people choose by name, and leaves it the
+    // name that it has: nobody opens another patient than the one who had this name a minute ago.
+    void name_offers();
     void publish();
 
     const std::filesystem::path directory_;
     const Changed changed_;
     std::map<std::string, Folder> folders_;  // the thread's only; by name
-    std::string listing_problem_;            // likewise
-    bool has_too_many_ = false;              // likewise
-    int looks_ = 0;                          // likewise; the second one reads
-    mutable std::mutex mutex_;               // guards all below
+    struct OfferedName {
+        std::string own, offered;
+    };
+    std::map<std::string, OfferedName> offered_names_;  // by folder
+    std::string listing_problem_;                       // likewise
+    bool has_too_many_ = false;                         // likewise
+    int looks_ = 0;                                     // likewise; the second one reads
+    mutable std::mutex mutex_;                          // guards all below
     std::condition_variable stop_;
     std::map<ContentHash, std::shared_ptr<const Bytes>> content_;
     bool stopping_ = false;

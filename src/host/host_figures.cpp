@@ -309,7 +309,7 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
                 if (figures.places.cameras[i].*has_value)
                     out.value(labels(figures, i), value(figures.places.cameras[i]));
     };
-    per_place("camera_moved_mm", "How far a camera was moved since the host began.",
+    per_place("camera_moved_mm", "How far what a camera sees was displaced since the host began.",
               &Place::is_watched, [](const Place& p) { return p.moved_mm; });
     per_place("camera_moved_alarm", "1 while a camera is not where it was registered.",
               &Place::is_watched, [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });

@@ -168,10 +168,11 @@ void PlaceWatch::tell() {
                                         motion.turned_deg,
                                         problem(i)};
         if (std::exchange(renewals_[i], motion.renewals) != motion.renewals)
-            log::info("place watch",
-                      "what the camera sees has moved as one, and the other cameras show that the "
-                      "camera has not: it is compared with what it sees now",
-                      {{"camera", int(watched_[i])}});
+            log::warning("place watch",
+                         "what the camera sees has moved as one, and other cameras see it where it "
+                         "does: the scene was moved, or these cameras together; the camera is "
+                         "compared with what it sees now",
+                         {{"camera", int(watched_[i])}});
     }
     for (const RigWatch::Pair& pair : watch_.pairs())
         figures.pairs.push_back(

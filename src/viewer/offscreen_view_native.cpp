@@ -15,7 +15,8 @@ render::CameraView OffscreenView::view(const ViewChoice& view, Size size) const 
 }
 
 render::Picture OffscreenView::render(const Wish& wish, bool with_room) {
-    const render::CameraView view = this->view(wish.view, wish.size);
+    render::CameraView view = this->view(wish.view, wish.size);
+    view.room_from_eye = wish.room_from_eye.value_or(view.room_from_eye);
     std::vector<render::CameraView> eyes{view};
     if (wish.eye_distance_m) {
         const auto pair = render::stereo_pair(view, *wish.eye_distance_m);

@@ -41,6 +41,8 @@ public:
         std::string renderer;
         // If given, the picture is twice as wide: the left and the right eye's views side by side.
         std::optional<double> eye_distance_m;
+        // If given, the eye is here, looking along +z, with the lens of `view`.
+        std::optional<Pose> room_from_eye;
     };
     // Both throw Error if that camera has sent nothing, or if the driver reported an error.
     ColorImage picture(const Wish& wish) { return render(wish, true).color; }

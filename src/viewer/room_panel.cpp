@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/room_panel.h"
 
+#include "base/shown_name.h"
 #include "session/room_bytes.h"
 
 namespace theatron::viewer {
 namespace {
+
+constexpr std::size_t shortened_name = 24;  // characters of a name on a button
 
 void add(std::string& text, const std::string& part) {
     text += (text.empty() ? "" : ", ") + part;
@@ -56,7 +59,7 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
 
 RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
-    const auto button = [&](const char* label, RoomCommand command) {
+    const auto button = [&](std::string label, RoomCommand command) {
         panel.commands.push_back(std::move(command));
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
@@ -80,7 +83,9 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                              button(observes ? "Make expert" : "Make observer",
                                     Decide{Action::set_role, person.id,
                                            observes ? wire::Role::expert : wire::Role::observer}),
-                             button(facts.asked_removal == person.id ? "Really remove" : "Remove",
+                             button(facts.asked_removal == person.id
+                                        ? "Really remove " + clean_name(person.name, shortened_name)
+                                        : "Remove",
                                     Decide{Action::remove, person.id, {}})}});
     }
     if (!who.rows.empty() && facts.may_call)

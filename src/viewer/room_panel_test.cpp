@@ -103,7 +103,8 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
               wire::ManageAction::remove);
     EXPECT_EQ(buttons[2].label, "Remove");
     facts.asked_removal = person.id;
-    EXPECT_EQ(room_panel(facts).panels[0].rows.at(1).buttons[2].label, "Really remove");
+    EXPECT_EQ(room_panel(facts).panels[0].rows.at(1).buttons[2].label,
+              "Really remove " + person.name);
 }
 
 TEST(RoomPanel, OffersToGoToWhoeverCallsAndToCall) {

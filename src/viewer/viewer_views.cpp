@@ -88,7 +88,9 @@ void Viewer::change_point_size(double factor, TimePoint now) {
 void Viewer::freeze(TimePoint now) {
     frozen_ = !frozen_;
     if (!frozen_)
-        note("Live again", now);
+        note(participant_.looks_back() ? "Goes on; comma and period go to other moments"
+                                       : "Live again",
+             now);
 }
 
 bool Viewer::may(session::Right right) const {

@@ -171,10 +171,10 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
             for sentence in ("lacks the file 'part_1.thmesh'", "ct.thvolume' is", "case.json"):
                 self.wait_for_error(h, sentence)
-            # Two cases of the same name can both be opened.
-            write_case(self.cases / "whole2", "Whole", tumour=False)
-            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole", "Whole (2)"], 10)
-            shutil.rmtree(self.cases / "whole2")
+            # Two cases of the same name can both be opened, and the first one keeps its name.
+            write_case(self.cases / "a_whole", "Whole", tumour=False)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole (2)", "Whole"], 10)
+            shutil.rmtree(self.cases / "a_whole")
             for i in range(70):
                 (self.cases / f"zz{i}").mkdir()
             self.wait_for_error(h, "holds more than 64 folders; only the first ones by name are read.")

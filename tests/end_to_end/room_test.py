@@ -88,6 +88,19 @@ class Room(unittest.TestCase):
             self.assertEqual(look(h.greeting["link"])[0], 0)
             self.assertGreater(colorful(read_png(picture)), without + 100)
 
+    def test_a_picture_is_of_the_place_where_its_person_stands(self):
+        with host(self.folder / "state") as h, member(h.greeting["link"], "Anna") as anna:
+            anna.say("stand 2 1.4 2 2 1.4 1")
+            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+
+            def picture(line):
+                file = self.folder / "view.png"
+                with Process("join", h.greeting["link"], "--offscreen", file, "--size", "160x120", "--seconds", "1") as eye:
+                    eye.say(line)
+                    self.assertEqual(eye.end(60), 0, "".join(eye.errors))
+                return colorful(read_png(file))
+            self.assertGreater(picture("stand 2 1.4 0.8 2 1.4 2"), picture("stand 2 1.4 0.8 2 1.4 -2") + 100)
+
     def test_people_meet_hold_hand_over_and_let_go(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Zoë") as zoe:
             for person in (anna, zoe):

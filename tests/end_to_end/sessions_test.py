@@ -168,6 +168,7 @@ class Sessions(unittest.TestCase):
             self.assertNotIn("OR 5", [e.get("detail") for e in self.audited()])
             self.assertIn("There is a session 'OR 3'",
                           self.refusal("session", "create", "OR 3", "--state", self.state))
+            self.assertIn("'OR 3' has nearly the same name", self.refusal("session", "create", "or3", "--state", self.state))
 
             made = self.command("session", "create", "OR 4", "--camera", self.lamp)
             self.assertEqual((made["name"], made["state"]), ("OR 4", "open"))
