@@ -518,8 +518,8 @@ Facts Viewer::facts(TimePoint now) {
     facts.frozen = frozen_;
     RoomPanel panel;
     facts.past = past(now);
-    // The way back to the present comes first. Panels that others bring about come last: those
-    // above stay where they are.
+    // The way back to the present comes first. Panels that others bring about come below people and
+    // places, which stay where they are.
     if (!facts.past.empty())
         looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
                                 now, panel);
@@ -535,11 +535,11 @@ Facts Viewer::facts(TimePoint now) {
                                places_of(cameras()), followed_, role == wire::Role::operator_,
                                facts.visitors, session::may(role, session::Right::point),
                                is_calling(now), voices_.speaking, own_face_, asked_removal(now)}));
+        add_screen_panel(screens, panel);
         add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
             looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
                                     now, panel);
-        add_screen_panel(screens, panel);
     }
     panel = joined(std::move(panel), call_panel(callers()));
     // Its buttons would change the present by what is shown of the past.

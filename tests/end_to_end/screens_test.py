@@ -184,7 +184,8 @@ class Screens(unittest.TestCase):
             self.assertIn("--share", errors)
 
     def test_the_mouse_moves_a_screen_and_its_panel_pins_and_ends_it(self):
-        width, height, middle = 720, 600, (360, 300)
+        # High enough for the panel of screens below people and places.
+        width, height, middle = 720, 760, (360, 380)
         shared = f"{self.video},loop=1,width=0.2,place=0:1.5:-0.5"
         environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "cart")}
         with VirtualScreen(width, height) as x11, host(self.folder / "state5", self.lamp) as h, \
@@ -197,21 +198,21 @@ class Screens(unittest.TestCase):
             blue_green_red = lambda x, y: x11.pixels(x, y, 1, 1)[0][:3]
             is_shown = lambda x, y: is_green(blue_green_red(x, y)[::-1])
             wait_until(lambda: is_shown(*middle), WAIT)
-            drag = ("mousemove", *middle, "sleep", 0.2, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2)
-            end_drag = ("mousemove", 440, 300, "sleep", 0.2, "mouseup", 1)
+            drag = ("mousemove", *middle, "sleep", 0.2, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 380, "sleep", 0.2)
+            end_drag = ("mousemove", 440, 380, "sleep", 0.2, "mouseup", 1)
             x11.do(*drag, "key", "plus", "sleep", 0.2, *end_drag)
             moved = scope(ben.wait_for(lambda f: scope(f) and scope(f)["position"][0] > 0.05 and not scope(f)["held_by"], WAIT))
             self.assertAlmostEqual(moved["position"][1], 1.5, places=2)
             self.assertAlmostEqual(moved["scale"], 0.2 * 1.15)
-            wait_until(lambda: is_shown(440, 300))
+            wait_until(lambda: is_shown(440, 380))
 
-            x11.do("mousemove", 700, 590, "key", "p")
+            x11.do("mousemove", 700, 750, "key", "p")
             buttons = lambda: x11.buttons(width, height)
             # Smaller, Larger, Pin in place, End share: the first row of four.
             wait_until(lambda: len(row_of(buttons(), 4)) == 4)
             x11.do("mousemove", *row_of(buttons(), 4)[2], "click", 1)
             ben.wait_for(lambda f: scope(f)["screen"]["pinned"], WAIT)
-            x11.do("mousemove", 440, 300, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 300, "sleep", 0.2, "mouseup", 1)
+            x11.do("mousemove", 440, 380, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 380, "sleep", 0.2, "mouseup", 1)
             self.assertEqual(scope(ben.newest_json())["position"], moved["position"])
             wait_until(lambda: len(row_of(buttons(), 2)) == 2)
             x11.do("mousemove", *row_of(buttons(), 2)[1], "click", 1)

@@ -121,7 +121,7 @@ class WebHeadset(unittest.TestCase):
                    for y in range(40, height - 60, 5) for x in range(left + half // 3, left + half - 5, 3)}
                   for left in (0, half)]
         for eye in colors:
-            self.assertGreater(len(eye), 200)
+            self.assertGreater(len(eye), 150)  # an empty view has a handful
         # The eyes are apart: the halves are not the same picture.
         left, right = ([rows[height // 2][channels * x] for x in range(at, at + half)] for at in (0, half))
         self.assertNotEqual(left, right)

@@ -316,7 +316,8 @@ class Window(unittest.TestCase):
                 time.sleep(0.3)
                 type_in("key", "Down", "key", "space")
                 wait_until(self.has_main_button)
-                type_in("key", "Right", "key", "space")
+                # Forget, then Sure?
+                type_in("key", "Right", "key", "space", "sleep", "0.3", "key", "space")
                 wait_until(lambda: not links.read_text())
                 type_in("key", "Escape")
                 self.assertEqual(again.end(), 0, again.errors)
