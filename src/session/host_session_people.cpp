@@ -100,7 +100,9 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
                 here.muted = decision.action == ManageAction::mute;
                 membership_.set_muted(here.person, here.muted);
                 audit(here.muted ? What::muted : What::unmuted, own, by_name);
-                tell_standing(own);
+                // Who waits gets nothing of the session, and is told on entering.
+                if (!here.waits())
+                    tell_standing(own);
             }
             break;
         case ManageAction::set_role: {

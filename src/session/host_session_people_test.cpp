@@ -350,6 +350,18 @@ TEST_F(AskedPeople, WhoKnocksGetsNothingUntilAnOperatorAdmits) {
     EXPECT_TRUE(is_in(bob)) << "admitted once for the session";
 }
 
+TEST_F(AskedPeople, WhoWaitsIsNotToldThatItsOtherConnectionIsMuted) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "secret", int(bob));
+    EXPECT_EQ(manage(alice, ManageAction::admit, bob), ManageRefusal::none);
+    EXPECT_EQ(manage(alice, ManageAction::mute, bob), ManageRefusal::none);
+    EXPECT_TRUE(to<wire::Standing>(bob).at(0).muted);
+    EXPECT_TRUE(to<wire::Standing>(carol).empty());
+    EXPECT_EQ(manage(alice, ManageAction::admit, carol), ManageRefusal::none);
+    EXPECT_TRUE(session_->participants().at(carol).muted);
+}
+
 TEST_F(AskedPeople, OperatorsAndPublishersNeedNotAsk) {
     come(alice, "or");
     come(bob, "send");
