@@ -100,7 +100,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
                 here.muted = decision.action == ManageAction::mute;
                 membership_.set_muted(here.person, here.muted);
                 audit(here.muted ? What::muted : What::unmuted, own, by_name);
-                // Who waits gets nothing of the session, and is told on entering.
+                // A visitor gets nothing of the session, and is told on entering.
                 if (!here.waits())
                     tell_standing(own);
             }
