@@ -2,8 +2,8 @@
 # Eight sources of a target are compiled at once, in about half the processor time: in sanitizer builds all of
 # them, in other builds the libraries and programs, but for the modules below.
 
-# Their inner loops take most of the time of every figure in docs/, or measure it. The compiler limits inlining by the size of what
-# it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
+# Their inner loops take most of the time of every figure in docs/, or measure it. The compiler limits inlining by
+# the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical bench_library)
 
 # A source whose file-local names another source of its target also has is compiled alone. The compiler

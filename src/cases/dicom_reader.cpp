@@ -222,9 +222,10 @@ bool is_known_compression(const gdcm::FileMetaInformation& header) {
            gdcm::TransferSyntax::GetTSType(syntax.c_str()) != gdcm::TransferSyntax::TS_END;
 }
 
-// Reads the texts that identify the patient, also of files that are no slices. Returns true for
-// colours that are numbers in a table: where the table is not there, the library ends the process.
-bool has_palette(int descriptor, DicomSlice& slice) {
+// Reads what stands before the pixels: the texts that identify the patient, also of files that are
+// no slices. Returns true for colours that are numbers in a table: where the table is not there,
+// the library ends the process, so that such an image must not be read further.
+bool read_head(int descriptor, DicomSlice& slice) {
     DescriptorBuffer buffer(descriptor);
     std::istream stream(&buffer);
     gdcm::Reader reader;
@@ -238,7 +239,7 @@ bool has_palette(int descriptor, DicomSlice& slice) {
 }
 
 Answer read(int descriptor, DicomSlice& slice) {
-    if (has_palette(descriptor, slice))
+    if (const bool has_palette = read_head(descriptor, slice); has_palette)
         return Answer::color;
     DescriptorBuffer buffer(descriptor);
     std::istream stream(&buffer);

@@ -70,13 +70,14 @@ private:
     void name_offers();
     void publish();
 
-    const std::filesystem::path directory_;
-    const Changed changed_;
-    std::map<std::string, Folder> folders_;  // the thread's only; by name
     struct OfferedName {
         std::string own, offered;
     };
-    std::map<std::string, OfferedName> offered_names_;  // by folder
+
+    const std::filesystem::path directory_;
+    const Changed changed_;
+    std::map<std::string, Folder> folders_;             // the thread's only; by name
+    std::map<std::string, OfferedName> offered_names_;  // likewise; by the folder's name
     std::string listing_problem_;                       // likewise
     bool has_too_many_ = false;                         // likewise
     int looks_ = 0;                                     // likewise; the second one reads

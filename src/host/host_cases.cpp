@@ -24,8 +24,8 @@ std::string Host::Impl::lost_case() const {
                     [&](const session::CaseFacts& facts) { return facts.id == *open; }))
         return "";
     return "The open case is not in the folder of cases any more as it was opened: who has it "
-           "keeps "
-           "it, and who comes now does not get it. Put its folder back, or open another case.";
+           "keeps it, and who comes now does not get it. Put its folder back, or open another "
+           "case.";
 }
 
 std::vector<std::string> Host::Impl::case_problems() const {

@@ -61,7 +61,7 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
     const auto button = [&](std::string label, RoomCommand command) {
         panel.commands.push_back(std::move(command));
-        return xr::PanelButton{label, int(panel.commands.size()) - 1};
+        return xr::PanelButton{std::move(label), int(panel.commands.size()) - 1};
     };
     using Action = wire::ManageAction;
     xr::Panel who{"People", {}};
