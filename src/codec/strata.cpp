@@ -2,6 +2,7 @@
 #include "codec/strata.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -318,8 +319,12 @@ Status Codec::decode(ByteView encoded, const Reference* reference, MutableDepthV
     stream.states = payload->states;
     stream.words = scratch.words.data() + word_slack;
     stream.word_count = payload->words.size() / 2;
-    for (std::size_t i = 0; i < stream.word_count; ++i)
-        stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
+    if constexpr (std::endian::native == std::endian::little)
+        std::copy(payload->words.begin(), payload->words.end(),
+                  std::as_writable_bytes(std::span(stream.words, stream.word_count)).begin());
+    else
+        for (std::size_t i = 0; i < stream.word_count; ++i)
+            stream.words[i] = load_le<std::uint16_t>(payload->words.data() + 2 * i);
 
     const std::uint16_t* const depths = payload->ranks ? tables_.depths_of(values) : nullptr;
     if (!decode_steps(model, slots_.of(after.head->levels), stream, scratch.pixels.data()))

@@ -163,7 +163,7 @@ public:
                          V16 (&codes)[part_count]) {
         const D32 d;
         const D16 d16;
-        auto has_extra = hn::FirstN(d16, 0);
+        hn::Mask<D16> has_extra[part_count], any_extra = hn::FirstN(d16, 0);
         for (int part = 0; part < part_count; ++part) {
             V32 wide[wide_parts];
             widen(hn::ShiftLeft<probability_bits - 6>(predictions[part].context), wide);
@@ -180,13 +180,13 @@ public:
             }
             tokens[part] = hn::And(narrow(wide), hn::Set(d16, 0xff));
             codes[part] = hn::Sub(tokens[part], hn::Set(d16, first_token));
-            has_extra =
-                hn::Or(has_extra, hn::Or(hn::Gt(tokens[part], hn::Set(d16, first_long_token - 1)),
-                                         hn::Eq(tokens[part], hn::Set(d16, literal_low_token))));
+            has_extra[part] = hn::Or(less(hn::Set(d16, first_long_token - 1), tokens[part]),
+                                     hn::Eq(tokens[part], hn::Set(d16, literal_low_token)));
+            any_extra = hn::Or(any_extra, has_extra[part]);
         }
         refill();
-        if (HWY_UNLIKELY(!hn::AllFalse(d16, has_extra)))
-            read_extra(tokens, codes);
+        if (HWY_UNLIKELY(!hn::AllFalse(d16, any_extra)))
+            read_extra(has_extra, tokens, codes);
         return left_ >= 0;
     }
 
@@ -200,7 +200,9 @@ public:
     }
 
 private:
-    HWY_INLINE void read_extra(const V16 (&tokens)[part_count], V16 (&codes)[part_count]) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    HWY_INLINE void read_extra(const hn::Mask<D16> (&)[part_count], const V16 (&tokens)[part_count],
+                               V16 (&codes)[part_count]) {
         const D32 d;
         const V32 one = hn::Set(d, 1);
         for (int part = 0; part < part_count; ++part) {
@@ -225,6 +227,42 @@ private:
         }
         refill();
     }
+#else
+    // Lane by lane: a step has one or two lanes with further bits, seldom more.
+    HWY_INLINE void read_extra(const hn::Mask<D16> (&has_extra)[part_count],
+                               const V16 (&tokens)[part_count], V16 (&codes)[part_count]) {
+        alignas(64) std::uint16_t token[lane_count], code[lane_count];
+        alignas(64) std::uint32_t state[lane_count];
+        std::uint32_t lanes = 0, small = 0;
+        for (int part = 0; part < part_count; ++part) {
+            lanes |= std::uint32_t(bits_of(has_extra[part])) << (part * part_lanes);
+            hn::Store(tokens[part], D16(), token + part * part_lanes);
+            hn::Store(codes[part], D16(), code + part * part_lanes);
+        }
+        for (int i = 0; i < max_chunks; ++i)
+            hn::Store(states_[i], D32(), state + i * chunk_lanes);
+
+        for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
+            const unsigned bits = extra_bits(token[lane]);
+            const unsigned extra = state[lane] & ((1u << bits) - 1);
+            code[lane] = long_code_of(token[lane], extra);
+            state[lane] >>= bits;
+            small |= std::uint32_t(state[lane] < least_state) << lane;
+        }
+        // Only these states can be below least_state: the others were renormalised.
+        left_ -= std::ptrdiff_t(hwy::PopCount(small));
+        const std::uint16_t* from = words_ + left_;
+        for (std::uint32_t rest = small; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
+            state[lane] = state[lane] << 16 | *from++;
+        }
+        for (int part = 0; part < part_count; ++part)
+            codes[part] = hn::Load(D16(), code + part * part_lanes);
+        for (int i = 0; i < max_chunks; ++i)
+            states_[i] = hn::Load(D32(), state + i * chunk_lanes);
+    }
+#endif
 
     // Renormalises: each state below least_state takes one word.
     HWY_INLINE void refill() {
@@ -249,7 +287,7 @@ private:
     const std::uint32_t* slots_;
     const std::uint16_t* words_;
     std::ptrdiff_t left_;
-    V32 states_[max_chunks];
+    alignas(vector_alignment) V32 states_[max_chunks];
 };
 
 // Renormalises the marked states: appends their low 16 bits to the words.

@@ -244,13 +244,13 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
     Walk<blend> walk(model);
     LinearWeights weights;
     load_weights(model.weights, weights);
-    Window windows[part_count];
+    alignas(vector_alignment) Window windows[part_count];
     TokenReader reader(slots, stream);
     for (int t = 0; t < model.layout.steps; ++t) {
         const Step step = walk.begin(t);
-        Prediction predictions[part_count];
-        Outside outsides[part_count];
-        V16 tokens[part_count], codes[part_count];
+        alignas(vector_alignment) Prediction predictions[part_count];
+        alignas(vector_alignment) Outside outsides[part_count];
+        alignas(vector_alignment) V16 tokens[part_count], codes[part_count];
         for (int part = 0; part < part_count; ++part) {
             const int lane = part * part_lanes;
             Window& window = windows[part];
@@ -273,7 +273,7 @@ bool decode_steps_as(const Model& model, const SlotTable& slots, const Stream& s
             Prediction& p = predictions[part];
             const V16 token = tokens[part], code = codes[part];
             // Positions outside the image decode to a hole.
-            const auto is_measured = hn::Gt(token, hn::Set(d, literal_low_token - 1));
+            const auto is_measured = less(hn::Set(d, literal_low_token - 1), token);
 
             V16 difference = hn::Sub(hn::Xor(unzigzag(code), p.flip), p.flip);
             difference = hn::IfThenElseZero(is_measured, difference);

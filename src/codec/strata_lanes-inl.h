@@ -23,6 +23,8 @@ using VS16 = hn::Vec<S16>;
 
 inline constexpr int part_lanes = int(hn::MaxLanes(D16()));
 inline constexpr int part_count = lane_count / part_lanes;
+// Highway's vectors for WebAssembly have none of their own. One that crosses a cache line is slow.
+inline constexpr std::size_t vector_alignment = 64;
 
 // Converts the lowest bits of a 64-bit mask to a vector mask, and back.
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
@@ -51,6 +53,21 @@ HWY_INLINE std::uint64_t bits_of(hn::Mask<D16> mask) {
 #endif
 }
 #endif
+
+// a < b, both below 2^15: most instruction sets compare signed numbers only.
+HWY_INLINE hn::Mask<D16> less(V16 a, V16 b) {
+    return hn::RebindMask(D16(), hn::Lt(hn::BitCast(S16(), a), hn::BitCast(S16(), b)));
+}
+
+// A table that is loaded where it is used. em++ would put its bytes into the code, from which
+// browsers make a vector with four instructions each time.
+template <class T>
+HWY_INLINE const T* in_memory(const T* table) {
+#if HWY_TARGET == HWY_WASM
+    asm("" : "+r"(table));
+#endif
+    return table;
+}
 
 #if HWY_TARGET != HWY_SCALAR
 // The bytes of `from` at these places, 0 to 15, in each 16 bytes.

@@ -110,8 +110,8 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w,
     for (int i = 0; i < 4; ++i)
         error[i] =
             hn::Add(w.two_errors[i], hn::LoadU(d, traces.at(s.index - 3, triple0 + i) + lane - 1));
-    const auto second_of_01 = hn::Lt(error[1], error[0]);
-    const auto second_of_23 = hn::Lt(error[3], error[2]);
+    const auto second_of_01 = less(error[1], error[0]);
+    const auto second_of_23 = less(error[3], error[2]);
     const V16 best_01 = hn::Min(error[0], error[1]), worse_01 = hn::Max(error[0], error[1]);
     const V16 best_23 = hn::Min(error[2], error[3]), worse_23 = hn::Max(error[2], error[3]);
     const V16 pick_01 = hn::IfThenElse(second_of_01, candidate[1], candidate[0]);
@@ -119,18 +119,17 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w,
     const V16 pick_23 = hn::IfThenElse(second_of_23, candidate[3], candidate[2]);
     const V16 other_23 = hn::IfThenElse(second_of_23, candidate[2], candidate[3]);
 
-    const auto later = hn::Lt(best_23, best_01);
+    const auto later = less(best_23, best_01);
     const V16 least = hn::Min(best_01, best_23);
     const V16 pick = hn::IfThenElse(later, pick_23, pick_01);
     const V16 loser = hn::IfThenElse(later, pick_01, pick_23);
     const V16 partner = hn::IfThenElse(later, other_23, other_01);
     const V16 loser_error = hn::Max(best_01, best_23);
     const V16 partner_error = hn::IfThenElse(later, worse_23, worse_01);
-    const V16 next = hn::IfThenElse(hn::Lt(partner_error, loser_error), partner, loser);
+    const V16 next = hn::IfThenElse(less(partner_error, loser_error), partner, loser);
     const V16 next_error = hn::Min(partner_error, loser_error);
 
-    const auto close =
-        hn::Lt(hn::Add(next_error, next_error), hn::Add(least, hn::Add(least, least)));
+    const auto close = less(hn::Add(next_error, next_error), hn::Add(least, hn::Add(least, least)));
     return hn::IfThenElse(close, hn::AverageRound(pick, next), pick);
 }
 
@@ -172,12 +171,12 @@ HWY_INLINE V16 level_of(V16 activity, V16 how_far) {
     const V16 most = hn::Set(d, 15);
     const auto look_up = [&](const std::uint8_t* table, V16 index) HWY_ATTR {
         const auto bytes = hn::BitCast(d8, hn::Min(index, most));
-        return hn::BitCast(d, bytes_at(hn::LoadDup128(d8, table), bytes));
+        return hn::BitCast(d, bytes_at(hn::LoadDup128(d8, in_memory(table)), bytes));
     };
     const V16 side = look_up(context_tables.side, how_far);
     const V16 part = hn::Add(look_up(context_tables.low, activity),
                              look_up(context_tables.high, hn::ShiftRight<3>(activity)));
-    const auto is_last = hn::Gt(activity, hn::Set(d, activity_bounds[8] - 1));
+    const auto is_last = less(hn::Set(d, activity_bounds[8] - 1), activity);
     return hn::Add(hn::Add(part, side), hn::IfThenElseZero(is_last, hn::Set(d, 3)));
 #endif
 }
@@ -244,7 +243,7 @@ HWY_INLINE Prediction predict(const LinearWeights& weights, const Step& s, Trace
     const V16 level = level_of(activity, how_far);
 
     // True if all marks of the neighbourhood and the reference's pixels are measured.
-    auto is_whole = hn::Gt(marks, hn::Set(d, 6 * measured_mark - 1));
+    auto is_whole = less(hn::Set(d, 6 * measured_mark - 1), marks);
     V16 neighbourhood = hn::Add(hn::And(hn::ShiftRight<10>(marks), hn::Set(d, 7 << 2)),
                                 hn::Set(d, mixed_contexts + (temporal ? 0 : 3)));
     if constexpr (temporal) {

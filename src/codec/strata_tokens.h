@@ -58,6 +58,14 @@ constexpr std::uint16_t code_of(unsigned token, unsigned extra) {
     return std::uint16_t(((2 | (half & 1)) << (half / 2 - 1)) | extra);
 }
 
+// The code of a token with further bits: the zigzagged difference, or the depth itself of a
+// literal.
+constexpr std::uint16_t long_code_of(unsigned token, unsigned extra) {
+    if (token == literal_low_token || token == literal_high_token)
+        return std::uint16_t((token == literal_high_token ? 0x8000 : 0) | extra);
+    return code_of(token, extra);
+}
+
 static_assert(token_of(65535).token + 1 == literal_high_token);
 static_assert(code_of(token_of(54321).token, token_of(54321).extra) == 54321);
 static_assert(code_of(token_of(24).token, token_of(24).extra) == 24);
