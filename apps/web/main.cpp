@@ -90,7 +90,7 @@ EMSCRIPTEN_KEEPALIVE int theatron_draw(int width, int height) {
 // first.
 EMSCRIPTEN_KEEPALIVE void theatron_prepare() {
     if (page().visit && page().visit->viewer.pictures() > 0 && render::prepare_font_atlas())
-        web::guarded([] { page().visit->viewer.prepare(); });
+        web::guarded([] { page().visit->viewer.prepare(!page().visit->drawing.is_waiting()); });
 }
 
 // 1 if the GPU has finished a picture since the last call.

@@ -84,6 +84,8 @@ void open_context() {
     emscripten_webgl_init_context_attributes(&attributes);
     attributes.majorVersion = 2;
     attributes.alpha = attributes.depth = attributes.antialias = EM_FALSE;
+    // Each extension is a question to the browser's graphics process, and none is used by itself.
+    attributes.enableExtensionsByDefault = EM_FALSE;
     attributes.powerPreference = EM_WEBGL_POWER_PREFERENCE_HIGH_PERFORMANCE;
     const auto context = emscripten_webgl_create_context("#view", &attributes);
     if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS)

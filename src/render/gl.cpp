@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <list>
 #include <regex>
+
+#ifdef __EMSCRIPTEN__
+#include <emscripten/html5.h>
+#endif
 
 #include "base/error.h"
 #include "render/shader_source.h"
@@ -122,40 +127,124 @@ GLuint compile_shader(GLenum kind, const std::vector<ShaderPart>& parts) {
     throw Error(problem);
 }
 
-// Asks for nothing before both shaders are on their way: each question waits for the driver, which
-// in a browser is another process.
-Program::Program(ShaderFiles vertex, ShaderFiles fragment) {
-    const std::pair<GLenum, ShaderFiles> stages[] = {{GL_VERTEX_SHADER, vertex},
-                                                     {GL_FRAGMENT_SHADER, fragment}};
-    std::vector<std::pair<GLuint, std::vector<ShaderPart>>> shaders;
-    for (const auto& [kind, files] : stages) {
-        std::vector<ShaderPart> parts;
-        for (const std::string_view file : files)
-            parts.push_back(find_part(file));
-        shaders.emplace_back(begin_shader(kind, parts), parts);
-        glAttachShader(name(), shaders.back().first);
-    }
-    glLinkProgram(name());
-    GLint linked = 0;
-    glGetProgramiv(name(), GL_LINK_STATUS, &linked);
-    std::string problem;
-    if (!linked) {
-        for (const auto& [shader, parts] : shaders)
-            if (problem.empty())
-                problem = compile_problem(shader, parts);
-        if (problem.empty())
-            problem = "The shaders " + std::string(*(vertex.end() - 1)) + " and " +
-                      std::string(*(fragment.end() - 1)) + " do not fit together on this driver: " +
-                      info_log(
-                          name(), [](auto... a) { glGetProgramiv(a...); },
-                          [](auto... a) { glGetProgramInfoLog(a...); });
-    }
-    // They live on as long as the program. Not earlier: a browser's client knows no deleted shader.
-    for (const auto& [shader, parts] : shaders)
-        glDeleteShader(shader);
-    if (!problem.empty())
-        throw Error(problem);
+namespace {
+constexpr GLenum completion_status = 0x91B1;  // of KHR_parallel_shader_compile
 }
+
+// A program whose shaders and linking are on their way, and their parts for messages.
+struct Program::Begun {
+    std::vector<std::string_view> vertex, fragment;  // names of files
+    GlObject<ProgramKind> program;
+    std::vector<std::pair<GLuint, std::vector<ShaderPart>>> shaders;
+
+    // Asks for nothing: each question waits for the driver, which in a browser is another process.
+    Begun(ShaderFiles vertex_files, ShaderFiles fragment_files)
+        : vertex(vertex_files), fragment(fragment_files) {
+        for (const auto& [kind, files] :
+             {std::pair{GLenum(GL_VERTEX_SHADER), vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
+            std::vector<ShaderPart> parts;
+            for (const std::string_view file : files)
+                parts.push_back(find_part(file));
+            shaders.emplace_back(begin_shader(kind, parts), parts);
+            glAttachShader(program.name(), shaders.back().first);
+        }
+        glLinkProgram(program.name());
+    }
+    Begun(Begun&& other) noexcept
+        : vertex(std::move(other.vertex)),
+          fragment(std::move(other.fragment)),
+          program(std::move(other.program)),
+          shaders(std::exchange(other.shaders, {})) {}
+    Begun& operator=(Begun&&) = delete;
+    // The shaders live on as long as the program. They are not deleted earlier: a browser's client
+    // knows no deleted shader.
+    ~Begun() {
+        for (const auto& [shader, parts] : shaders)
+            glDeleteShader(shader);
+    }
+
+    bool is_of(ShaderFiles vertex_files, ShaderFiles fragment_files) const {
+        return std::equal(vertex.begin(), vertex.end(), vertex_files.begin(), vertex_files.end()) &&
+               std::equal(fragment.begin(), fragment.end(), fragment_files.begin(),
+                          fragment_files.end());
+    }
+
+    // Throws Error where it is not linked.
+    GlObject<ProgramKind> take_linked() {
+        if (const std::string why = problem(); !why.empty())
+            throw Error(why);
+        return std::move(program);
+    }
+
+private:
+    // Empty where the program is linked.
+    std::string problem() const {
+        GLint linked = 0;
+        glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+        if (linked)
+            return {};
+        for (const auto& [shader, parts] : shaders)
+            if (std::string problem = compile_problem(shader, parts); !problem.empty())
+                return problem;
+        return "The shaders " + std::string(vertex.back()) + " and " +
+               std::string(fragment.back()) + " do not fit together on this driver: " +
+               info_log(
+                   program.name(), [](auto... a) { glGetProgramiv(a...); },
+                   [](auto... a) { glGetProgramInfoLog(a...); });
+    }
+};
+
+struct BegunPrograms::Impl {
+    std::list<Program::Begun> programs;
+    bool tells_completion = false;
+
+    // Null where there is none.
+    static Impl*& only() {
+        static Impl* only = nullptr;
+        return only;
+    }
+    static Program::Begun take(ShaderFiles vertex, ShaderFiles fragment) {
+        if (only())
+            for (auto at = only()->programs.begin(); at != only()->programs.end(); ++at)
+                if (at->is_of(vertex, fragment)) {
+                    Program::Begun begun = std::move(*at);
+                    only()->programs.erase(at);
+                    return begun;
+                }
+        return {vertex, fragment};
+    }
+};
+
+BegunPrograms::BegunPrograms() : impl_(std::make_unique<Impl>()) {
+    Impl::only() = impl_.get();
+#ifdef __EMSCRIPTEN__
+    impl_->tells_completion = emscripten_webgl_enable_extension(
+        emscripten_webgl_get_current_context(), "KHR_parallel_shader_compile");
+#endif
+}
+
+BegunPrograms::~BegunPrograms() {
+    Impl::only() = nullptr;
+}
+
+void BegunPrograms::begin(ShaderFiles vertex, ShaderFiles fragment) {
+    impl_->programs.emplace_back(vertex, fragment);
+}
+
+bool BegunPrograms::are_ready() const {
+    if (!impl_->tells_completion)
+        return true;
+    return std::all_of(impl_->programs.begin(), impl_->programs.end(), [](const auto& begun) {
+        GLint complete = 0;
+        glGetProgramiv(begun.program.name(), completion_status, &complete);
+        return complete != 0;
+    });
+}
+
+Program::Program(ShaderFiles vertex, ShaderFiles fragment)
+    : Program(BegunPrograms::Impl::take(vertex, fragment)) {}
+
+Program::Program(Begun begun) : program_(begun.take_linked()) {}
 
 GLint Program::uniform(const char* uniform_name) const {
     return glGetUniformLocation(name(), uniform_name);

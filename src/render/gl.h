@@ -15,6 +15,7 @@
 #endif
 
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -106,7 +107,29 @@ public:
     void bind_block(const char* block_name, unsigned binding) const;
 
 private:
+    struct Begun;
+    friend class BegunPrograms;
+    explicit Program(Begun begun);
     GlObject<ProgramKind> program_;
+};
+
+// Programs that are begun without waiting for the driver, which may compile them beside. The next
+// Program of the same files takes the begun one over. At most one object of this class at a time.
+class BegunPrograms {
+public:
+    BegunPrograms();
+    ~BegunPrograms();
+    BegunPrograms(const BegunPrograms&) = delete;
+    BegunPrograms& operator=(const BegunPrograms&) = delete;
+
+    void begin(ShaderFiles vertex, ShaderFiles fragment);
+    // False while the driver still works on one, if it can tell. Does not wait for the driver.
+    bool are_ready() const;
+
+private:
+    friend class Program;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 // Compiles one shader of the given kind from parts with a name and a text each.

@@ -51,8 +51,37 @@ struct LightView {
     }
 };
 
-// The shaders of surfaces in one quality, with or without a texture and light: software drivers pay
-// for all branches.
+// An unlit surface has a texture, if only a white one.
+enum class Surface { plain, textured, unlit };
+
+// Calls use(vertex, fragment) with the shaders of surfaces in one quality, with or without a
+// texture and light: software drivers pay for all branches.
+template <class Use>
+auto lit_files(bool high, Surface surface, bool cuts, Use use) {
+    const std::string_view quality = high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
+                           texture = surface == Surface::plain ? "#define PLAIN"
+                                     : surface == Surface::textured
+                                         ? "#define TEXTURED"
+                                         : "#define TEXTURED\n#define UNLIT",
+                           cutting = cuts ? "#define CUT" : "#define WHOLE";
+    return use(ShaderFiles{quality, texture, "scene.vert"},
+               ShaderFiles{"output.glsl", quality, texture, cutting, "scene.frag"});
+}
+
+// The same for surfaces whose light is in their colours, and for depth alone.
+template <class Use>
+auto baked_files(Use use) {
+    return use(ShaderFiles{"baked.vert"}, ShaderFiles{"output.glsl", "baked.frag"});
+}
+template <class Use>
+auto shadow_files(Use use) {
+    return use(ShaderFiles{"scene_shadow.vert"}, ShaderFiles{"depth_only.frag"});
+}
+
+constexpr auto make_program = [](ShaderFiles vertex, ShaderFiles fragment) {
+    return Program(vertex, fragment);
+};
+
 struct LitProgram {
     Program program;
     GLint clip_from_room = program.uniform("clip_from_room");
@@ -74,9 +103,8 @@ struct LitProgram {
     GLint spot_along = program.uniform("spot_along");
     GLint spot = program.uniform("spot");
 
-    LitProgram(std::string_view quality, std::string_view texture, std::string_view cutting)
-        : program({quality, texture, "scene.vert"},
-                  {"output.glsl", quality, texture, cutting, "scene.frag"}) {
+    LitProgram(bool high, Surface surface, bool cuts)
+        : program(lit_files(high, surface, cuts, make_program)) {
         program.set_sampler("environment", environment_unit);
         program.set_sampler("shadow_map", shadow_unit);
         program.set_sampler("scene_depth", scene_depth_unit);
@@ -84,9 +112,8 @@ struct LitProgram {
     }
 };
 
-// The shaders of surfaces whose light is in their colours.
 struct BakedProgram {
-    Program program{{"baked.vert"}, {"output.glsl", "baked.frag"}};
+    Program program = baked_files(make_program);
     GLint clip_from_room = program.uniform("clip_from_room");
     GLint light_from_room = program.uniform("light_from_room");
     GLint room_from_object = program.uniform("room_from_object");
@@ -98,9 +125,6 @@ struct BakedProgram {
         program.set_sampler("surface_texture", surface_unit);
     }
 };
-
-// An unlit surface has a texture, if only a white one.
-enum class Surface { plain, textured, unlit };
 
 struct LitPicture {
     const SceneFrame& frame;
@@ -119,7 +143,7 @@ struct ScenePasses::Parts {
     const LitProgram* in_use = nullptr;
     std::optional<BakedProgram> baked;  // made when first used
     bool baked_in_use = false;
-    Program shadow{{"scene_shadow.vert"}, {"depth_only.frag"}};
+    Program shadow = shadow_files(make_program);
     GLint shadow_clip_from_object = shadow.uniform("clip_from_object");
     SceneTexture white{{1, 1}};  // for surfaces without a texture
     Texture environment;
@@ -219,11 +243,7 @@ struct ScenePasses::Parts {
         const bool high = frame.quality == SceneQuality::high;
         std::optional<LitProgram>& wanted = lit[high][int(surface)][cuts];
         if (!wanted)
-            wanted.emplace(high ? "#define HIGH_QUALITY" : "#define LOW_QUALITY",
-                           surface == Surface::plain      ? "#define PLAIN"
-                           : surface == Surface::textured ? "#define TEXTURED"
-                                                          : "#define TEXTURED\n#define UNLIT",
-                           cuts ? "#define CUT" : "#define WHOLE");
+            wanted.emplace(high, surface, cuts);
         if (in_use == &*wanted)
             return;
         baked_in_use = false;
@@ -307,6 +327,22 @@ struct ScenePasses::Parts {
 
 SceneQuality usual_quality() {
     return is_software(driver_name()) ? SceneQuality::low : SceneQuality::high;
+}
+
+BegunScenePrograms::BegunScenePrograms(SceneQuality quality)
+    : programs_(std::make_unique<BegunPrograms>()) {
+    const auto begin = [&](ShaderFiles vertex, ShaderFiles fragment) {
+        programs_->begin(vertex, fragment);
+    };
+    shadow_files(begin);
+    baked_files(begin);
+    for (const Surface surface : {Surface::plain, Surface::textured, Surface::unlit})
+        lit_files(quality == SceneQuality::high, surface, false, begin);
+}
+BegunScenePrograms::~BegunScenePrograms() = default;
+
+bool BegunScenePrograms::are_ready() const {
+    return programs_->are_ready();
 }
 
 ScenePasses::ScenePasses(const FontAtlas* atlas) : parts_(std::make_unique<Parts>(atlas)) {}

@@ -18,6 +18,20 @@ namespace theatron::render {
 // High; low if the processor draws instead of a graphics card. Needs a current context.
 SceneQuality usual_quality();
 
+class BegunPrograms;
+
+// The programs for most surfaces, begun without waiting for the driver (BegunPrograms of gl.h).
+// ScenePasses takes them over as long as this object lives.
+class BegunScenePrograms {
+public:
+    explicit BegunScenePrograms(SceneQuality quality);
+    ~BegunScenePrograms();
+    bool are_ready() const;
+
+private:
+    std::unique_ptr<BegunPrograms> programs_;
+};
+
 class ScenePasses {
 public:
     // Texts are left out without an atlas.

@@ -361,12 +361,19 @@ void LiveScene::make_passes() {
     passes_ = std::make_unique<render::ScenePasses>(&atlas);
 }
 
-bool LiveScene::prepare() {
+bool LiveScene::prepare(bool gpu_is_idle) {
     if (!choice_.in_steps || !choice_.shown)
         return false;
     if (passes_)
         return room_.build_step(frame_.quality);
-    frame_.quality = choice_.quality.value_or(render::usual_quality());
+    if (!begun_programs_) {
+        frame_.quality = choice_.quality.value_or(render::usual_quality());
+        begun_programs_ = std::make_unique<render::BegunScenePrograms>(frame_.quality);
+    }
+    // Questions to the driver wait for all that it does. In a headset it is never seen idle.
+    constexpr int busy_patience = 60;
+    if ((!gpu_is_idle && ++busy_steps_ < busy_patience) || !begun_programs_->are_ready())
+        return false;
     make_passes();
     return true;
 }

@@ -111,8 +111,9 @@ public:
     bool shows_present(CameraId camera) const;
 
     // A step of the work on the room, of some milliseconds; true if the picture changes by it. Only
-    // needed with RoomChoice::in_steps.
-    bool prepare();
+    // needed with RoomChoice::in_steps. A step that asks the driver something waits a while for an
+    // idle GPU.
+    bool prepare(bool gpu_is_idle);
 
     // Draws clouds and room into a cleared target. Throws Error if the driver cannot do it.
     void draw(const render::CameraView& view, const render::DrawTarget& target,
@@ -171,6 +172,8 @@ private:
     render::SceneFrame frame_;                        // of the picture that is drawn
     std::unique_ptr<render::ScenePasses> passes_;     // made when there is a room
     std::uint64_t generation_ = 0;
+    std::unique_ptr<render::BegunScenePrograms> begun_programs_;  // of prepare()
+    int busy_steps_ = 0;  // in which they waited for the GPU
     std::map<CameraId, double> presence_;
     std::set<CameraId> left_out_;  // not drawn: of another moment than the others
     TimePoint faded_at_, judged_at_;

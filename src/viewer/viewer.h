@@ -66,8 +66,10 @@ public:
     // camera of the chosen view does not exist.
     bool step(Size picture, TimePoint now);
 
-    // With RoomChoice::in_steps: a step of the work on the room, some milliseconds.
-    void prepare() { scene_changed_ = scene_.prepare() || scene_changed_; }
+    // With RoomChoice::in_steps: a step of the work on the room, some milliseconds. See LiveScene.
+    void prepare(bool gpu_is_idle) {
+        scene_changed_ = scene_.prepare(gpu_is_idle) || scene_changed_;
+    }
 
     // Needs facts().has_picture. Draws into a cleared target that has way().scale of `picture` on
     // each side. If the driver cannot run a renderer, the previous one is used again; Error if

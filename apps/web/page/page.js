@@ -414,6 +414,7 @@ async function main() {
     }
 
     const loading = load_client();
+    Voice.warm_up();
     page.graphics = find_graphics();
     if (page.graphics !== "card") {
         $("graphics_hint").textContent = text(page.graphics === "none" ? "no_webgl" : "no_card");
@@ -443,6 +444,8 @@ async function main() {
             page.way = page.graphics === "none" || $("way").value === "flat" ? "flat" : "room";
             $("panels").hidden = false;
             enter(client);
+            // Opening the sound is one long call of the browser: in a task of its own, while the host answers.
+            await new Promise(soon => setTimeout(soon));
             // Without sound the rest goes on; the panels say what is missing.
             voice.begin().catch(error => console.warn(`no sound: ${error.message}`));
             if ($("speaks").checked)

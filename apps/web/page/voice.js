@@ -115,6 +115,12 @@ export class Voice {
         return !!(globalThis.AudioContext && globalThis.AudioWorkletNode && globalThis.AudioDecoder && globalThis.AudioEncoder);
     }
 
+    // Asks for what nobody needs: the browser starts its process for sound beside the page, and begin() need not wait for it.
+    static warm_up() {
+        if (Voice.is_supported())
+            navigator.mediaDevices?.enumerateDevices().catch(() => {});
+    }
+
     // Call it in an event of the user: before one, browsers play nothing.
     async begin() {
         if (!Voice.is_supported())
