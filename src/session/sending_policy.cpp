@@ -21,6 +21,10 @@ constexpr double clearly_better = 1.3;
 constexpr int late_measures = 3;
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
+// Before trials of a receiver with which none has failed. Nothing shows the rate of a link that
+// holds nothing back, as behind a pause of the receiver: a browser's page that loads takes nothing
+// for tenths of a second.
+constexpr Duration calm_to_try = std::chrono::seconds(1);
 constexpr Duration longest_patience = std::chrono::seconds(60);
 // Smallest time of a goal that is left for the sender's own queue.
 constexpr Duration smallest_margin = std::chrono::milliseconds(40);
@@ -54,6 +58,7 @@ bool SendingPolicy::fail_trial(const LinkMeasure& link) {
     if (!trying_)
         return false;
     trying_ = false;
+    has_failed_ = true;
     History& history = history_[std::size_t(step_)];
     history.patience = std::min(2 * history.patience, longest_patience);
     history.failed = true;
@@ -140,8 +145,9 @@ bool SendingPolicy::step_up(const LinkMeasure& link, std::span<const StepNeed> n
     const History& history = history_[std::size_t(step_ - 1)];
     const bool better_link =
         history.carried > 0 && link.bytes_per_second > clearly_better * history.carried;
-    const Duration calm =
-        has_room && (!history.failed || better_link) ? calm_to_go_up : history.patience;
+    const Duration calm = has_room && (!history.failed || better_link) ? calm_to_go_up
+                          : has_failed_                                ? history.patience
+                                                                       : calm_to_try;
     if (now - calm_since_ < calm)
         return false;
     trying_ = true;

@@ -7,7 +7,7 @@
 // first step that the link is measured to carry. Up: one step at a time, when
 // the measured link has room for it, else as a trial. A step up that fails is
 // taken back, and the next time to that step waits twice as long unless the link
-// has become better, so nothing swings.
+// has become better, so nothing swings. Before the first one that fails, trials come soon.
 #pragma once
 
 #include <algorithm>
@@ -63,9 +63,10 @@ private:
     int step_ = 0;
     SendingReason reason_ = SendingReason::none;
     int late_in_a_row_ = 0;
-    TimePoint settled_;     // no other step down before
-    TimePoint calm_since_;  // nothing late and nothing dropped
-    bool trying_ = false;   // the last step up is still a trial
+    TimePoint settled_;        // no other step down before
+    TimePoint calm_since_;     // nothing late and nothing dropped
+    bool trying_ = false;      // the last step up is still a trial
+    bool has_failed_ = false;  // any trial yet
     TimePoint went_up_;
 
     static constexpr Duration first_patience = std::chrono::seconds(3);

@@ -332,6 +332,26 @@ TEST(AdaptiveSending, AShortStallIsNoSlowLink) {
     EXPECT_GE(s.depth.size(), 500u);
 }
 
+// A browser's page that loads on a busy machine takes nothing for tenths of a second, several
+// times.
+TEST(AdaptiveSending, AReceiverThatIsBusyWhileItLoadsSoonGetsEverything) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        SCOPED_TRACE(seed);
+        Simulation s(30 * mbit, seed);
+        s.down.bytes_per_second = 400 * mbit;
+        s.down.delay = s.up.delay = 1ms;
+        for (int i = 0; i < 5; ++i) {
+            s.down.stall(300ms, s.now);
+            s.run(0.35);
+        }
+        const TimePoint loaded = s.now;
+        s.run(10);
+        EXPECT_EQ(s.level(), 0);
+        ASSERT_FALSE(s.levels.empty());
+        EXPECT_LT(to_seconds(s.levels.back().first - loaded), 1.5);
+    }
+}
+
 TEST(AdaptiveSending, KeepsToACeiling) {
     Simulation s(40 * mbit, 1, {150, 15'000});
     s.down.bytes_per_second = 200 * mbit;
