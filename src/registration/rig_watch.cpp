@@ -33,8 +33,14 @@ constexpr double nearest_displaced = 0.6;
 // The smallest eigenvalue of the mean of n n^T over the normals that agree: below, there is a
 // direction in which the camera can have moved.
 constexpr double least_spread = 0.03;
-constexpr double least_measured = 0.02;   // of the picture, of a camera that sees something
-constexpr double cleared_share = 0.6;     // of the alarm's size
+constexpr double least_measured = 0.02;  // of the picture, of a camera that sees something
+constexpr double cleared_share = 0.6;    // of the alarm's size
+// Changes of this size tell whether a point has moved; a point within this share of either is told.
+constexpr double least_told_m = 0.003, told_share = 0.25;
+constexpr double least_rest = 0.05;  // of the points that are told
+constexpr std::size_t least_rest_points = 40;
+// Motions of two cameras in the room that differ by less are one: metres, and share of the size.
+constexpr double alike_m = 0.002, alike_share = 0.3;
 constexpr double overlap_reach_m = 0.15;  // larger distances are other surfaces
 constexpr double base_reach_m = 0.04;
 constexpr std::size_t least_overlap = 80;
@@ -86,6 +92,29 @@ double size_m(const Pose& motion, const std::vector<PointOnPlane>& points) {
         squares += dot(shift, shift) / double(points.size());
     }
     return std::sqrt(squares);
+}
+
+// True if part of the points stands where it was although a camera that moved by `motion` would see
+// it elsewhere, and if that part is behind what did move: the room is behind what moves in it, and
+// what is fixed to the camera, and so moves with it, is before the room.
+bool rest_stands_still(const Pose& motion, const std::vector<PointOnPlane>& points) {
+    std::size_t still = 0, moved = 0;
+    double still_z = 0, moved_z = 0;
+    for (const PointOnPlane& p : points) {
+        const double expected = -dot(p.normal, motion * p.at - p.at);
+        const double tolerance = std::min(on_plane_m, told_share * std::abs(expected));
+        if (std::abs(expected) < least_told_m)
+            continue;
+        if (std::abs(p.apart_m) < tolerance) {
+            ++still;
+            still_z += p.at.z;
+        } else if (std::abs(p.apart_m - expected) < tolerance) {
+            ++moved;
+            moved_z += p.at.z;
+        }
+    }
+    return still >= least_rest_points && double(still) >= least_rest * double(still + moved) &&
+           still_z * double(moved) >= moved_z * double(still);
 }
 
 }  // namespace
@@ -145,6 +174,9 @@ RigWatch::RigWatch(const std::vector<Camera>& cameras)
                            0,
                            0,
                            0,
+                           {},
+                           false,
+                           {},
                            {}});
         states_.back().surface.bias.offset_m = camera.depth_offset_m;
         states_.back().motion.room_from_camera = camera.room_from_camera;
@@ -162,6 +194,8 @@ void RigWatch::begin_reference(State& state) {
     state.base.clear();
     state.recent.clear();
     state.above = state.below = state.matched = state.denied = state.gone = state.hidden = 0;
+    state.stands_still = false;
+    state.moving_since.reset();
 }
 
 bool RigWatch::is_due(std::size_t camera, TimePoint captured) const {
@@ -230,6 +264,7 @@ void RigWatch::add_to_reference(std::size_t camera, const std::vector<SurfacePoi
         return;
     }
     state.motion.is_covered = false;
+    state.complete_since = state.captured;
     note_base(camera);
 }
 
@@ -279,15 +314,25 @@ void RigWatch::compare_with_reference(std::size_t camera) {
     const Change change = change_of(state);
     motion.is_known = found.points >= least_points && found.share >= least_share &&
                       (change.gone < least_gone || fixes_all_directions(found.motion, points));
+    state.stands_still = false;
     if (!motion.is_known)
         return on_mismatch(state, change);
     on_match(state);
-    if (found.size_m >= alarm_m && !motion.is_alarm && overlaps_deny(camera, found.motion)) {
-        if (++state.denied >= evaluations_to_renew) {
-            ++motion.renewals;
-            begin_reference(state);
+    if (found.size_m < alarm_m)
+        state.moving_since.reset();
+    else if (!state.moving_since)
+        state.moving_since = state.captured;
+    const bool rest_is_still = state.moving_since && rest_stands_still(found.motion, points);
+    state.stands_still = rest_is_still || found.size_m < cleared_share * alarm_m;
+    if (state.moving_since && !motion.is_alarm) {
+        const Mover mover = told_by_overlaps(camera, found.motion);
+        if (mover == Mover::scene || (mover == Mover::unknown && rest_is_still)) {
+            if (++state.denied >= evaluations_to_renew) {
+                ++motion.renewals;
+                begin_reference(state);
+            }
+            return;
         }
-        return;
     }
     state.denied = 0;
     motion.moved_m = size_m(found.motion, points);
@@ -298,8 +343,12 @@ void RigWatch::compare_with_reference(std::size_t camera) {
     state.below = motion.moved_m < cleared_share * alarm_m ? state.below + 1 : 0;
     if (state.above * period_ >= time_to_alarm)
         motion.is_alarm = true;
-    if (state.below >= evaluations_to_clear)
+    if (state.below >= evaluations_to_clear) {
         motion.is_alarm = false;
+        motion.together_with.reset();
+    }
+    if (motion.is_alarm && !motion.together_with)
+        motion.together_with = moved_alike(camera);
 }
 
 RigWatch::Change RigWatch::change_of(const State& state) {
@@ -347,12 +396,15 @@ void RigWatch::on_mismatch(State& state, const Change& change) {
     ++state.hidden;
     const bool is_moved = change.gone >= least_gone || (change.displaced >= least_displaced &&
                                                         change.displaced > change.agreeing);
+    if (is_moved && !state.moving_since)
+        state.moving_since = state.captured;
     state.above = is_moved ? state.above + 1 : 0;
     state.gone = is_moved ? state.gone + 1 : std::max(0, state.gone - 1);
     if (state.gone * period_ >= time_to_lose) {
         motion.is_alarm = motion.is_far = true;
         motion.moved_m = far_m;
         motion.turned_deg = 0;
+        motion.together_with.reset();
         motion.room_from_camera.reset();
     }
     motion.is_covered = !motion.is_far && state.hidden * period_ >= time_to_cover;
@@ -367,9 +419,50 @@ void RigWatch::accept_place(std::size_t camera) {
     begin_reference(state);
 }
 
+// A camera that has stood still since before the other one's picture began to move.
+bool RigWatch::is_witness(const State& other, const State& of) const {
+    return other.stands_still && of.moving_since && other.complete_since < *of.moving_since &&
+           of.captured - other.captured <= 4 * period_;
+}
+
+// Another camera whose place in the room changed by the same motion at the same time.
+std::optional<std::size_t> RigWatch::moved_alike(std::size_t camera) const {
+    const auto motion_in_room = [](const State& state) {
+        return *state.motion.room_from_camera * inverse(*state.about.room_from_camera);
+    };
+    const State& state = states_[camera];
+    if (!state.motion.room_from_camera)
+        return {};
+    const Pose own = motion_in_room(state);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        const State& other = states_[i];
+        if (i == camera || !state.moving_since || !other.moving_since ||
+            !other.motion.room_from_camera ||
+            std::chrono::abs(*state.moving_since - *other.moving_since) > time_to_alarm)
+            continue;
+        const Pose its = motion_in_room(other);
+        double squares = 0, apart_squares = 0;
+        int count = 0;
+        for (const State* seen_by : {&state, &other})
+            for (const SurfacePoint& point : seen_by->reference.points)
+                if (point.is_valid()) {
+                    const Vec3 at = *seen_by->about.room_from_camera * point.at;
+                    const Vec3 shift = own * at - at, apart = own * at - its * at;
+                    squares += dot(shift, shift);
+                    apart_squares += dot(apart, apart);
+                    ++count;
+                }
+        const double size = std::sqrt(squares / std::max(1, count));
+        if (std::sqrt(apart_squares / std::max(1, count)) < std::max(alike_m, alike_share * size))
+            return i;
+    }
+    return {};
+}
+
 // If the camera moved, distances in its overlaps have changed by the motion's part along the
 // normals; if the scene did, they have not.
-bool RigWatch::overlaps_deny(std::size_t camera, const Pose& reference_from_now) const {
+RigWatch::Mover RigWatch::told_by_overlaps(std::size_t camera,
+                                           const Pose& reference_from_now) const {
     const State& state = states_[camera];
     const auto mean_of = [&](const std::vector<OverlapPoint>& points, std::size_t other,
                              double& information, double& square) {
@@ -393,6 +486,8 @@ bool RigWatch::overlaps_deny(std::size_t camera, const Pose& reference_from_now)
         if (base.points.size() < least_overlap)
             continue;
         const State& other = states_[base.other];
+        if (!is_witness(other, state))
+            continue;
         const auto now = overlap(state.recent.back().surface, other.surface, other.newest.view(),
                                  between(base.other, camera), base_reach_m);
         if (now.size() < least_overlap)
@@ -408,8 +503,8 @@ bool RigWatch::overlaps_deny(std::size_t camera, const Pose& reference_from_now)
     }
     constexpr double well_known = 0.25;  // deviation of the share that moved
     if (weights < 1 / (well_known * well_known))
-        return false;
-    return weighted / weights < 0.4;
+        return Mover::unknown;
+    return weighted / weights < 0.4 ? Mover::scene : Mover::camera;
 }
 
 void RigWatch::compare_with_other(std::size_t camera, const std::vector<SurfacePoint>& grid) {

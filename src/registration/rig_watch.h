@@ -5,9 +5,12 @@
 // after, so the static part of the picture is compared with what it was when the watch began, and
 // the rigid motion between them is fitted. Surfaces show a motion along their normals, and their
 // ends before something farther away show the others. A part of the scene that moves as one (a
-// table that is raised) may fit as well. The overlaps with other cameras decide then: they change
-// if the camera was moved, and stay as they are if the scene was. The overlaps also give the figure
-// by which the cameras' places differ now, for each pair.
+// table that is raised) may fit as well. The overlaps with cameras that stand still decide then:
+// they change if the camera was moved, and stay as they are if the scene was. Cameras that moved at
+// the same time decide nothing: on one arm they keep their overlap. Without a witness the rest of
+// the picture decides: a room that stands where it was, behind what moved, shows that the scene
+// moved. If there is no such rest, the camera has moved. The overlaps also give the figure by which
+// the cameras' places differ now, for each pair.
 //
 // A motion that is too large to be fitted shows places farther away than what stood there before:
 // nothing that comes before a camera can do that. Where all is nearer, or nothing is measured,
@@ -67,6 +70,9 @@ public:
         double moved_m = 0, turned_deg = 0;  // since the watch began; far_m and 0 if `is_far`
         // Where the camera is now; empty where its place was not known, or is not any more.
         std::optional<Pose> room_from_camera;
+        // With an alarm: another camera that was moved in the same way at the same time. Both stand
+        // on one thing that was moved, or everything that they see was.
+        std::optional<std::size_t> together_with;
         // How often the scene has moved as one, so that the camera is compared with what it sees
         // since then.
         int renewals = 0;
@@ -116,6 +122,11 @@ private:
         int above = 0, below = 0, matched = 0, hidden = 0, denied = 0;  // evaluations in a row
         int gone = 0;  // unmatched evaluations that show a motion, less those that do not
         std::size_t next_other = 0;
+        TimePoint complete_since{};  // the reference
+        // Its own picture shows that it stands where it stood: all of it, or the room behind
+        // something that moved.
+        bool stands_still = false;
+        std::optional<TimePoint> moving_since;  // in all evaluations since then
         Motion motion;
     };
 
@@ -135,7 +146,11 @@ private:
     static void add_edge_changes(const State& state, std::vector<PointOnPlane>& points);
     void note_base(std::size_t camera);
     void compare_with_reference(std::size_t camera);
-    bool overlaps_deny(std::size_t camera, const Pose& reference_from_now) const;
+    // The cause of a motion that a camera's picture shows.
+    enum class Mover { camera, scene, unknown };
+    Mover told_by_overlaps(std::size_t camera, const Pose& reference_from_now) const;
+    bool is_witness(const State& other, const State& of) const;
+    std::optional<std::size_t> moved_alike(std::size_t camera) const;
     void compare_with_other(std::size_t camera, const std::vector<SurfacePoint>& grid);
     Pose between(std::size_t to, std::size_t from) const;
 

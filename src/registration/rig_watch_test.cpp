@@ -142,9 +142,9 @@ TEST_F(Watching, TheSavedOffsetOfACamerasDepthBelongsToItsPlace) {
     }
 }
 
-// A bed with raised sides that fills most of both pictures, above a floor; through the sensor.
-DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, double raised_m,
-               synthetic::DepthSensor& sensor, std::uint32_t frame) {
+// A bed with raised sides above a floor, through the sensor. `half` is half its length and width.
+DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, Vec2 half,
+               double raised_m, synthetic::DepthSensor& sensor, std::uint32_t frame) {
     BoardScene scene(camera.model.size, 0);
     std::fill(scene.depth_m.pixels.begin(), scene.depth_m.pixels.end(), 0.0f);
     for (std::size_t i = 0; i < camera.rays.pixels.size(); ++i) {
@@ -158,7 +158,8 @@ DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, double
         for (const double slope : {-0.3, 0.3}) {
             const double t = (0.9 + raised_m - o.y + slope * o.x) / (d.y - slope * d.x);
             const Vec3 p = o + d * t;
-            if (t > 0 && t < z && p.x * slope <= 0 && std::abs(p.x) < 1.1 && std::abs(p.z) < 0.8)
+            if (t > 0 && t < z && p.x * slope <= 0 && std::abs(p.x) < half.x &&
+                std::abs(p.z) < half.y)
                 z = t;
         }
         scene.depth_m.pixels[i] = float(z);
@@ -166,30 +167,67 @@ DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, double
     return scene.seen_by(sensor, frame);
 }
 
-TEST(RaisedTable, IsNoCameraThatWasMoved) {
-    std::vector<Pose> places;
-    std::vector<RigWatch::Camera> about;
-    std::vector<SurfaceCamera> cameras;
-    std::vector<synthetic::DepthSensor> sensors;
-    for (const double side : {-0.7, 0.7}) {
+// Two cameras close above the bed, which is most of their pictures, and one that sees the room.
+class RaisedTable : public testing::Test {
+protected:
+    void add_camera(Vec3 from, Vec3 to) {
         const Calibration c = synthetic::synthetic_camera(synthetic::Variant::room, 0, 2, {});
-        places.push_back(look_at({side, 2.2, 0.5}, {0.3 * side, 0.9, 0}, {0, 1, 0}));
-        cameras.emplace_back(c.depth, 1);
-        sensors.emplace_back(synthetic::nfov_unbinned(), c.depth.size, 40 + sensors.size());
-        about.push_back({c.depth, 1, places.back()});
+        const Pose place = look_at(from, to, {0, 1, 0});
+        cameras_.emplace_back(c.depth, 1);
+        sensors_.emplace_back(synthetic::nfov_unbinned(), c.depth.size, 40 + sensors_.size());
+        about_.push_back({c.depth, 1, place});
     }
-    RigWatch watch(about);
-    TimePoint now{std::chrono::seconds(1)};
-    std::uint32_t frame = 0;
-    for (int image = 0; image < 36; ++image, now += watch.period())
-        for (std::size_t c = 0; c < 2; ++c) {
-            const double raised_m = image < 22 ? 0 : 0.015;
-            const DepthImage depth = bed(places[c], cameras[c], raised_m, sensors[c], ++frame);
-            watch.add(c, depth.view(), now);
-            EXPECT_FALSE(watch.motion(c).is_alarm) << image;
-        }
+    void add_two_above() {
+        for (const double side : {-0.7, 0.7})
+            add_camera({side, 2.2, 0.5}, {0.3 * side, 0.9, 0});
+    }
+
+    // The table is raised after 11 of 18 seconds.
+    RigWatch raise(Vec2 half) {
+        RigWatch watch(about_);
+        TimePoint now{std::chrono::seconds(1)};
+        std::uint32_t frame = 0;
+        for (int image = 0; image < 36; ++image, now += watch.period())
+            for (std::size_t c = 0; c < about_.size(); ++c) {
+                const DepthImage depth = bed(*about_[c].room_from_camera, cameras_[c], half,
+                                             image < 22 ? 0 : 0.015, sensors_[c], ++frame);
+                watch.add(c, depth.view(), now);
+            }
+        return watch;
+    }
+
+    static constexpr Vec2 with_floor_around{0.9, 0.65}, nothing_else{1.1, 0.8};  // half sizes
+
+    std::vector<RigWatch::Camera> about_;
+    std::vector<SurfaceCamera> cameras_;
+    std::vector<synthetic::DepthSensor> sensors_;
+};
+
+TEST_F(RaisedTable, IsNoCameraThatWasMoved) {
+    add_two_above();
+    const RigWatch watch = raise(with_floor_around);
+    for (std::size_t c = 0; c < 2; ++c)
+        EXPECT_FALSE(watch.motion(c).is_alarm);
     ASSERT_FALSE(watch.pairs().empty());
     EXPECT_GT(watch.pairs()[0].points, 300u);
+}
+
+TEST_F(RaisedTable, ThatFillsAPictureIsKnownByACameraThatStandsStill) {
+    add_two_above();
+    add_camera({0, 2, 2}, {0, 0.6, 0.9});
+    const RigWatch watch = raise(nothing_else);
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_FALSE(watch.motion(c).is_alarm);
+}
+
+// Cameras on one arm that sinks would see the same (docs/decisions/place-watch.md).
+TEST_F(RaisedTable, ThatIsAllThatTheCamerasSeeIsAnAlarm) {
+    add_two_above();
+    const RigWatch watch = raise(nothing_else);
+    for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_TRUE(watch.motion(c).is_alarm);
+        EXPECT_EQ(watch.motion(c).together_with, std::optional<std::size_t>(1 - c));
+    }
 }
 
 }  // namespace
