@@ -118,6 +118,18 @@ Json describe_calibration(const Bytes& bytes) {
     return json;
 }
 
+// Those of successive segments, without repetitions.
+Json describe_calibrations(const record::CameraContent& camera) {
+    Json list = Json::array();
+    const Bytes* before = nullptr;
+    for (const record::CameraPart& part : camera.parts)
+        if (!before || *before != part.calibration) {
+            before = &part.calibration;
+            list.push_back(describe_calibration(part.calibration));
+        }
+    return list;
+}
+
 Json describe_segments(const record::RecordingFile& recording) {
     Json list = Json::array();
     for (const record::Segment& segment : recording.segments()) {
@@ -168,6 +180,7 @@ Json describe(const std::string& file, const record::RecordingFile& recording) {
         if (camera.color.present)
             json["color"] = describe(camera.color, camera.frames_per_second);
         json["calibration"] = describe_calibration(camera.calibration);
+        json["calibrations"] = describe_calibrations(camera);
         cameras.push_back(std::move(json));
     }
     Json json{{"file", file},
@@ -257,6 +270,11 @@ void print_calibration(const Json& calibration) {
               double(calibration["baseline_mm"]));
     print("; %g mm a step; %s\n", double(calibration["depth_unit_mm"]),
           calibration["registered"] ? "its place in the room is known" : "not registered");
+    if (calibration.contains("color_gain")) {
+        const Json& gain = calibration["color_gain"];
+        print("  colours red times %.2f, green %.2f, blue %.2f\n", double(gain[0]), double(gain[1]),
+              double(gain[2]));
+    }
 }
 
 void print_segments(const record::RecordingFile& recording) {
@@ -380,7 +398,7 @@ void run(const std::string& file, bool as_json, bool verified) {
             print_filtering(camera["depth"]);
             if (camera.contains("color"))
                 print_stream("colour", camera["color"]);
-            print_calibration(camera["calibration"]);
+            print_calibration(camera["calibrations"].back());
             if (verified)
                 print_minutes(camera);
         }

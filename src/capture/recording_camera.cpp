@@ -16,6 +16,17 @@ namespace {
 
 constexpr std::uint32_t no_color = std::numeric_limits<std::uint32_t>::max();
 
+// Gains only concern how cameras are drawn together.
+bool differ_in_gains_only(const Bytes& one, const Bytes& other) {
+    if (one == other)
+        return true;
+    auto a = decode_calibration(one), b = decode_calibration(other);
+    if (!a || !b)
+        return false;
+    a->color_gain = b->color_gain;
+    return *a == *b;
+}
+
 // The parts of the camera that have its calibration number `wanted`, in order.
 std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, std::size_t wanted) {
     std::vector<record::CameraPart> parts;
@@ -29,7 +40,8 @@ std::vector<record::CameraPart> parts_of(const record::CameraContent& camera, st
     }
     std::size_t number = 0;
     for (std::size_t i = 0; i < camera.parts.size(); ++i) {
-        number += i > 0 && camera.parts[i].calibration != camera.parts[i - 1].calibration;
+        number += i > 0 && !differ_in_gains_only(camera.parts[i].calibration,
+                                                 camera.parts[i - 1].calibration);
         if (number == wanted)
             parts.push_back(camera.parts[i]);
     }
@@ -66,7 +78,8 @@ bool is_jpeg(const record::CameraPart& part) {
 std::size_t calibrations_of(const record::CameraContent& camera) {
     std::size_t count = 1;
     for (std::size_t i = 1; i < camera.parts.size(); ++i)
-        count += camera.parts[i].calibration != camera.parts[i - 1].calibration;
+        count +=
+            !differ_in_gains_only(camera.parts[i].calibration, camera.parts[i - 1].calibration);
     return count;
 }
 

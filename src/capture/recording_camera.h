@@ -30,7 +30,8 @@ struct PictureLosses {
     std::uint64_t color() const { return damaged_color + undecodable_color; }
 };
 
-// The number of successive calibrations of the camera; at least one.
+// The number of successive calibrations of the camera, without changes of its colour gains alone;
+// at least one.
 std::size_t calibrations_of(const record::CameraContent& camera);
 
 // The calibration of the camera at this time since the recording's first picture: cameras are

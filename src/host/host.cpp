@@ -154,6 +154,8 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
         infos.push_back(camera->info());
     place_watch = std::make_unique<PlaceWatch>(
         infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
+    gain_watch = std::make_unique<GainWatch>(
+        infos, [this](const SettledGains::Gains& gains) { take_gains(gains); });
     for (const CameraId camera : session->streams().of(session::host_publisher))
         correct_place(*session->streams().find(camera));
     start_lanes(specifications, std::move(cameras));
@@ -203,6 +205,7 @@ void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
         };
         events.frame = [this, i](const FramePtr& frame) {
             place_watch->offer(i, frame);
+            gain_watch->offer(i, frame);
             if (i == 0)
                 thumbnail.on_frame(frame, steady_now());
         };

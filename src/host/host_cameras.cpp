@@ -67,9 +67,28 @@ void Host::Impl::crop(const session::CameraStreams& camera) {
 }
 
 void Host::Impl::correct_place(const session::CameraStreams& camera) {
-    if (const auto calibration = decode_calibration(camera.description().calibration))
-        place_watch->correct_place(std::size_t(camera.description().id),
-                                   calibration->room_from_camera);
+    const auto calibration = decode_calibration(camera.description().calibration);
+    if (!calibration)
+        return;
+    const auto number = std::size_t(camera.description().id);
+    place_watch->correct_place(number, calibration->room_from_camera);
+    gain_watch->correct_place(number, calibration->room_from_camera);
+}
+
+// From the thread of the watch. All at once: each change would begin a segment of recordings.
+void Host::Impl::take_gains(const SettledGains::Gains& gains) {
+    server->post([this, gains] {
+        for (std::size_t i = 0; i < gains.size(); ++i)
+            if (gains[i]) {
+                session->set_estimated_gain(CameraId(i), *gains[i]);
+                log::info("host", "colour gain estimated",
+                          {{"camera", int(i)},
+                           {"red", gains[i]->x},
+                           {"green", gains[i]->y},
+                           {"blue", gains[i]->z}});
+            }
+        carry_out();
+    });
 }
 
 void Host::Impl::carry_out(const session::action::Play& a) {

@@ -132,6 +132,13 @@ nlohmann::json to_json(const HostFigures& figures) {
     for (std::size_t i = 0; i < figures.cameras.size(); ++i) {
         nlohmann::json& camera = cameras.emplace_back(camera_json(figures.cameras[i]));
         camera["adjusted"] = figures.adjustment(CameraId(i));
+        if (i < figures.gains.size() && figures.gains[i]) {
+            const auto& [factors, is_estimated] = *figures.gains[i];
+            camera["color_gain"] = {{"red", factors.x},
+                                    {"green", factors.y},
+                                    {"blue", factors.z},
+                                    {"estimated", is_estimated}};
+        }
         if (i >= figures.places.cameras.size())
             continue;
         const PlaceWatch::Figures::Camera& place = figures.places.cameras[i];

@@ -13,6 +13,7 @@
 #include "base/utc.h"
 #include "files/utc_text.h"
 #include "host/closed_session.h"
+#include "host/gain_watch.h"
 #include "host/place_watch.h"
 #include "send/lane_figures.h"
 #include "wire/control.h"
@@ -56,6 +57,7 @@ struct HostFigures {
     std::vector<Published> published;          // cameras that participants send now
     std::map<CameraId, std::string> adjusted;  // by operators, and how
     PlaceWatch::Figures places;                // whether cameras stay where they were registered
+    GainWatch::Gains gains;                    // of colours, by camera
     bool has_ended = false;                    // the session
     std::vector<wire::Visitor> visitors;       // who wait for admission
     std::vector<std::string> case_problems;    // sentences on the folder of cases
@@ -92,6 +94,7 @@ struct PortFigures {
 };
 
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
+// "color_gain":{"red","green","blue","estimated"},
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",

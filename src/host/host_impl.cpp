@@ -476,6 +476,8 @@ HostFigures Host::Impl::figures() const {
         figures.adjusted[camera] = text_of(adjustment);
     if (place_watch)
         figures.places = place_watch->figures();
+    if (gain_watch)
+        figures.gains = gain_watch->gains();
     figures.visitors = visitor_figures;
     figures.case_problems = case_problem_figures;
     figures.certificates = port->certificates();

@@ -13,6 +13,7 @@
 #include "capture/camera_places.h"
 #include "host/case_shelf.h"
 #include "host/filter_choice.h"
+#include "host/gain_watch.h"
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "host/host_port.h"
@@ -57,6 +58,7 @@ struct Host::Impl {
     Thumbnail thumbnail;           // of the first camera
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
+    std::unique_ptr<GainWatch> gain_watch;    // likewise
     send::ColorWatch color_watch;             // on the thread of the server
     std::vector<FilterSource> filters;        // by camera; used by the owner of the host
     std::vector<Size> depth_sizes;            // by camera; the same way
@@ -120,8 +122,8 @@ struct Host::Impl {
         if (has_begun)
             say_goodbye();
         replay.reset();
-        // The server's thread uses the lanes: it leaves them first. The lanes use the watch, whose
-        // thread posts to the server.
+        // The server's thread uses the lanes: it leaves them first. The lanes use the watches,
+        // whose threads post to the server.
         if (server)
             server->leave();
         if (has_begun) {
@@ -139,6 +141,7 @@ struct Host::Impl {
         }
         lanes.clear();
         place_watch.reset();
+        gain_watch.reset();
     }
 
     // `port` is set before; it opens for the first session.
@@ -213,6 +216,7 @@ struct Host::Impl {
     void take_media(send::EncodedMedia encoded);
     void take_camera_state(wire::CameraState state);
     void take_place(CameraId camera, const wire::Text& problem);
+    void take_gains(const SettledGains::Gains& gains);
     bool pass_on(wire::CameraState state);
     std::vector<std::string> http_tokens() const;
     // The link whose token this is; it may have expired. On any thread.

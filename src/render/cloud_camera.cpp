@@ -10,6 +10,10 @@
 namespace theatron::render {
 namespace {
 
+// The share of the way to the calibration's gains that each image brings: at 30 images a second
+// most of it takes a second.
+constexpr double gain_step = 0.07;
+
 // Uses a buffer that gets new memory each time, so that the call waits neither for drawing from
 // the texture nor for the last upload.
 template <class Image>
@@ -93,18 +97,19 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
     put(u.depth, calibration.depth_unit_mm / 1000, tan_per_pixel, offset_m, 0);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
-    const Vec3 gain = calibration.color_gain.value_or(camera.color_gain);
+    const Vec3 gain = camera.color_gain;
     put(u.color_gain, gain.x, gain.y, gain.z, camera.presence);
     put_cut(u, camera.cut, inverse(calibration.room_from_camera));
     return u;
 }
 
-// True if the two differ at most in the camera's place in the room.
+// True if the two differ at most in the camera's place in the room and in its gains.
 bool same_images(Calibration a, const Calibration& b) {
     a.room_from_camera = b.room_from_camera;
     a.registered = b.registered;
     a.registration = b.registration;
     a.covariance = b.covariance;
+    a.color_gain = b.color_gain;
     return a == b;
 }
 
@@ -137,6 +142,8 @@ void CloudCamera::take_settings(const CloudCamera& before) {
 Status CloudCamera::upload(DepthView depth, ColorView color, const Buffer& staging) {
     if (depth.size != depth_size() || color.size.area() > max_color_pixels)
         return Status::size_mismatch;
+    if (const auto& goal = calibration_.color_gain)
+        color_gain = images_ == 0 ? *goal : color_gain + (*goal - color_gain) * gain_step;
     ++images_;
     ++content_;
     glActiveTexture(GL_TEXTURE0 + texture_unit::depth_image);

@@ -80,12 +80,14 @@ public:
     unsigned images() const { return images_; }
     unsigned colors() const { return colors_; }  // of them with colour
     // Changes whenever the images or the maps drawn from them change: also with another colour
-    // lens, but not with the camera's place in the room.
+    // lens, but not with the camera's place in the room, nor with its gains.
     unsigned content() const { return content_; }
 
-    double presence = 1;        // see CloudSet
-    Vec3 color_gain{1, 1, 1};   // see ColorBalance; a calibration with gains overrides it
-    double depth_offset_m = 0;  // see DepthOffsets; likewise
+    double presence = 1;  // see CloudSet
+    // See ColorBalance. Where the calibration has gains, each image brings it closer to them, so
+    // that other gains do not jump into view; the first one takes them at once.
+    Vec3 color_gain{1, 1, 1};
+    double depth_offset_m = 0;  // see DepthOffsets; a calibration with an offset overrides it
     CloudCut cut;
 
     VisibilityMap visibility;

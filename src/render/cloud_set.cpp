@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/color_balance.h"
 #include "render/cloud_camera.h"
 #include "render/cloud_passes.h"
-#include "render/color_balance.h"
 #include "render/color_visibility.h"
 #include "render/depth_offsets.h"
 #include "render/fewer_points.h"
@@ -118,7 +118,8 @@ struct CloudSet::Parts {
     void take_estimates() {
         if (balance.update())
             for (auto& [id, camera] : cameras)
-                camera.drawn.color_gain = balance.gain(id);
+                if (!camera.calibration.color_gain)
+                    camera.drawn.color_gain = balance.gain(id);
         if (offsets.update())
             for (auto& [id, camera] : cameras)
                 camera.drawn.depth_offset_m = offsets.offset_m(id);

@@ -84,8 +84,10 @@ std::optional<Patch> patch_at(const Calibration& calibration, DepthView depth, i
 
 }  // namespace
 
-void DepthOffsets::add(CameraId id, const Calibration& calibration, DepthView depth,
-                       ColorView color) {
+void DepthOffsets::add(CameraId id, const Calibration& given, DepthView depth, ColorView color) {
+    // Gains do not concern the texture.
+    Calibration calibration = given;
+    calibration.color_gain.reset();
     // Colour registered to depth lies where its sender put it, up to half a pixel away.
     if (!color.pixels || calibration.color.size == Size{} || !may_be_hidden(calibration))
         return;

@@ -163,11 +163,43 @@ TEST(CloudCamera, KnowsWhatANewCalibrationChanges) {
     changed.registered = false;
     camera.set_calibration(changed);
     EXPECT_EQ(camera.content(), content) << "only the place";
+    changed.color_gain = {1.2, 1, 0.9};
+    camera.set_calibration(changed);
+    EXPECT_EQ(camera.content(), content) << "gains are factors of the last pass";
 
     changed.color.k[0] = 0.1;
     camera.set_calibration(changed);
     EXPECT_NE(camera.content(), content) << "places in the colour picture";
     EXPECT_EQ(camera.images(), images);
+}
+
+TEST(CloudCamera, MovesToNewGainsWithItsImages) {
+    test_context();
+    const Calibration calibration = calibrated({20, 10}, {30, 20}, {0, 1.5, 0});
+    CloudCamera camera(calibration, nullptr);
+    const Buffer staging;
+    const DepthImage depth({20, 10});
+    const auto upload = [&] { ASSERT_EQ(camera.upload(depth.view(), {}, staging), Status::ok); };
+    Calibration known = calibration;
+    known.color_gain = {1.2, 1, 0.9};
+    camera.set_calibration(known);
+    upload();
+    EXPECT_EQ(camera.color_gain, *known.color_gain) << "the first image";
+
+    known.color_gain = {1.4, 1, 0.9};
+    camera.set_calibration(known);
+    EXPECT_EQ(camera.color_gain.x, 1.2);
+    upload();
+    EXPECT_GT(camera.color_gain.x, 1.2);
+    EXPECT_LT(camera.color_gain.x, 1.22) << "no jump";
+    for (int i = 0; i < 90; ++i)
+        upload();
+    EXPECT_NEAR(camera.color_gain.x, 1.4, 0.002);
+
+    camera.set_calibration(calibration);
+    camera.color_gain = {0.8, 1, 1};
+    upload();
+    EXPECT_EQ(camera.color_gain, (Vec3{0.8, 1, 1})) << "the viewer's own";
 }
 
 TEST(CloudCamera, SettingsOutliveALens) {

@@ -146,6 +146,37 @@ TEST_F(Adjusting, OutlivesTheHostUntilTheCameraIsRegisteredAnew) {
     EXPECT_EQ(pose_of(third.streams().cameras().at(0)), calibration.room_from_camera);
 }
 
+TEST_F(Adjusting, KeepsGainsThatWereEstimated) {
+    come(alice, "or");
+    const auto calibration = [&] {
+        return decode_calibration(session_->streams().cameras().at(0).calibration).value();
+    };
+    const Calibration registered = calibration();
+    session_->set_estimated_gain({}, {1.25, 1, 0.5});
+    taken = session_->take_actions();
+    ASSERT_EQ(messages_to<wire::CameraChanged>(alice, taken).size(), 1u);
+    EXPECT_EQ(calibration().color_gain, (Vec3{1.25, 1, 0.5}));
+
+    EXPECT_EQ(adjust(alice, nudge), ManageRefusal::none);
+    EXPECT_EQ(calibration().color_gain, (Vec3{1.25, 1, 0.5}));
+    session_->set_estimated_gain({}, {1.5, 1, 0.5});
+    EXPECT_EQ(calibration().color_gain, (Vec3{1.5, 1, 0.5}));
+    EXPECT_EQ(calibration().room_from_camera, nudged(registered.room_from_camera, nudge));
+    EXPECT_EQ(session_->streams().adjustments().at(0).registered, registered.room_from_camera);
+
+    // A recording that is played knows its own from some time on.
+    Calibration known = registered;
+    known.color_gain = {1, 1, 0.75};
+    session_->set_calibration({}, encode_calibration(known));
+    EXPECT_EQ(calibration().color_gain, known.color_gain);
+    (void)session_->take_actions();
+    session_->set_estimated_gain({}, {2, 2, 2});
+    EXPECT_EQ(calibration().color_gain, known.color_gain);
+    EXPECT_TRUE(session_->take_actions().empty());
+    session_->set_calibration({}, encode_calibration(registered));
+    EXPECT_EQ(calibration().color_gain, (Vec3{2, 2, 2}));
+}
+
 TEST_F(Adjusting, IsInTheAuditLogOnceItStays) {
     come(alice, "or");
     for (int i = 1; i <= 5; ++i) {

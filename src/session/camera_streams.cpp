@@ -22,15 +22,25 @@ CameraStreams::CameraStreams(wire::Camera description, SettingNumbers& numbers, 
       refers_(codecs.refers) {
     if (const auto calibration = decode_calibration(description_.calibration)) {
         registered_ = calibration->room_from_camera;
+        has_own_gain_ = calibration->color_gain.has_value();
         sees_person_ = calibration->person != 0;
     }
 }
 
 void CameraStreams::set_calibration(const Bytes& calibration) {
     description_.calibration = calibration;
-    if (const auto decoded = decode_calibration(calibration))
+    if (const auto decoded = decode_calibration(calibration)) {
         registered_ = decoded->room_from_camera;
+        has_own_gain_ = decoded->color_gain.has_value();
+    }
     adjust(adjustment_);
+}
+
+bool CameraStreams::set_estimated_gain(Vec3 gain) {
+    estimated_gain_ = gain;
+    const Bytes before = description_.calibration;
+    adjust(adjustment_);
+    return description_.calibration != before;
 }
 
 void CameraStreams::adjust(const CameraAdjustment& adjustment) {
@@ -41,6 +51,8 @@ void CameraStreams::adjust(const CameraAdjustment& adjustment) {
         return;
     calibration->room_from_camera =
         adjustment_.is_nudged() ? nudged(registered_, adjustment_) : registered_;
+    if (estimated_gain_ && !has_own_gain_)
+        calibration->color_gain = estimated_gain_;
     description_.calibration = encode_calibration(*calibration);
 }
 

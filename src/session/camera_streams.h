@@ -37,6 +37,9 @@ public:
     void set_calibration(const Bytes& calibration);
     // Within its limits.
     void adjust(const CameraAdjustment& adjustment);
+    // Factors of colours that were estimated (geometry/color_balance.h), also for calibrations to
+    // come. One that has gains of its own keeps those. True if the description changed.
+    bool set_estimated_gain(Vec3 gain);
     ParticipantId publisher() const { return description_.publisher; }
     bool is_face() const { return description_.frame == wire::CameraFrame::face; }
     // Nobody is told of its own camera, and of faces only programs that show them.
@@ -96,7 +99,9 @@ private:
         int layer = 0;
     };
     wire::Camera description_;
-    Pose registered_;           // the room from the camera
+    Pose registered_;            // the room from the camera
+    bool has_own_gain_ = false;  // in its calibration
+    std::optional<Vec3> estimated_gain_;
     bool sees_person_ = false;  // of a recording
     CameraAdjustment adjustment_;
     SettingTable depth_, color_;

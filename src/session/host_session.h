@@ -129,6 +129,9 @@ public:
     void set_calibration(CameraId camera, const Bytes& calibration) {
         streams_.set_calibration(camera, calibration);
     }
+    void set_estimated_gain(CameraId camera, Vec3 gain) {
+        streams_.set_estimated_gain(camera, gain);
+    }
     // Where the recording of the host is from now on; told to all.
     void set_playback(const wire::Playback& playback);
 

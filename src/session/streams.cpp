@@ -210,6 +210,12 @@ void Streams::set_calibration(CameraId id, const Bytes& calibration) {
     tell_changed(found->second);
 }
 
+void Streams::set_estimated_gain(CameraId id, Vec3 gain) {
+    const auto found = cameras_.find(id);
+    if (found != cameras_.end() && found->second.set_estimated_gain(gain))
+        tell_changed(found->second);
+}
+
 void Streams::tell_changed(const CameraStreams& camera) {
     for (const auto& [receiver, wishes] : receivers_)
         if (receiver != camera.publisher())

@@ -87,6 +87,8 @@ public:
     wire::ManageRefusal adjust(CameraId camera, const CameraAdjustment& adjustment);
     // A camera is registered anew, with the same lenses; told to all who see it.
     void set_calibration(CameraId camera, const Bytes& calibration);
+    // The same for gains that were estimated; a camera keeps those of its own (CameraStreams).
+    void set_estimated_gain(CameraId camera, Vec3 gain);
     // Those of all cameras that are or were here.
     const std::vector<KeptAdjustment>& adjustments() const { return adjustments_; }
     // `is_drawn`: some camera has a region of interest. Without one, depth never becomes lossy

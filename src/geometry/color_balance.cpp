@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/color_balance.h"
+#include "geometry/color_balance.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace theatron::render {
+namespace theatron {
 namespace {
 
-constexpr unsigned uploads_per_copy = 15;    // twice a second
 constexpr int depth_step = 12;               // pixels between samples
 constexpr int color_step = 8;                // pixels that are averaged
 constexpr std::size_t most_places = 20'000;  // looked at in one estimate
 constexpr double least_places = 30;          // for two cameras to be compared
 constexpr double follow = 0.2;               // share of a new estimate
+constexpr double usual_places = 1;           // that count for a camera's usual gain
+constexpr double srgb_exponent = 2.2;        // light is about this power of an sRGB value
 
 double linear_from_srgb(int value) {
     static const auto table = [] {
@@ -33,6 +34,34 @@ bool tells(Vec3 light) {
     return good(light.x) && good(light.y) && good(light.z);
 }
 
+Vec3 light_of(Vec3 srgb) {
+    const auto of = [](double v) { return std::pow(v, srgb_exponent); };
+    return {of(srgb.x), of(srgb.y), of(srgb.z)};
+}
+
+// The factors of sRGB values.
+Vec3 srgb_gain(Vec3 log_gain) {
+    const auto of = [](double v) { return std::exp(std::clamp(v, -1.5, 1.5) / srgb_exponent); };
+    return {of(log_gain.x), of(log_gain.y), of(log_gain.z)};
+}
+
+// Solves n linear equations, whose diagonal dominates; the solution replaces `right`.
+void solve(std::vector<double>& matrix, std::vector<Vec3>& right) {
+    const std::size_t n = right.size();
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double factor = matrix[i * n + k] / matrix[k * n + k];
+            for (std::size_t j = k; j < n; ++j)
+                matrix[i * n + j] -= factor * matrix[k * n + j];
+            right[i] = right[i] - right[k] * factor;
+        }
+    for (std::size_t k = n; k-- > 0;) {
+        for (std::size_t j = k + 1; j < n; ++j)
+            right[k] = right[k] - right[j] * matrix[k * n + j];
+        right[k] = right[k] * (1 / matrix[k * n + k]);
+    }
+}
+
 double median(std::vector<double>& values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -47,7 +76,7 @@ void ColorBalance::add(CameraId id, const Calibration& calibration, DepthView de
         return;
     Camera& camera = cameras_[id];
     const bool moved = camera.calibration != calibration;
-    if (camera.uploads++ % uploads_per_copy != 0 && !moved)
+    if (camera.uploads++ % images_per_copy_ != 0 && !moved)
         return;
     camera.calibration = calibration;
     if (!has_unknown_gains())
@@ -72,9 +101,7 @@ void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color)
     const Size cells{std::max(color.size.width / color_step, 1),
                      std::max(color.size.height / color_step, 1)};
     camera.light.resize(cells);
-    // sRGB is about the 2.2nd root of light.
-    const Vec3 known = camera.calibration.color_gain.value_or(Vec3{1, 1, 1});
-    const Vec3 gain{std::pow(known.x, 2.2), std::pow(known.y, 2.2), std::pow(known.z, 2.2)};
+    const Vec3 gain = light_of(camera.calibration.color_gain.value_or(Vec3{1, 1, 1}));
     for (int cy = 0; cy < cells.height; ++cy)
         for (int cx = 0; cx < cells.width; ++cx) {
             Vec3 sum;
@@ -182,43 +209,54 @@ bool ColorBalance::update() {
             if (a != b)
                 differences[a * n + b] = compare(*cameras[a], *cameras[b], step);
 
-    // Least squares by relaxation. A weak pull towards 0 determines the values that no difference
-    // determines: the mean, and cameras that share no surface with others.
+    // Least squares. The usual gains determine the values that no difference determines: the mean,
+    // and cameras that share no surface with others.
+    std::vector<double> matrix(n * n);
     std::vector<Vec3> log_gains(n);
-    for (int round = 0; round < 60; ++round)
-        for (std::size_t a = 0; a < n; ++a) {
-            if (cameras[a]->calibration.color_gain)
+    std::vector<bool> is_compared(n);
+    for (std::size_t a = 0; a < n; ++a) {
+        double& weight = matrix[a * n + a];
+        weight = usual_places;
+        if (cameras[a]->calibration.color_gain)
+            continue;
+        log_gains[a] = cameras[a]->usual_log_gain * usual_places;
+        for (std::size_t b = 0; b < n; ++b) {
+            if (b == a)
                 continue;
-            Vec3 sum;
-            double weight = 1;
-            for (std::size_t b = 0; b < n; ++b) {
-                const Difference &there = differences[a * n + b], &back = differences[b * n + a];
-                sum = sum + (log_gains[b] + there.log_ratio) * there.places +
-                      (log_gains[b] - back.log_ratio) * back.places;
-                weight += there.places + back.places;
-            }
-            log_gains[a] = sum * (1 / weight);
+            const Difference &there = differences[a * n + b], &back = differences[b * n + a];
+            log_gains[a] =
+                log_gains[a] + there.log_ratio * there.places - back.log_ratio * back.places;
+            matrix[a * n + b] = -(there.places + back.places);
+            weight += there.places + back.places;
         }
+        is_compared[a] = weight > usual_places;
+    }
+    solve(matrix, log_gains);
     for (std::size_t a = 0; a < n; ++a) {
         Camera& camera = *cameras[a];
         const double share = camera.estimated ? follow : 1;
         camera.log_gain = camera.log_gain * (1 - share) + log_gains[a] * share;
-        for (std::size_t b = 0; b < n; ++b)
-            camera.estimated = camera.estimated || differences[a * n + b].places > 0;
+        camera.estimated = camera.estimated || is_compared[a];
+        camera.newest_log_gain = is_compared[a] ? std::optional(log_gains[a]) : std::nullopt;
     }
     return true;
 }
 
-Vec3 ColorBalance::gain(CameraId id) const {
-    const auto camera = cameras_.find(id);
-    if (camera == cameras_.end())
-        return {1, 1, 1};
-    // sRGB is about the 2.2nd root of light.
-    const auto srgb = [](double log_gain) {
-        return std::exp(std::clamp(log_gain, -1.5, 1.5) / 2.2);
-    };
-    const Vec3 g = camera->second.log_gain;
-    return {srgb(g.x), srgb(g.y), srgb(g.z)};
+void ColorBalance::set_usual_gain(CameraId id, Vec3 gain) {
+    const auto log_light = [](double v) { return srgb_exponent * std::log(v); };
+    cameras_.at(id).usual_log_gain = {log_light(gain.x), log_light(gain.y), log_light(gain.z)};
 }
 
-}  // namespace theatron::render
+Vec3 ColorBalance::gain(CameraId id) const {
+    const auto camera = cameras_.find(id);
+    return camera == cameras_.end() ? Vec3{1, 1, 1} : srgb_gain(camera->second.log_gain);
+}
+
+std::optional<Vec3> ColorBalance::newest_gain(CameraId id) const {
+    const auto camera = cameras_.find(id);
+    if (camera == cameras_.end() || !camera->second.newest_log_gain)
+        return std::nullopt;
+    return srgb_gain(*camera->second.newest_log_gain);
+}
+
+}  // namespace theatron
