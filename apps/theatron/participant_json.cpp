@@ -58,13 +58,13 @@ nlohmann::json position_json(const Calibration& calibration) {
     return {place.x, place.y, place.z};
 }
 
-nlohmann::json camera_json(const client::CameraFigures& figures) {
+nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role reader) {
     const auto& [camera, depth, color, direct] = figures;
     return {{"id", int(camera.description.id)},
             {"publisher", int(camera.description.publisher)},
             {"name", camera.description.name},
             {"state", wire::text_of(camera.state.condition)},
-            {"problem", wire::english(camera.state.problem)},
+            {"problem", client::problem_text(camera.state, reader)},
             {"filter", camera.state.filter},
             {"adjusted", client::adjustment_text(camera.description)},
             {"position", position_json(camera.calibration)},
@@ -127,7 +127,7 @@ nlohmann::json participant_json(const client::Participant& participant) {
     nlohmann::json cameras = nlohmann::json::array();
     const bool joined = status.phase == client::Participant::Phase::joined;
     for (const client::CameraFigures& camera : figures.cameras) {
-        cameras.push_back(camera_json(camera));
+        cameras.push_back(camera_json(camera, status.standing.role));
         // Rates and ages are those of the last moment that was seen.
         if (!joined)
             cameras.back().update({{"state", "lost"},

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/error.h"
 #include "bench_color.h"
@@ -444,6 +446,7 @@ void add_view(CLI::App& bench) {
 
 struct RegistrationFlags {
     RegistrationBenchOptions options;
+    bool quick = false;
     std::string json;
 };
 
@@ -451,18 +454,30 @@ void add_registration(CLI::App& bench) {
     const auto flags = std::make_shared<RegistrationFlags>();
     CLI::App* command = bench.add_subcommand(
         "registration", "The board found and cameras registered, against exact truth");
-    command->add_option("--images", flags->options.images, "Single images for detection")
-        ->capture_default_str()
-        ->check(CLI::Range(4, 100000));
-    command->add_option("--seeds", flags->options.seeds, "So many sets of cameras and poses")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--frames", flags->options.frames, "Frames averaged for a view")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 90));
+    flags->options.threads = std::max(1, int(std::thread::hardware_concurrency()));
+    const auto add = [&](const char* name, int& value, const char* help, int least, int most) {
+        return command->add_option(name, value, help)
+            ->capture_default_str()
+            ->check(CLI::Range(least, most));
+    };
+    std::vector<CLI::Option*> amounts{
+        add("--images", flags->options.images, "Single images for detection", 4, 100000),
+        add("--seeds", flags->options.seeds, "So many sets of cameras and poses", 1, 1000),
+        add("--frames", flags->options.frames, "Frames averaged for a view", 1, 90)};
+    add("--threads", flags->options.threads, "Seeds at once; changes no result", 1, 256);
+    CLI::Option* quick = command->add_flag(
+        "--quick", flags->quick,
+        "40 images, 2 seeds and 5 frames: whether all works, in a minute; says little of errors");
+    for (CLI::Option* amount : amounts)
+        quick->excludes(amount);
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] {
+        if (flags->quick) {
+            const int threads = flags->options.threads;
+            flags->options = quick_registration_bench;
+            flags->options.threads = threads;
+        }
         const nlohmann::json r = bench_registration(flags->options, cli::show_progress());
         report(r, flags->json, [&] {
             const auto& d = r["detection"];
@@ -471,16 +486,19 @@ void add_registration(CLI::App& bench) {
                 "%.1f ms, zstd -1 of the image: %.1f ms)\n",
                 d["images"].get<int>(), d["precision"].get<double>(), d["recall"].get<double>(),
                 d["ms"].get<double>(), d["p90_ms"].get<double>(), d["zstd1_ms"].get<double>());
-            std::printf("%8s %6s %7s %5s %5s %7s %9s %7s %9s %7s\n", "distance", "angle", "cameras",
-                        "poses", "fixed", "bias mm", "occlusion", "mean mm", "median mm", "p90 mm");
+            std::printf("%8s %6s %7s %5s %5s %7s %9s %5s %6s %7s %9s %7s %8s\n", "distance",
+                        "angle", "cameras", "poses", "fixed", "bias mm", "occlusion", "noise",
+                        "solved", "mean mm", "median mm", "p90 mm", "solve ms");
             for (const auto& c : r["registration"])
-                std::printf("%8.1f %6.0f %7d %5d %5s %7.1f %9.1f %7.2f %9.2f %7.2f\n",
-                            c["distance_m"].get<double>(), c["angle_deg"].get<double>(),
-                            c["cameras"].get<int>(), c["poses"].get<int>(),
-                            c["fixed_errors"].get<bool>() ? "yes" : "no",
-                            c["bias_mm"].get<double>(), c["occlusion"].get<double>(),
-                            c["mean_error_mm"].get<double>(), c["median_error_mm"].get<double>(),
-                            c["p90_error_mm"].get<double>());
+                std::printf(
+                    "%8.1f %6.0f %7d %5d %5s %7.1f %9.1f %5.1f %3d/%-2d %7.2f %9.2f %7.2f %8.0f\n",
+                    c["distance_m"].get<double>(), c["angle_deg"].get<double>(),
+                    c["cameras"].get<int>(), c["poses"].get<int>(),
+                    c["fixed_errors"].get<bool>() ? "yes" : "no", c["bias_mm"].get<double>(),
+                    c["occlusion"].get<double>(), c["noise"].get<double>(), c["solved"].get<int>(),
+                    c["seeds"].get<int>(), c["mean_error_mm"].get<double>(),
+                    c["median_error_mm"].get<double>(), c["p90_error_mm"].get<double>(),
+                    c["solve_ms"].get<double>());
         });
     });
 }

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
+#include <future>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 
 #include "registration/board_scene.h"
@@ -57,8 +60,11 @@ double quantile(std::vector<double> values, double share) {
     return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
 }
 
-synthetic::DepthSensorParams sensor_params(bool fixed_errors) {
+// `noise`: factor of the deviation of one measurement.
+synthetic::DepthSensorParams sensor_params(bool fixed_errors, double noise = 1) {
     synthetic::DepthSensorParams params = synthetic::nfov_unbinned();
+    params.shot_mm2 *= float(noise * noise);
+    params.read_mm2 *= float(noise * noise);
     if (!fixed_errors)
         params.offset_mm = params.scale = params.wiggle_mm = params.field_mm = params.fixed_mm =
             params.multipath = 0;
@@ -176,6 +182,7 @@ struct Case {
     bool fixed_errors = true;
     double bias_mm = 0;    // every camera measures this much too far, beside its fixed errors
     double occlusion = 0;  // share of the picture's rows that an arm hides
+    double noise = 1;      // factor
 };
 
 Pose ring_camera(double degrees, double radius_m) {
@@ -199,9 +206,13 @@ std::optional<Detection> one_view(LatticeDetector& detector, synthetic::DepthSen
     return detector.detect(image.view(), FitEffort::measure);
 }
 
-// The mean error over the working volume of the second camera, or nothing if it was not solved.
-std::optional<double> error_mm(const Case& c, std::uint32_t seed, int frames, double& solve_ms,
-                               std::vector<double>& offset_errors) {
+struct Outcome {
+    std::optional<double> error_mm;  // over the working volume, of the worst camera; if solved
+    double solve_ms = 0;
+    std::vector<double> offset_errors_mm;  // of each camera
+};
+
+Outcome outcome(const Case& c, std::uint32_t seed, int frames) {
     const CameraModel camera =
         synthetic::synthetic_camera(synthetic::Variant::room, 0, 1, {}).depth;
     const Image<Ray> rays = make_ray_table(camera);
@@ -213,7 +224,7 @@ std::optional<double> error_mm(const Case& c, std::uint32_t seed, int frames, do
     for (int i = 0; i < c.cameras; ++i) {
         const double step = c.cameras > 2 ? 360.0 / c.cameras : c.angle_deg;
         room_from_camera.push_back(ring_camera((i - 0.5) * step, c.distance_m));
-        sensors.emplace_back(sensor_params(c.fixed_errors), camera.size,
+        sensors.emplace_back(sensor_params(c.fixed_errors, c.noise), camera.size,
                              1000 + seed * 16 + std::uint32_t(i));
     }
     std::vector<BoardView> views;
@@ -242,13 +253,14 @@ std::optional<double> error_mm(const Case& c, std::uint32_t seed, int frames, do
                 views.push_back({i, place, *detected});
         }
     }
+    Outcome result;
     const double begin = cpu_ms();
     const RigSolution solution = solve_rig(c.cameras, c.poses, views, target);
-    solve_ms = std::max(solve_ms, cpu_ms() - begin);
+    result.solve_ms = cpu_ms() - begin;
     if (!solution.converged)
-        return {};
+        return result;
     for (std::size_t i = 0; i < sensors.size(); ++i)
-        offset_errors.push_back(
+        result.offset_errors_mm.push_back(
             std::abs(solution.cameras[i].bias.offset_m * 1000 - c.bias_mm -
                      sensors[i].distance_error_mm(float(DepthBias::reference_m * 1000))));
     // The worst camera counts.
@@ -266,16 +278,30 @@ std::optional<double> error_mm(const Case& c, std::uint32_t seed, int frames, do
                 }
         worst = std::max(worst, sum / n * 1000);
     }
-    return worst;
+    result.error_mm = worst;
+    return result;
 }
 
-nlohmann::json measured(const Case& c, const RegistrationBenchOptions& options) {
+// `told` gets the share of the seeds that is done.
+nlohmann::json measured(const Case& c, const RegistrationBenchOptions& options,
+                        const std::function<void(double)>& told) {
     std::vector<double> errors, offset_errors;
     double solve_ms = 0;
-    for (int seed = 0; seed < options.seeds; ++seed)
-        if (const auto e =
-                error_mm(c, std::uint32_t(seed), options.frames, solve_ms, offset_errors))
-            errors.push_back(*e);
+    for (int seed = 0; seed < options.seeds;) {
+        told(double(seed) / options.seeds);
+        std::vector<std::future<Outcome>> running;
+        for (int i = 0; i < options.threads && seed < options.seeds; ++i, ++seed)
+            running.push_back(
+                std::async(std::launch::async, outcome, c, std::uint32_t(seed), options.frames));
+        for (std::future<Outcome>& future : running) {
+            const Outcome one = future.get();
+            solve_ms = std::max(solve_ms, one.solve_ms);
+            if (one.error_mm)
+                errors.push_back(*one.error_mm);
+            offset_errors.insert(offset_errors.end(), one.offset_errors_mm.begin(),
+                                 one.offset_errors_mm.end());
+        }
+    }
     double mean = 0;
     for (const double e : errors)
         mean += e / double(errors.size());
@@ -286,6 +312,7 @@ nlohmann::json measured(const Case& c, const RegistrationBenchOptions& options) 
             {"fixed_errors", c.fixed_errors},
             {"bias_mm", c.bias_mm},
             {"occlusion", c.occlusion},
+            {"noise", c.noise},
             {"seeds", options.seeds},
             {"solved", errors.size()},
             {"frames", options.frames},
@@ -306,6 +333,7 @@ std::vector<Case> cases() {
             {.angle_deg = 45},
             {.bias_mm = 5},
             {.occlusion = 0.2},
+            {.noise = 2},
             {.cameras = 4}};
 }
 
@@ -317,8 +345,10 @@ nlohmann::json bench_registration(const RegistrationBenchOptions& options,
                           {"registration", nlohmann::json::array()}};
     const std::vector<Case> all = cases();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        progress("registering cameras", double(i) / double(all.size()));
-        result["registration"].push_back(measured(all[i], options));
+        const std::string name = "cameras registered, case " + std::to_string(i + 1) + " of " +
+                                 std::to_string(all.size());
+        result["registration"].push_back(
+            measured(all[i], options, [&](double done) { progress(name, done); }));
     }
     return result;
 }

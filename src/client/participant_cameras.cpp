@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/steady_clock.h"
+#include "client/participant_figures.h"
 #include "client/participant_shared.h"
 
 namespace theatron::client {
@@ -112,16 +113,18 @@ void Participant::on_camera_states() {
             const auto found = session_.camera_states().find(camera.description.id);
             if (found == session_.camera_states().end())
                 continue;
-            const wire::CameraCondition before = camera.state.condition;
-            const bool had_problem = !camera.state.problem.empty();
-            camera.state = found->second;
+            const wire::CameraState said = std::exchange(camera.state, found->second);
+            const wire::CameraCondition before = said.condition;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
-            const std::string problem = wire::english(camera.state.problem);
-            const bool plays_damage =
-                camera.state.condition == Condition::live && !camera.state.problem.empty();
-            if (plays_damage && (!had_problem || before != Condition::live))
+            const std::string problem = problem_text(camera.state, shared_->status.standing.role);
+            const bool is_live = camera.state.condition == Condition::live;
+            const bool is_news =
+                before != Condition::live || said.problem.code != camera.state.problem.code;
+            if (is_live && is_news && !problem.empty())
                 news.push_back(name + ": " + problem);
+            else if (is_live && before == Condition::live && is_news)
+                news.push_back(name + " has no problem any more.");
             // Faces come and go; people see it.
             if (camera.state.condition == before ||
                 camera.description.frame == wire::CameraFrame::face)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "session/permissions.h"
+
 namespace theatron::client {
 
 const char* text_of(Participant::Phase phase) {
@@ -52,6 +54,12 @@ std::uint64_t ParticipantFigures::dropped() const {
     for (const CameraFigures& camera : cameras)
         sum += camera.dropped();
     return sum;
+}
+
+std::string problem_text(const wire::CameraState& state, wire::Role reader) {
+    return session::may(reader, session::Right::adjust)
+               ? wire::english(state.problem)
+               : wire::english_without_advice(state.problem);
 }
 
 std::string adjustment_text(const wire::Camera& camera) {

@@ -40,6 +40,10 @@ struct ParticipantFigures {
     std::uint64_t dropped() const;
 };
 
+// A camera's problem in English; empty: none. Only those who may adjust cameras are told what to do
+// about a place.
+std::string problem_text(const wire::CameraState& state, wire::Role reader);
+
 // A camera's adjustment: "moved by 12.0, 0.0, 0.0 mm"; empty: it is as registered.
 std::string adjustment_text(const wire::Camera& camera);
 

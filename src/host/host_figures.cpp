@@ -320,6 +320,9 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
               &Place::is_watched, [](const Place& p) { return p.moved_mm; });
     per_place("camera_moved_alarm", "1 while a camera is not where it was registered.",
               &Place::is_watched, [](const Place& p) { return p.is_alarm ? 1.0 : 0.0; });
+    per_place("camera_moved_far",
+              "1 while a camera was moved too far to be measured, by more than its moved_mm.",
+              &Place::is_watched, [](const Place& p) { return p.is_far ? 1.0 : 0.0; });
     per_place("camera_covered", "1 while a camera is covered, so that its place is not watched.",
               &Place::has_place, [](const Place& p) { return p.is_covered ? 1.0 : 0.0; });
     out.family("overlap_apart_mm", "gauge",

@@ -300,6 +300,7 @@ void Host::Impl::on_camera_states() {
         states.swap(new_states);
     }
     for (const auto& [camera, state] : states) {
+        const wire::CameraState before = std::exchange(told_states[camera], state);
         using Condition = wire::CameraCondition;
         if (state.condition == Condition::failed)
             log::error("host", "camera failed",
@@ -310,6 +311,11 @@ void Host::Impl::on_camera_states() {
         else if (!state.problem.empty())
             log::warning("host", "camera has a problem",
                          {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
+        else if (state.condition == Condition::live && before.condition == Condition::live &&
+                 !before.problem.empty())
+            log::info("host", "camera has no problem any more",
+                      {{"camera", int(camera)},
+                       {"problem", wire::english_without_advice(before.problem)}});
         else if (state.condition == Condition::live)
             log::info("host", "camera is live", {{"camera", int(camera)}});
         session->on_camera(state);

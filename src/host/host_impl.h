@@ -67,6 +67,7 @@ struct Host::Impl {
     std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
     std::map<CameraId, wire::CameraState> lane_states;  // as the lanes report them
     std::map<CameraId, wire::Text> misplaced;           // what place_watch says; by states_mutex
+    std::map<CameraId, wire::CameraState> told_states;  // server's thread
     // Addresses of peers; server's thread.
     std::map<net::PeerId, std::string> addresses;
     std::map<net::PeerId, TimePoint> heard;  // when the last control message came

@@ -169,8 +169,8 @@ void PlaceWatch::tell() {
                                         problem(i)};
         if (std::exchange(renewals_[i], motion.renewals) != motion.renewals)
             log::warning("place watch",
-                         "what the camera sees has moved as one, and other cameras see it where it "
-                         "does: the scene was moved, or these cameras together; the camera is "
+                         "what the camera sees has moved as one, but the room behind it, or a "
+                         "camera that stands still, shows that the scene moved; the camera is "
                          "compared with what it sees now",
                          {{"camera", int(watched_[i])}});
     }
@@ -198,6 +198,10 @@ wire::Text PlaceWatch::problem(std::size_t number) const {
     if (motion.is_far)
         return {wire::TextCode::camera_moved_far,
                 {text("%.0f", RigWatch::far_m * 1000), cameras_[watched_[number]].name}};
+    if (motion.is_alarm && motion.together_with)
+        return {wire::TextCode::camera_moved_together,
+                {text("%.1f", motion.moved_m * 1000), text("%.2f", motion.turned_deg),
+                 cameras_[watched_[*motion.together_with]].name, cameras_[watched_[number]].name}};
     if (motion.is_alarm)
         return {wire::TextCode::camera_moved,
                 {text("%.1f", motion.moved_m * 1000), text("%.2f", motion.turned_deg)}};

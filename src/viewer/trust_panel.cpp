@@ -62,7 +62,8 @@ xr::Panel trust_panel(const client::ParticipantFigures& figures,
             !text.empty())
             row.detail += (row.detail.empty() ? "" : "\n") + ("by operators: " + text);
         if (!state.problem.empty())
-            row.detail += (row.detail.empty() ? "" : "\n") + wire::english(state.problem);
+            row.detail += (row.detail.empty() ? "" : "\n") +
+                          client::problem_text(state, figures.status.standing.role);
         panel.rows.push_back(std::move(row));
     }
     if (panel.rows.empty())

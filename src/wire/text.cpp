@@ -12,6 +12,7 @@ namespace {
 struct Row {
     TextCode code;
     std::string_view text;
+    std::string_view advice = {};  // sentences that only operators can follow
 };
 
 // In the order of the codes.
@@ -69,22 +70,26 @@ constexpr Row rows[] = {
     {TextCode::camera_too_many_pixels,
      "The camera {0} has more pixels than there is room for beside the others; it cannot be "
      "shown."},
-    {TextCode::camera_moved,
-     "The camera was moved by {0} mm and {1} degrees. Put it back, or find its new place with "
-     "'theatron register LINK --refine PLACES --output NEW'. A nudge says that it is right as it "
-     "is."},
-    {TextCode::cameras_apart,
-     "Surfaces that {0} sees, too, are {1} mm apart. Find the cameras' places again with 'theatron "
-     "register LINK --output NEW' and the board."},
+    {TextCode::camera_moved, "The camera was moved by {0} mm and {1} degrees.",
+     " Put it back, or find its new place with 'theatron register LINK --refine PLACES --output "
+     "NEW'. A nudge says that it is right as it is."},
+    {TextCode::cameras_apart, "Surfaces that {0} sees, too, are {1} mm apart.",
+     " Find the cameras' places again with 'theatron register LINK --output NEW' and the board."},
     {TextCode::camera_without_depth,
      "The camera {0} has no depth, which this version cannot show."},
     {TextCode::no_pictures_come, "Its pictures do not arrive any more."},
     {TextCode::camera_moved_far,
      "The camera was moved by more than {0} mm, or turned, so far that its picture cannot be "
-     "matched. Put it back, find its place with the board and 'theatron register LINK --output "
-     "NEW', or say that it is right as it is now: 'nudge {1} none'."},
+     "matched.",
+     " Put it back, find its place with the board and 'theatron register LINK --output NEW', or "
+     "say that it is right as it is now: 'nudge {1} none'."},
     {TextCode::camera_covered,
      "It is covered, or sees nothing: the watch over its place cannot compare."},
+    {TextCode::camera_moved_together,
+     "The camera was moved by {0} mm and {1} degrees together with {2}, or everything that both "
+     "see was.",
+     " Put both back, or find their places with the board and 'theatron register LINK --output "
+     "NEW'. If they stand where they stood, say so of each: 'nudge {3} none'."},
 
     {TextCode::all_encodings_taken,
      "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},
@@ -198,6 +203,21 @@ std::string unknown(const Text& text) {
     return result + "); a newer version can show it.";
 }
 
+// The sentence with the arguments in their places.
+std::string filled_in(std::string_view sentence, const std::vector<std::string>& arguments) {
+    std::string result;
+    for (std::size_t i = 0; i < sentence.size(); ++i) {
+        if (sentence[i] != '{') {
+            result += sentence[i];
+            continue;
+        }
+        const auto argument = std::size_t(sentence[i + 1] - '0');
+        result += argument < arguments.size() ? arguments[argument] : "?";
+        i += 2;
+    }
+    return result;
+}
+
 }  // namespace
 
 bool is_known(TextCode code) {
@@ -211,22 +231,15 @@ Text as_written(std::string sentence) {
 }
 
 std::string english(const Text& text) {
+    const Row* row = find(text.code);
+    return english_without_advice(text) + (row ? filled_in(row->advice, text.arguments) : "");
+}
+
+std::string english_without_advice(const Text& text) {
     if (text.empty())
         return {};
     const Row* row = find(text.code);
-    if (!row)
-        return unknown(text);
-    std::string result;
-    for (std::size_t i = 0; i < row->text.size(); ++i) {
-        if (row->text[i] != '{') {
-            result += row->text[i];
-            continue;
-        }
-        const auto argument = std::size_t(row->text[i + 1] - '0');
-        result += argument < text.arguments.size() ? text.arguments[argument] : "?";
-        i += 2;
-    }
-    return result;
+    return row ? filled_in(row->text, text.arguments) : unknown(text);
 }
 
 }  // namespace theatron::wire

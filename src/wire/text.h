@@ -58,6 +58,7 @@ enum class TextCode : std::uint16_t {
     no_pictures_come = 216,
     camera_moved_far = 217,  // {0}: mm that it moved at least, {1}: its name
     camera_covered = 218,
+    camera_moved_together = 219,  // {0}: mm, {1}: degrees, {2}: another camera's name, {3}: its own
 
     // Notes to a participant.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for
@@ -144,5 +145,7 @@ Text as_written(std::string sentence);
 // step and its reasons are not, since several of them stand in one line. An unknown code gives its
 // subject, its number and its arguments. Empty for TextCode::none.
 std::string english(const Text& text);
+// The same without what operators can do about it, for those who are none.
+std::string english_without_advice(const Text& text);
 
 }  // namespace theatron::wire

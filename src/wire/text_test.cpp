@@ -14,8 +14,20 @@ TEST(Text, ArgumentsStandInTheSentence) {
     EXPECT_EQ(english(as_written("The cable is {0} out.")), "The cable is {0} out.");
 }
 
+TEST(Text, WhoIsNoOperatorIsNotToldWhatOperatorsCanDo) {
+    const Text moved{TextCode::camera_moved, {"8.0", "0.10"}};
+    EXPECT_EQ(english_without_advice(moved), "The camera was moved by 8.0 mm and 0.10 degrees.");
+    EXPECT_EQ(english(moved).rfind(english_without_advice(moved) + " Put it back, ", 0), 0u);
+    const Text far{TextCode::camera_moved_far, {"30", "left"}};
+    EXPECT_EQ(english_without_advice(far).find("nudge"), std::string::npos);
+    EXPECT_NE(english(far).find("'nudge left none'"), std::string::npos);
+    const Text gone{TextCode::camera_gone};
+    EXPECT_EQ(english_without_advice(gone), english(gone));
+}
+
 TEST(Text, WithoutACodeThereIsNone) {
     EXPECT_EQ(english({}), "");
+    EXPECT_EQ(english_without_advice({}), "");
     EXPECT_TRUE(as_written("").empty());
 }
 

@@ -94,8 +94,20 @@ class PlaceWatch(unittest.TestCase):
             h.say("crop camera 0:0:100x100")
             wait_until(lambda: "region:" in status()["filter"])
             self.assertTrue(status()["place"]["alarm"], "a region says nothing of the camera's place")
-            h.say("nudge camera none")
-            wait_until(lambda: status()["problem"] == "")
+            token = h.greeting["link"].split("join=")[1].split("&")[0]
+            request = urllib.request.Request(f"https://127.0.0.1:{h.greeting['port']}/metrics",
+                                             headers={"Authorization": f"Bearer {token}"})
+            metrics = urllib.request.urlopen(request, context=ssl._create_unverified_context()).read().decode()
+            self.assertIn('theatron_camera_moved_far{camera="0",name="camera"} 1', metrics)
+            with Process("join", h.greeting["links"]["observer"], "--no-window", "--every", "1") as observer:
+                told = observer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"], timeout=30)
+                self.assertIn("moved by more than 30 mm", told["cameras"][0]["problem"])
+                self.assertNotIn("nudge", told["cameras"][0]["problem"], "an observer cannot")
+                h.say("nudge camera none")
+                wait_until(lambda: status()["problem"] == "")
+                wait_until(lambda: any("has no problem any more" in line for line in list(observer.errors)))
+            over = [line for line in h.errors if "has no problem any more" in line]
+            self.assertEqual(len(over), 1, over)
 
     def test_a_camera_of_unknown_place_has_none_to_lose(self):
         with host(self.folder / "state", self.camera().replace(",place=0:1.5:2", "")) as h:
