@@ -40,7 +40,7 @@ std::string first_value(std::string_view charset) {
 }
 
 std::optional<std::string> convert(std::string_view text, const char* from) {
-    const iconv_t converter = iconv_open("UTF-8", from);
+    iconv_t converter = iconv_open("UTF-8", from);
     if (converter == iconv_t(-1))
         return std::nullopt;
     std::string in(text), out(4 * text.size(), '\0');

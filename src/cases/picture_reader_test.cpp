@@ -28,7 +28,7 @@ ColorImage quarters(Size size) {
 Bytes jpeg(const ColorImage& image, int quality = 100) {
     unsigned char* out = nullptr;
     unsigned long size = 0;
-    const tjhandle encoder = tjInitCompress();
+    tjhandle encoder = tjInitCompress();
     tjCompress2(encoder, reinterpret_cast<const unsigned char*>(image.pixels.data()),
                 image.size.width, 0, image.size.height, TJPF_RGB, &out, &size, TJSAMP_444, quality,
                 TJFLAG_ACCURATEDCT);

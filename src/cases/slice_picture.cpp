@@ -47,9 +47,9 @@ void draw_text(ColorImage& image, int x, int y, std::string_view text) {
 }
 
 void draw_line(ColorImage& image, Vec2 a, Vec2 b, Rgb color) {
-    const double steps = std::ceil(2 * std::max({std::abs(b.x - a.x), std::abs(b.y - a.y), 0.5}));
-    for (double i = 0; i <= steps; ++i) {
-        const double t = i / steps;
+    const int steps = int(std::ceil(2 * std::max({std::abs(b.x - a.x), std::abs(b.y - a.y), 0.5})));
+    for (int i = 0; i <= steps; ++i) {
+        const double t = double(i) / steps;
         put(image, int(std::floor(a.x + (b.x - a.x) * t + 0.5)),
             int(std::floor(a.y + (b.y - a.y) * t + 0.5)), color);
     }

@@ -64,13 +64,13 @@ SynthLiver::SynthLiver(std::uint64_t seed) : seed_(mixed(seed + 1)) {
     left_length_ = random.between(74, 92);
     dome_height_ = random.between(74, 84);
     const double wanted_mm3 = random.between(1.3e6, 1.7e6);
-    constexpr double step = 4;
+    constexpr int step_mm = 4;
     std::size_t inside = 0;
-    for (double z = -130; z <= 130; z += step)
-        for (double y = -130; y <= 130; y += step)
-            for (double x = -160; x <= 160; x += step)
-                inside += model_distance({x, y, z}) < 0;
-    scale_ = cube_root(wanted_mm3 / (double(inside) * step * step * step));
+    for (int z = -130; z <= 130; z += step_mm)
+        for (int y = -130; y <= 130; y += step_mm)
+            for (int x = -160; x <= 160; x += step_mm)
+                inside += model_distance(Vec3{double(x), double(y), double(z)}) < 0;
+    scale_ = cube_root(wanted_mm3 / (double(inside) * step_mm * step_mm * step_mm));
 }
 
 Vec3 SynthLiver::to_patient(Vec3 model) const {
