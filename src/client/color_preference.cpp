@@ -13,6 +13,10 @@ std::string whole(double value) {
     return std::to_string(std::lround(value));
 }
 
+std::string pictures_per_second(double value) {
+    return whole(value) + (std::lround(value) == 1 ? " picture" : " pictures") + " a second";
+}
+
 }  // namespace
 
 bool DecoderFailures::are_too_many(std::uint64_t lost, TimePoint now) {
@@ -33,6 +37,11 @@ ColorPreference::ColorPreference(bool can_h264)
 bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
     if (!can_h264_)
         return false;
+    if (last_call_ && now - *last_call_ > standstill) {
+        last_whole_ = now;
+        began_.reset();
+    }
+    last_call_ = now;
     if (asks_h264_) {
         judge(measure, now);
         return !asks_h264_;
@@ -48,8 +57,8 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
 void ColorPreference::begin(const ColorMeasure& measure) {
     asks_h264_ = true;
     codec_ = video::parse_color_setting("h264").setting.text;
-    reason_ = "H.264 is tried: only " + whole(measure.pictures_per_second) +
-              " pictures a second came as JPEG";
+    reason_ = "H.264 is tried: only " + pictures_per_second(measure.pictures_per_second) +
+              " came as JPEG";
     began_.reset();
     is_judged_ = false;
     pictures_before_ = measure.pictures_per_second;
@@ -77,11 +86,11 @@ void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
     if (is_judged_ || now - *began_ < trial)
         return;
     is_judged_ = true;
-    const std::string pictures = whole(measure.pictures_per_second),
+    const std::string pictures = pictures_per_second(measure.pictures_per_second),
                       before = whole(pictures_before_);
     if (measure.pictures_per_second < enough * pictures_before_)
-        return end(pictures + " pictures a second came as H.264, " + before + " before", now);
-    reason_ = "H.264: " + pictures + " pictures a second, " + before + " as JPEG";
+        return end(pictures + " came as H.264, " + before + " before", now);
+    reason_ = "H.264: " + pictures + ", " + before + " as JPEG";
 }
 
 void ColorPreference::end(const std::string& why, TimePoint now) {

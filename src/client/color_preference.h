@@ -57,7 +57,10 @@ public:
 
     explicit ColorPreference(bool can_h264);
 
-    // True if codec() changed.
+    // True if codec() changed. After more than `standstill` without a call the page stood still,
+    // as one behind another tab does: it has lost pictures with each codec, and begins to measure
+    // anew.
+    static constexpr Duration standstill = 1s;
     bool observe(const ColorMeasure& measure, TimePoint now);
 
     // That the page asks the host for.
@@ -73,6 +76,7 @@ private:
     const bool can_h264_;
     std::string codec_, reason_;
     bool asks_h264_ = false;
+    std::optional<TimePoint> last_call_;
     std::optional<TimePoint> last_whole_;  // all that was asked for came
     TimePoint not_before_;                 // H.264 is tried again
     Duration pause_ = first_pause;

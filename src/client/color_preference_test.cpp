@@ -39,6 +39,24 @@ TEST_F(ColorPreferenceTest, WithAllPicturesItStaysWithJpeg) {
     EXPECT_EQ(preference.codec(), "jpeg:quality=85");
 }
 
+TEST_F(ColorPreferenceTest, APageThatStoodStillMeasuresAnew) {
+    observe(whole, 2s);
+    // Another tab was in front; then the host needs some seconds to send everything again.
+    now += 15s;
+    EXPECT_EQ(observe(thinned, 3s), 0);
+    EXPECT_EQ(observe(whole, 30s), 0);
+    EXPECT_EQ(preference.reason(), "JPEG: all pictures come in time");
+
+    try_h264();
+    observe(h264, 3s);
+    now += 15s;
+    ColorMeasure one = h264;
+    one.pictures_per_second = 1;
+    EXPECT_EQ(observe(one, 4s), 0);
+    EXPECT_EQ(observe(h264, 5s), 0);
+    EXPECT_EQ(preference.reason(), "H.264: 29 pictures a second, 15 as JPEG");
+}
+
 TEST_F(ColorPreferenceTest, KeepsH264ThatGivesMorePictures) {
     try_h264();
     EXPECT_EQ(observe(h264, 600s), 0);

@@ -131,6 +131,7 @@ public:
         wire::Camera description;
         Calibration calibration;
         wire::CameraState state;
+        wire::TextCode told_problem = wire::TextCode::none;  // when it was last live
     };
     // All cameras of the session. `generation` grows whenever some came, left or changed.
     std::vector<Camera> cameras(std::uint64_t& generation) const;

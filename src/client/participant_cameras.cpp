@@ -19,9 +19,14 @@ std::vector<Participant::Camera> described_cameras(const session::ViewerSession&
         const auto known = std::find_if(before.begin(), before.end(), [&](const auto& c) {
             return c.description.id == camera.id;
         });
-        cameras.push_back(
-            {camera, calibration.value(),
-             known == before.end() ? wire::CameraState{camera.id, {}, {}, ""} : known->state});
+        Participant::Camera& added = cameras.emplace_back();
+        added.description = camera;
+        added.calibration = calibration.value();
+        added.state.camera = camera.id;
+        if (known == before.end())
+            continue;
+        added.state = known->state;
+        added.told_problem = known->told_problem;
     }
     return cameras;
 }
@@ -113,17 +118,19 @@ void Participant::on_camera_states() {
             const auto found = session_.camera_states().find(camera.description.id);
             if (found == session_.camera_states().end())
                 continue;
-            const wire::CameraState said = std::exchange(camera.state, found->second);
-            const wire::CameraCondition before = said.condition;
+            const wire::CameraCondition before =
+                std::exchange(camera.state, found->second).condition;
             using Condition = wire::CameraCondition;
             const std::string name = "Camera " + camera.description.name;
             const std::string problem = problem_text(camera.state, shared_->status.standing.role);
             const bool is_live = camera.state.condition == Condition::live;
-            const bool is_news =
-                before != Condition::live || said.problem.code != camera.state.problem.code;
-            if (is_live && is_news && !problem.empty())
+            // The problem that it had before its pictures stood still is not told again.
+            const bool is_news = is_live && camera.told_problem != camera.state.problem.code;
+            if (is_live)
+                camera.told_problem = camera.state.problem.code;
+            if (is_news && !problem.empty())
                 news.push_back(name + ": " + problem);
-            else if (is_live && before == Condition::live && is_news)
+            else if (is_news)
                 news.push_back(name + " has no problem any more.");
             // Faces come and go; people see it.
             if (camera.state.condition == before ||

@@ -8,7 +8,7 @@
 namespace theatron {
 namespace {
 
-constexpr int depth_step = 12;               // pixels between samples
+constexpr int depth_steps = 53;              // samples across a depth image
 constexpr int color_step = 8;                // pixels that are averaged
 constexpr std::size_t most_places = 20'000;  // looked at in one estimate
 constexpr double least_places = 30;          // for two cameras to be compared
@@ -91,6 +91,8 @@ bool ColorBalance::has_unknown_gains() const {
 }
 
 void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color) {
+    // The same places of the scene, whatever the size of the image.
+    const int depth_step = camera.depth_step = std::max(depth.size.width / depth_steps, 1);
     const Size small{depth.size.width / depth_step, depth.size.height / depth_step};
     camera.depth.resize(small);
     for (int y = 0; y < small.height; ++y)
@@ -144,8 +146,8 @@ std::optional<Vec3> ColorBalance::light_at(const Camera& camera, Vec3 point_room
     const auto pixel = project(c.depth, p);
     if (!pixel)
         return std::nullopt;
-    const int x = int(std::floor(pixel->x / depth_step)),
-              y = int(std::floor(pixel->y / depth_step));
+    const int x = int(std::floor(pixel->x / camera.depth_step)),
+              y = int(std::floor(pixel->y / camera.depth_step));
     const Size small = camera.depth.size;
     if (x < 1 || y < 1 || x + 1 >= small.width || y + 1 >= small.height)
         return std::nullopt;

@@ -52,7 +52,8 @@ private:
     struct Camera {
         Calibration calibration;
         CameraModel color;  // of `light`
-        DepthImage depth;   // a subset of columns and rows
+        DepthImage depth;   // a subset of columns and rows: one in `depth_step`
+        int depth_step = 1;
         Image<Vec3> light;
         std::vector<Sample> samples;
         unsigned uploads = 0;

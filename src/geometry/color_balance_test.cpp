@@ -56,6 +56,28 @@ TEST_F(ColorBalanceTest, MakesTheColoursOfTwoExposuresAlikeHalfwayBetweenThem) {
     EXPECT_EQ(balance_.gain(CameraId{0}), balance_.newest_gain(CameraId{0})) << "the first one";
 }
 
+TEST_F(ColorBalanceTest, ComparesASlantedWallInSmallImages) {
+    constexpr Size small{160, 120};
+    for (const auto& [camera, color] : {std::pair{0, Rgb{100, 120, 140}}, {1, {144, 120, 100}}}) {
+        Calibration c = calibration(camera);
+        c.depth = c.color = pinhole(small, 75);
+        DepthImage depth(small);
+        // z = 2.5 m + x in the room.
+        for (int y = 0; y < small.height; ++y)
+            for (int x = 0; x < small.width; ++x) {
+                const auto ray = unproject(c.depth, {double(x), double(y)});
+                const double z_m = (2.5 + c.room_from_camera.translation.x) / (1 - ray->x);
+                depth.view().row(y)[x] = z_m < 6 ? std::uint16_t(std::lround(1000 * z_m)) : 0;
+            }
+        ColorImage picture(small);
+        std::fill(picture.pixels.begin(), picture.pixels.end(), color);
+        balance_.add(CameraId(camera), c, std::as_const(depth).view(),
+                     std::as_const(picture).view());
+    }
+    ASSERT_TRUE(balance_.update());
+    expect_near(balance_.newest_gain(CameraId{0}), {1.2, 1, 1 / std::sqrt(1.4)});
+}
+
 TEST_F(ColorBalanceTest, FollowsACameraWhoseCalibrationHasGains) {
     Calibration known = calibration(0);
     known.color_gain = {1.2, 1, 1};

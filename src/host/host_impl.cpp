@@ -185,8 +185,7 @@ void Host::Impl::carry_out(const session::action::SetCeiling& a) {
 
 void Host::Impl::carry_out(const session::action::Stepped& a) {
     if (changes.take(std::to_string(int(a.participant)), steady_now()))
-        log::info("host", "sending changed",
-                  {{"id", int(a.participant)}, log::outside("to", a.to)});
+        log::info("host", "sending changed", {{"id", int(a.participant)}, {"to", a.to}});
 }
 
 void Host::Impl::carry_out(const session::action::Drawing& a) {
@@ -300,7 +299,9 @@ void Host::Impl::on_camera_states() {
         states.swap(new_states);
     }
     for (const auto& [camera, state] : states) {
-        const wire::CameraState before = std::exchange(told_states[camera], state);
+        const auto [told, is_first] = told_states.try_emplace(camera);
+        const bool was_live = !is_first && told->second.condition == wire::CameraCondition::live;
+        told->second.condition = state.condition;
         using Condition = wire::CameraCondition;
         if (state.condition == Condition::failed)
             log::error("host", "camera failed",
@@ -308,16 +309,22 @@ void Host::Impl::on_camera_states() {
         else if (state.condition == Condition::stale)
             log::warning("host", "camera is stale",
                          {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
-        else if (!state.problem.empty())
+        else if (state.condition == Condition::live) {
+            if (!was_live)
+                log::info("host", "camera is live", {{"camera", int(camera)}});
+            // The problem that it had before its pictures stood still is not told again.
+            const wire::Text problem = std::exchange(told->second.problem, state.problem);
+            if (problem.code != state.problem.code && !state.problem.empty())
+                log::warning("host", "camera has a problem",
+                             {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
+            else if (problem.code != state.problem.code)
+                log::info(
+                    "host", "camera has no problem any more",
+                    {{"camera", int(camera)}, {"problem", wire::english_without_advice(problem)}});
+        } else if (!state.problem.empty()) {
             log::warning("host", "camera has a problem",
                          {{"camera", int(camera)}, {"problem", wire::english(state.problem)}});
-        else if (state.condition == Condition::live && before.condition == Condition::live &&
-                 !before.problem.empty())
-            log::info("host", "camera has no problem any more",
-                      {{"camera", int(camera)},
-                       {"problem", wire::english_without_advice(before.problem)}});
-        else if (state.condition == Condition::live)
-            log::info("host", "camera is live", {{"camera", int(camera)}});
+        }
         session->on_camera(state);
     }
     carry_out();

@@ -67,7 +67,9 @@ struct Host::Impl {
     std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
     std::map<CameraId, wire::CameraState> lane_states;  // as the lanes report them
     std::map<CameraId, wire::Text> misplaced;           // what place_watch says; by states_mutex
-    std::map<CameraId, wire::CameraState> told_states;  // server's thread
+    // As the log tells them: the problem is that of the time when the camera was last live.
+    // Server's thread.
+    std::map<CameraId, wire::CameraState> told_states;
     // Addresses of peers; server's thread.
     std::map<net::PeerId, std::string> addresses;
     std::map<net::PeerId, TimePoint> heard;  // when the last control message came

@@ -90,6 +90,33 @@ class WebLoading(unittest.TestCase):
         # The first ones are the page and its script; a browser asks a second time for some of the others.
         self.assertGreater(self.enter_behind(range(8, 50)), 1)
 
+    def test_lost_graphics_bring_the_person_back_once(self):
+        lose = """(document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(),
+            globalThis.is_old = true)"""
+        page = self.browser.open(self.link)
+        page.enter("Bea", speaks=True)
+        page.wait_for("theatron.state.phase === 'joined'", 30)
+        page.evaluate("theatron.voice.close_microphone()")
+        page.evaluate(lose)
+        page.wait_for("!globalThis.is_old && globalThis.theatron?.state.phase === 'joined'", 30)
+        self.assertTrue(page.evaluate("theatron.state.people.some(({ name, self }) => self && name === 'Bea')"))
+        self.assertEqual(page.evaluate("theatron.voice.microphone"), "off")  # as it was
+        # A card that fails again and again would let nobody read why.
+        page.evaluate(lose)
+        page.wait_for("!globalThis.is_old && document.getElementById('problem')?.textContent.includes('stopped again')", 30)
+        self.assertEqual(page.evaluate("theatron.state.phase"), "left")
+
+    def test_sound_that_does_not_open_is_told_and_opens_later(self):
+        page = self.browser.open(self.link)
+        page.wait_for("!!globalThis.AudioContext && !!document.getElementById('invitation')?.textContent")
+        page.evaluate("""(globalThis.Sound = AudioContext,
+            globalThis.AudioContext = class { constructor() { throw new Error("no device"); } }, 0)""")
+        page.enter("Cem")
+        page.wait_for("document.getElementById('voice_hint')?.textContent.includes('no device')", 30)
+        page.evaluate("globalThis.AudioContext = Sound, 0")
+        page.evaluate("theatron.voice.open_microphone()")
+        page.wait_for("theatron.voice.problem === '' && !document.getElementById('voice_hint').textContent.includes('no device')", 30)
+
 
 if __name__ == "__main__":
     unittest.main()

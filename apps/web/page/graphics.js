@@ -50,3 +50,28 @@ export class Patience {
         return this.slow_since !== null && now_ms - this.slow_since > Patience.longest_ms;
     }
 }
+
+// The page is loaded again when the browser's graphics stop, since nothing of them is left. This tab remembers it for that one
+// load, and whether the microphone was open.
+const lost_key = "theatron_lost_graphics", lost_at_key = "theatron_lost_graphics_at", often_ms = 60000;
+
+export function note_lost_graphics(speaks) {
+    try {
+        const last = Number(sessionStorage.getItem(lost_at_key));
+        sessionStorage.setItem(lost_key, JSON.stringify({ speaks, is_often: Date.now() - last < often_ms }));
+        sessionStorage.setItem(lost_at_key, String(Date.now()));
+    } catch {
+        // The person enters again by hand.
+    }
+}
+
+// Null where nothing was lost before this load.
+export function take_lost_graphics() {
+    try {
+        const lost = JSON.parse(sessionStorage.getItem(lost_key));
+        sessionStorage.removeItem(lost_key);
+        return lost;
+    } catch {
+        return null;
+    }
+}

@@ -3,7 +3,7 @@
 import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
 import { Face } from "./face.js";
-import { FlatView, Patience, find_graphics } from "./graphics.js";
+import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphics } from "./graphics.js";
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
@@ -163,7 +163,11 @@ function run({ client, voice, face, module, flat }) {
     $("menu").addEventListener("click", () => fold(!$("side").classList.contains("folded")));
     fold($("menu").checkVisibility());
     $("leave").addEventListener("click", () => client.leave());
-    canvas.addEventListener("webglcontextlost", () => location.reload());
+    canvas.addEventListener("webglcontextlost", () => {
+        if (page.state.phase !== "left")
+            note_lost_graphics(voice.microphone === "open");
+        location.reload();
+    });
 
     $("hide_face").addEventListener("click", () => face.hide());
     // The host's refusal is a remark, which is shown.
@@ -462,6 +466,13 @@ async function main() {
     });
     $("enter").disabled = false;
     $("name").focus();
+    const lost = take_lost_graphics();
+    if (!lost)
+        return;
+    $("speaks").checked = lost.speaks;
+    if (!lost.is_often)
+        $("join").requestSubmit();
+    $("problem").textContent = text(lost.is_often ? "graphics_lost_again" : "graphics_lost");
 }
 
 main();

@@ -107,12 +107,13 @@ export function show_voices(voice, { people = [], is_heard, is_muted, is_recorde
     set_text($("voice_recorded"), recorded);
     $("voice_recorded").classList.toggle("warning", voice_may_record === true);
     const hint = !voice.constructor.is_supported() ? "no_voice"
+        : voice.problem ? "no_sound"
         : voice.microphone === "denied" ? "microphone_denied"
         : voice.microphone === "missing" ? "microphone_missing"
         : voice.microphone === "asking" ? "microphone_asking"
         : is_open && is_muted ? "muted"
         : is_open && !is_heard ? "not_heard" : "";
-    set_text($("voice_hint"), hint ? text(hint) : "");
+    set_text($("voice_hint"), hint ? text(hint, { why: voice.problem }) : "");
     const names = people.filter(({ id, self }) => !self && voice.is_speaking(id)).map(({ name }) => name);
     set_text($("speaking"), names.length ? text("speaking", { names: names.join(", ") }) : "");
 }

@@ -97,6 +97,7 @@ class Speaker {
 export class Voice {
     // "off", "asking", "open", "denied" or "missing": of the microphone. `unreadable` packets were skipped.
     microphone = "off";
+    problem = "";        // why nothing is heard: the browser's words
     unreadable = 0;
     pushes = false;      // push to talk: an open microphone is heard only while talk(true) holds
     hands_free = false;  // no key can be held: as if there were no push to talk
@@ -125,7 +126,22 @@ export class Voice {
     async begin() {
         if (!Voice.is_supported())
             return;
+        try {
+            await this.open_sound();
+            this.problem = "";
+        } catch (error) {
+            this.loaded = undefined;  // the next time asks again
+            this.problem = error.message || error.name;
+            throw error;
+        }
+    }
+
+    async open_sound() {
         this.context ??= new AudioContext({ sampleRate: sample_rate, latencyHint: "interactive" });
+        // A page that entered by itself, after its graphics were lost, is silent until somebody acts in it.
+        if (this.context.state === "suspended")
+            for (const act of ["pointerdown", "keydown"])
+                addEventListener(act, () => this.context.resume(), { once: true });
         const resumed = this.context.resume();
         this.loaded ??= Promise.all([
             with_patience(() => this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url))),
@@ -216,7 +232,7 @@ export class Voice {
             this.source.connect(this.frames);
             this.set_microphone("open");
         } catch (error) {
-            this.close_microphone(error.name === "NotAllowedError" ? "denied" : "missing");
+            this.close_microphone(this.problem ? "off" : error.name === "NotAllowedError" ? "denied" : "missing");
         }
     }
 
