@@ -13,7 +13,7 @@ constexpr Size depth_size{320, 240}, color_size{320, 240};
 constexpr std::uint16_t wall_mm = 2000;
 
 // Cameras side by side in front of a wall, in pictures of one colour.
-class ColorBalanceTest : public testing::Test {
+class ColorBalanceTest : public ::testing::Test {
 protected:
     static Calibration calibration(int camera) {
         Calibration c;

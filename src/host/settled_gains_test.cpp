@@ -12,7 +12,7 @@ Gains of_two(double a, double b) {
     return {Vec3{a, a, a}, Vec3{b, b, b}};
 }
 
-class SettledGainsTest : public testing::Test {
+class SettledGainsTest : public ::testing::Test {
 protected:
     // One estimate every ten seconds; the gains that are published meanwhile, and how often.
     Gains give(const Gains& estimate, Duration length) {
