@@ -8,7 +8,8 @@
 namespace theatron {
 namespace {
 
-constexpr int depth_steps = 53;              // samples across a depth image
+constexpr int depth_steps = 53;              // samples across a depth image, ...
+constexpr int least_depth_step = 6;          // with so many pixels from one to the next, or more
 constexpr int color_step = 8;                // pixels that are averaged
 constexpr std::size_t most_places = 20'000;  // looked at in one estimate
 constexpr double least_places = 30;          // for two cameras to be compared
@@ -92,7 +93,8 @@ bool ColorBalance::has_unknown_gains() const {
 
 void ColorBalance::copy_images(Camera& camera, DepthView depth, ColorView color) {
     // The same places of the scene, whatever the size of the image.
-    const int depth_step = camera.depth_step = std::max(depth.size.width / depth_steps, 1);
+    const int depth_step = camera.depth_step =
+        std::max(depth.size.width / depth_steps, least_depth_step);
     const Size small{depth.size.width / depth_step, depth.size.height / depth_step};
     camera.depth.resize(small);
     for (int y = 0; y < small.height; ++y)

@@ -57,7 +57,7 @@ TEST_F(ColorBalanceTest, MakesTheColoursOfTwoExposuresAlikeHalfwayBetweenThem) {
 }
 
 TEST_F(ColorBalanceTest, ComparesASlantedWallInSmallImages) {
-    constexpr Size small{160, 120};
+    constexpr Size small{320, 240};
     for (const auto& [camera, color] : {std::pair{0, Rgb{100, 120, 140}}, {1, {144, 120, 100}}}) {
         Calibration c = calibration(camera);
         c.depth = c.color = pinhole(small, 75);

@@ -24,6 +24,8 @@ protected:
         scene = std::make_unique<CloudSet>();
         calibration.depth = calibration.color = pinhole(size, 60);
         calibration.registered = true;
+        // The colours tell the cameras apart, so no gains make them alike.
+        calibration.color_gain = Vec3{1, 1, 1};
     }
     void TearDown() override {
         scene.reset();
